@@ -77,7 +77,7 @@ NoiseRegressionEstimator<TFrame>::GenerateData()
   report.pixels.used = line.pixels;
   if (m_NumberOfFrames > 1)
   {
-    sensornoise::FillFit(report, sensornoise::JudgeLine(data, line, m_NumberOfFrames));
+    sensornoise::FillFit(report, sensornoise::EvaluateLineFit(data, line, m_NumberOfFrames));
   }
   this->GetReportOutput()->Set(report);
 }

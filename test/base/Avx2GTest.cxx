@@ -24,7 +24,7 @@ TEST(WideVectors, AreNotFusedAndAddInTheSameOrder)
   std::vector<double> found(size, 1.0);
   double              total = 0.0;
   int                 calls = 0;
-  WithWideVectors([&] {
+  CallWithAvx2([&] {
     ++calls;
     for (std::size_t i = 0; i < size; ++i)
     {

@@ -65,7 +65,7 @@ TEST(FreeMemory, WhatWasFreedBetweenPiecesInUseIsGivenBack)
     pieces[i].reset();
   }
   const std::size_t before = residentBytes();
-  GiveBackFreedMemory();
+  ReleaseFreedMemory();
   EXPECT_LT(residentBytes() + pieces.size() / 4 * pieceBytes, before); // half of what was freed, at least
 }
 #endif

@@ -128,7 +128,7 @@ TEST(SensorNoisePolynomialFit, MaskedAndUnknownPixelsTakeNoPart)
   EXPECT_EQ(fit.pixels, 96u);
   EXPECT_NEAR(fit.slope, 2.0, 1e-10);
   EXPECT_NEAR(fit.intercept, 10.0, 1e-8);
-  const FitQuality quality = JudgeLine(scatter.Data(), fit, Frames);
+  const FitQuality quality = EvaluateLineFit(scatter.Data(), fit, Frames);
   EXPECT_NEAR(quality.reducedChi2, 0.0, 1e-12);
 }
 
@@ -140,7 +140,7 @@ TEST(SensorNoisePolynomialFit, OneIntensityDoesNotDetermineALine)
   scatter.mask.assign(100, 0);
   EXPECT_FALSE(FitLine(scatter.Data()).isDetermined);
   EXPECT_EQ(FitLine(scatter.Data()).pixels, 0u);
-  EXPECT_EQ(JudgeLine(scatter.Data(), FitLine(scatter.Data()), Frames).curvatureZ, 0.0);
+  EXPECT_EQ(EvaluateLineFit(scatter.Data(), FitLine(scatter.Data()), Frames).curvatureZ, 0.0);
 }
 
 TEST(SensorNoisePolynomialFit, TwoIntensitiesDetermineALineAndShowNoCurvature)
@@ -154,14 +154,14 @@ TEST(SensorNoisePolynomialFit, TwoIntensitiesDetermineALineAndShowNoCurvature)
   scatter = WithSamplingNoise(scatter);
   const PolynomialFit line = FitLine(scatter.Data());
   EXPECT_TRUE(line.isDetermined);
-  EXPECT_LT(std::abs(JudgeLine(scatter.Data(), line, Frames).curvatureZ), 1.0);
+  EXPECT_LT(std::abs(EvaluateLineFit(scatter.Data(), line, Frames).curvatureZ), 1.0);
 }
 
 TEST(SensorNoisePolynomialFit, SamplingNoiseAloneHasReducedChi2OfOneAndNoCurvature)
 {
   const Scatter       scatter = WithSamplingNoise(ExactScatter(20000, 100.0, 4000.0, 64.0, 1.0, 0.0));
   const PolynomialFit line = FitLine(scatter.Data());
-  const FitQuality    quality = JudgeLine(scatter.Data(), line, Frames);
+  const FitQuality    quality = EvaluateLineFit(scatter.Data(), line, Frames);
   EXPECT_NEAR(quality.reducedChi2, 1.0, 5.0 * SdOfReducedChi2(20000));
   EXPECT_LT(std::abs(quality.curvatureZ), 5.0);
   // Ordinary regression: sd(slope) = sqrt(2/(T-1)) V_rms / (sd(u) sqrt(N)) = 0.2 * 2400 / (1126 * 141).
@@ -176,7 +176,7 @@ TEST(SensorNoisePolynomialFit, ExcessScatterRaisesReducedChi2)
     scatter.variance[p] *= p % 2 == 0 ? 1.4 : 0.6;
   }
   // Var = 2/(T-1) (1 + 0.16) + 0.16, over 2/(T-1): 5.08; the fourth moment is about twice that of one chi-square.
-  const FitQuality quality = JudgeLine(scatter.Data(), FitLine(scatter.Data()), Frames);
+  const FitQuality quality = EvaluateLineFit(scatter.Data(), FitLine(scatter.Data()), Frames);
   EXPECT_NEAR(quality.reducedChi2, 1.16 + 0.16 * (Frames - 1.0) / 2.0, 5.0 * 5.08 * 2.0 * SdOfReducedChi2(20000));
 }
 
@@ -184,11 +184,11 @@ TEST(SensorNoisePolynomialFit, CurvatureIsFoundWithItsError)
 {
   constexpr double curvature = 1e-4; // 10 % of the variance at the bright end
   const Scatter    scatter = WithSamplingNoise(ExactScatter(20000, 100.0, 4000.0, 64.0, 1.0, curvature));
-  const FitQuality quality = JudgeLine(scatter.Data(), FitLine(scatter.Data()), Frames);
+  const FitQuality quality = EvaluateLineFit(scatter.Data(), FitLine(scatter.Data()), Frames);
   EXPECT_GT(quality.curvatureZ, 5.0);
   EXPECT_NEAR(quality.curvature, curvature, 5.0 * quality.curvature / quality.curvatureZ);
   const Scatter down = WithSamplingNoise(ExactScatter(20000, 100.0, 4000.0, 64.0, 1.0, -curvature));
-  EXPECT_LT(JudgeLine(down.Data(), FitLine(down.Data()), Frames).curvatureZ, -5.0);
+  EXPECT_LT(EvaluateLineFit(down.Data(), FitLine(down.Data()), Frames).curvatureZ, -5.0);
 }
 
 TEST(SensorNoisePolynomialFit, CurvatureErrorIsThatOfManyRepetitions)
@@ -206,7 +206,7 @@ TEST(SensorNoisePolynomialFit, CurvatureErrorIsThatOfManyRepetitions)
     {
       variance *= chiSquare(random) / (Frames - 1.0);
     }
-    const double z = JudgeLine(scatter.Data(), FitLine(scatter.Data()), Frames).curvatureZ;
+    const double z = EvaluateLineFit(scatter.Data(), FitLine(scatter.Data()), Frames).curvatureZ;
     squares += z * z / repetitions;
   }
   // The error is widened where reduced chi-square exceeds 1, by 3 % on average: 6 % off the mean square.

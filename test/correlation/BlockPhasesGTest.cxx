@@ -20,7 +20,7 @@ constexpr std::size_t Frames = 40;
 NoiseResiduals
 Residuals(const FrameOf & frameOf)
 {
-  return ResidualsOf(Frame, Frames, std::vector<double>(Frame.Pixels(), 100.0), frameOf);
+  return ComputeResiduals(Frame, Frames, std::vector<double>(Frame.Pixels(), 100.0), frameOf);
 }
 
 /** White noise less its mean over \a length pixels in a row, from column \a first on: a code that drops the mean. */
@@ -72,7 +72,7 @@ TEST(SensorNoiseBlockPhases, WhiteNoiseHasNoPlace)
   {
     EXPECT_NEAR(Coefficient(tiles, k), 0.0, Tolerance) << k;
   }
-  EXPECT_EQ(SpreadOfPhases(tiles), 0.0);
+  EXPECT_EQ(RmsOfPhases(tiles), 0.0);
 }
 
 TEST(SensorNoiseBlockPhases, NeighboursOfABlockShareItsMeanAndThoseOfTwoDoNot)
@@ -89,7 +89,7 @@ TEST(SensorNoiseBlockPhases, NeighboursOfABlockShareItsMeanAndThoseOfTwoDoNot)
     }
     // About the mean of the axis, -1/8: seven of 1/56 and one of 1/8, of sixteen phases. Chance is taken off, and up to
     // a sixteenth of the pixels lies in no block.
-    EXPECT_NEAR(SpreadOfPhases(tiles), std::sqrt((7.0 / (56.0 * 56.0) + 1.0 / 64.0) / 16.0), 0.004) << first;
+    EXPECT_NEAR(RmsOfPhases(tiles), std::sqrt((7.0 / (56.0 * 56.0) + 1.0 / 64.0) / 16.0), 0.004) << first;
   }
 }
 
@@ -116,7 +116,7 @@ TEST(SensorNoiseBlockPhases, SharpenedFramesAreFiltered)
   };
   // Of a flat field neither the light nor the place tells rounding from a filter, and it stays one.
   const auto tiles = SumBlockPhases(Residuals(sharpened), SerialFor);
-  EXPECT_EQ(SpreadOfPhases(tiles), 0.0);
+  EXPECT_EQ(RmsOfPhases(tiles), 0.0);
   for (std::size_t k = 0; k < BlockPhases::Period; ++k)
   {
     EXPECT_NEAR(Coefficient(tiles, k), -0.24 / 1.46, Tolerance) << k;

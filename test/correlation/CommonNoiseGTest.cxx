@@ -63,31 +63,31 @@ NoiseWith(const Common & common)
   };
 }
 
-std::vector<SharedLight>
+std::vector<DistantCovariance>
 SumSharedLight(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
 {
-  return OfTiles(residuals, parallelFor, [&](std::size_t i) { return SharedLightOfTile(residuals, i); });
+  return OfTiles(residuals, parallelFor, [&](std::size_t i) { return SumDistantCovariance(residuals, i); });
 }
 
 /** Light, rows 0 ... 6 apart, columns 0 ... 6 apart. */
 JackknifeEstimate
 Measure(const FrameOf & noise)
 {
-  const auto residuals = ResidualsOf(Geometry, Frames, Light(), noise);
-  return Jackknife(SumSharedLight(residuals, SerialFor), [](const SharedLight & sums) {
+  const auto residuals = ComputeResiduals(Geometry, Frames, Light(), noise);
+  return Jackknife(SumSharedLight(residuals, SerialFor), [](const DistantCovariance & sums) {
     const CommonNoise common = FindCommonNoise(sums);
-    Eigen::VectorXd   figures(1 + 2 * SharedLight::Lines);
+    Eigen::VectorXd   figures(1 + 2 * DistantCovariance::Lines);
     figures(0) = common.light;
-    for (std::size_t d = 0; d < SharedLight::Lines; ++d)
+    for (std::size_t d = 0; d < DistantCovariance::Lines; ++d)
     {
       figures(static_cast<Eigen::Index>(1 + d)) = common.rows[d];
-      figures(static_cast<Eigen::Index>(1 + SharedLight::Lines + d)) = common.columns[d];
+      figures(static_cast<Eigen::Index>(1 + DistantCovariance::Lines + d)) = common.columns[d];
     }
     return figures;
   });
 }
 
-constexpr Eigen::Index Lines = SharedLight::Lines;
+constexpr Eigen::Index Lines = DistantCovariance::Lines;
 } // namespace
 
 TEST(SensorNoiseCommonNoise, WhiteNoiseHasNothingInCommon)
@@ -194,13 +194,13 @@ TEST(SensorNoiseCommonNoise, IsTakenOffTheSumsOfItsLag)
 
 TEST(SensorNoiseCommonNoise, SameBitsForAnyNumberOfThreads)
 {
-  const auto residuals = ResidualsOf(Geometry, Frames, Light(), NoiseWith({ 0.01, 1.0, 1.0 }));
+  const auto residuals = ComputeResiduals(Geometry, Frames, Light(), NoiseWith({ 0.01, 1.0, 1.0 }));
   const auto serial = SumSharedLight(residuals, SerialFor);
   const auto threads = SumSharedLight(residuals, Threads(3));
   ASSERT_EQ(serial.size(), threads.size());
   for (std::size_t i = 0; i < serial.size(); ++i)
   {
-    EXPECT_EQ(serial[i].far.lightCovariance, threads[i].far.lightCovariance);
+    EXPECT_EQ(serial[i].far.signalCovariance, threads[i].far.signalCovariance);
     EXPECT_EQ(serial[i].rows[2].covariance, threads[i].rows[2].covariance);
     EXPECT_EQ(serial[i].columns[0].covariance, threads[i].columns[0].covariance);
   }

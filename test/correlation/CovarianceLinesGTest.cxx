@@ -26,7 +26,7 @@ Filtered(bool before)
   const std::vector<double> light = Ramp(Frame, 4.0, 100.0);
   const FrameOf             shot = WhiteNoise(Frame, 21);
   const FrameOf             read = WhiteNoise(Frame, 22);
-  return ResidualsOf(Frame, Frames, light, [=](std::size_t t) {
+  return ComputeResiduals(Frame, Frames, light, [=](std::size_t t) {
     DoubleFrame       in = shot(t);
     const DoubleFrame own = read(t);
     for (std::size_t p = 0; p < in.values.size(); ++p)
@@ -59,7 +59,7 @@ double
 SharedAt(const NoiseCorrelation & found, double lightDn, double varianceDn2)
 {
   double sum = 0.0;
-  for (const SharedShape & shape : found.shapes)
+  for (const WeightedShape & shape : found.shapes)
   {
     sum += shape.probability * shape.coefficient.value *
            (shape.ofVariance * varianceDn2 + shape.ofLight * lightDn + shape.constantDn2);

@@ -10,7 +10,7 @@ using namespace sensornoise;
 
 namespace
 {
-constexpr std::array<double, NoiseResiduals::LightBins> LightDn{ 10.0, 40.0, 100.0, 300.0 };
+constexpr std::array<double, NoiseResiduals::IntensityBins> LightDn{ 10.0, 40.0, 100.0, 300.0 };
 
 /** V = 20 + 0.5 z, with 100 pairs in each bin, all of one level. */
 double
@@ -36,7 +36,7 @@ OwnSums()
 const Eigen::VectorXd Errors = Eigen::Vector4d(0.001, 0.002, 0.001, 0.004);
 
 const FittedShape &
-FitOf(const std::array<FittedShape, NumberOfShapes> & fits, ShapeOfShared shape)
+FitOf(const std::array<FittedShape, NumberOfShapes> & fits, CovarianceShape shape)
 {
   return fits[static_cast<std::size_t>(shape)];
 }
@@ -45,16 +45,16 @@ FitOf(const std::array<FittedShape, NumberOfShapes> & fits, ShapeOfShared shape)
 TEST(SensorNoiseSharedShapes, AreRelativeToTheVariance)
 {
   constexpr double codesDn2 = 2.0;
-  const auto       shapes = ShapesOfShared(OwnSums(), 0.0, codesDn2).InBins();
+  const auto       shapes = CovarianceShapes(OwnSums(), 0.0, codesDn2).InBins();
   for (std::size_t b = 0; b < LightDn.size(); ++b)
   {
     const double z = LightDn[b];
     const double v = VarianceAt(z);
     const auto   row = static_cast<Eigen::Index>(b);
-    EXPECT_NEAR(shapes(row, static_cast<Eigen::Index>(ShapeOfShared::Variance)), (v - codesDn2) / v, 1e-14);
-    EXPECT_NEAR(shapes(row, static_cast<Eigen::Index>(ShapeOfShared::Light)), z / v, 1e-14);
-    EXPECT_NEAR(shapes(row, static_cast<Eigen::Index>(ShapeOfShared::Square)), z * z / v, 1e-12);
-    EXPECT_NEAR(shapes(row, static_cast<Eigen::Index>(ShapeOfShared::Constant)), 1.0 / v, 1e-15);
+    EXPECT_NEAR(shapes(row, static_cast<Eigen::Index>(CovarianceShape::Variance)), (v - codesDn2) / v, 1e-14);
+    EXPECT_NEAR(shapes(row, static_cast<Eigen::Index>(CovarianceShape::Light)), z / v, 1e-14);
+    EXPECT_NEAR(shapes(row, static_cast<Eigen::Index>(CovarianceShape::Square)), z * z / v, 1e-12);
+    EXPECT_NEAR(shapes(row, static_cast<Eigen::Index>(CovarianceShape::Constant)), 1.0 / v, 1e-15);
   }
 }
 
@@ -62,16 +62,16 @@ TEST(SensorNoiseSharedShapes, BinWithoutPairsSharesNothing)
 {
   LagSums own = OwnSums();
   own.bins[2] = {};
-  EXPECT_EQ(ShapesOfShared(own, 0.0, 1.0).InBins().row(2).norm(), 0.0);
+  EXPECT_EQ(CovarianceShapes(own, 0.0, 1.0).InBins().row(2).norm(), 0.0);
 }
 
 TEST(SensorNoiseSharedShapes, PartsOfTheNoiseWithoutLightMayComeAfterAFilter)
 {
-  constexpr double     codesDn2 = 2.0;
-  const ShapesOfShared shapes(OwnSums(), 0.0, codesDn2);
+  constexpr double       codesDn2 = 2.0;
+  const CovarianceShapes shapes(OwnSums(), 0.0, codesDn2);
   for (const std::size_t part : { std::size_t{ 1 }, PartsAfterFilter })
   {
-    const auto   k = static_cast<std::size_t>(ShapeOfShared::FirstPart) + part - 1;
+    const auto   k = static_cast<std::size_t>(CovarianceShape::FirstPart) + part - 1;
     const double late = (20.0 - codesDn2) * static_cast<double>(part) / PartsAfterFilter;
     EXPECT_EQ(shapes.UnitOf(k).ofVariance, 1.0);
     EXPECT_NEAR(shapes.UnitOf(k).constantDn2, -late, 1e-12);
@@ -84,18 +84,18 @@ TEST(SensorNoiseSharedShapes, PartsOfTheNoiseWithoutLightMayComeAfterAFilter)
   }
   // The least light is that of the darkest pixels where black is not known.
   const auto last = NumberOfShapes - 1;
-  EXPECT_NEAR(ShapesOfShared(OwnSums(), 6.0, codesDn2).UnitOf(last).constantDn2, -(21.0 + 2.0 - codesDn2), 1e-12);
+  EXPECT_NEAR(CovarianceShapes(OwnSums(), 6.0, codesDn2).UnitOf(last).constantDn2, -(21.0 + 2.0 - codesDn2), 1e-12);
 }
 
 TEST(SensorNoiseSharedShapes, EachIsRecoveredExactlyAndNoOtherFits)
 {
-  const auto shapes = ShapesOfShared(OwnSums(), 0.0, 2.0).InBins();
-  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(ShapeOfShared::FirstPart); ++k)
+  const auto shapes = CovarianceShapes(OwnSums(), 0.0, 2.0).InBins();
+  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(CovarianceShape::FirstPart); ++k)
   {
     const double          coefficient = 0.1 / shapes.col(k).maxCoeff();
     const Eigen::VectorXd shared = coefficient * shapes.col(k);
     const auto            fits = FitShapes(shapes, shared, Errors);
-    for (std::size_t other = 0; other < static_cast<std::size_t>(ShapeOfShared::FirstPart); ++other)
+    for (std::size_t other = 0; other < static_cast<std::size_t>(CovarianceShape::FirstPart); ++other)
     {
       if (static_cast<Eigen::Index>(other) == k)
       {
@@ -112,7 +112,7 @@ TEST(SensorNoiseSharedShapes, EachIsRecoveredExactlyAndNoOtherFits)
 
 TEST(SensorNoiseSharedShapes, ChiSquareIsThatOfTheWeightedResiduals)
 {
-  const auto            shapes = ShapesOfShared(OwnSums(), 0.0, 2.0).InBins();
+  const auto            shapes = CovarianceShapes(OwnSums(), 0.0, 2.0).InBins();
   const Eigen::VectorXd shared = Eigen::Vector4d(0.02, 0.05, 0.01, 0.04);
   const auto            fits = FitShapes(shapes, shared, Errors);
   for (Eigen::Index k = 0; k < shapes.cols(); ++k)
@@ -126,11 +126,11 @@ TEST(SensorNoiseSharedShapes, ChiSquareIsThatOfTheWeightedResiduals)
 
 TEST(SensorNoiseSharedShapes, BinsWithoutErrorAreLeftOut)
 {
-  const auto      shapes = ShapesOfShared(OwnSums(), 0.0, 0.0).InBins();
+  const auto      shapes = CovarianceShapes(OwnSums(), 0.0, 0.0).InBins();
   Eigen::VectorXd shared = 0.03 * shapes.col(0);
   Eigen::VectorXd errors = Errors;
   shared(1) = 7.0;
   errors(1) = 0.0;
-  EXPECT_NEAR(FitOf(FitShapes(shapes, shared, errors), ShapeOfShared::Variance).coefficient, 0.03, 1e-12);
-  EXPECT_EQ(FitOf(FitShapes(shapes, shared, Eigen::VectorXd::Zero(4)), ShapeOfShared::Variance).coefficient, 0.0);
+  EXPECT_NEAR(FitOf(FitShapes(shapes, shared, errors), CovarianceShape::Variance).coefficient, 0.03, 1e-12);
+  EXPECT_EQ(FitOf(FitShapes(shapes, shared, Eigen::VectorXd::Zero(4)), CovarianceShape::Variance).coefficient, 0.0);
 }

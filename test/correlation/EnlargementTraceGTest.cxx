@@ -20,7 +20,7 @@ constexpr std::size_t Frames = 40;
 NoiseResiduals
 Residuals(const FrameOf & frameOf)
 {
-  return ResidualsOf(Frame, Frames, std::vector<double>(Frame.Pixels(), 100.0), frameOf);
+  return ComputeResiduals(Frame, Frames, std::vector<double>(Frame.Pixels(), 100.0), frameOf);
 }
 
 /** White samples, enlarged along x: linear between the two nearest, whose first one is 0.5 / ratio - 0.5 from pixel 0.

@@ -36,11 +36,11 @@ FindOfRows(double sd, double offsetDn)
     }
     return values;
   };
-  return FindLineLight(ResidualsOf(Geometry, Frames, signal, frame), LineAxis::Rows, SerialFor);
+  return EstimateLineIlluminationChange(ComputeResiduals(Geometry, Frames, signal, frame), LineAxis::Rows, SerialFor);
 }
 } // namespace
 
-TEST(SensorNoiseFindLineLight, ChangesOfRowsAreFound)
+TEST(SensorNoiseEstimateLineIlluminationChange, ChangesOfRowsAreFound)
 {
   // 6e-4 of 150 DN is the noise of the mean of 128 pixels of 1 DN, and half of the noise of the mean of a tile.
   for (const double sd : { 6e-4, 6e-3, 6e-2 })
@@ -51,7 +51,7 @@ TEST(SensorNoiseFindLineLight, ChangesOfRowsAreFound)
   }
 }
 
-TEST(SensorNoiseFindLineLight, NoiseOfRowsIsNone)
+TEST(SensorNoiseEstimateLineIlluminationChange, NoiseOfRowsIsNone)
 {
   for (const double offsetDn : { 0.0, 0.1, 1.0 })
   {

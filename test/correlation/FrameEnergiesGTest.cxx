@@ -53,8 +53,8 @@ TEST(SensorNoiseFrameEnergies, ExpectedSquaresAreTheDiagonalOfTheProjectedCovari
   const Eigen::MatrixXd expected = projector * variances.asDiagonal() * projector;
   const FrameEnergies   energies = EnergiesWithBasis(basis);
   EXPECT_TRUE(energies.ExpectedSquares(variances).isApprox(expected.diagonal(), 1e-12));
-  EXPECT_TRUE(energies.ExpectedSquares(Eigen::VectorXd::Ones(Frames)).isApprox(energies.LeftShare(), 1e-12));
-  EXPECT_TRUE(energies.LeftShare().isApprox(projector.diagonal(), 1e-12));
+  EXPECT_TRUE(energies.ExpectedSquares(Eigen::VectorXd::Ones(Frames)).isApprox(energies.RemainingFraction(), 1e-12));
+  EXPECT_TRUE(energies.RemainingFraction().isApprox(projector.diagonal(), 1e-12));
 }
 
 TEST(SensorNoiseFrameEnergies, AreTheMeanSquaresOfTheTakenPixelsOfEachTile)

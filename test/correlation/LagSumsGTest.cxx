@@ -78,7 +78,7 @@ struct SumsOfLags : std::vector<LagSums>
 JackknifeEstimate
 Measure(const FrameOf & noise, const std::vector<Lag> & lags)
 {
-  const auto              residuals = ResidualsOf(Geometry, Frames, Ramp(Geometry, 10.0, 200.0), noise);
+  const auto              residuals = ComputeResiduals(Geometry, Frames, Ramp(Geometry, 10.0, 200.0), noise);
   std::vector<SumsOfLags> tiles;
   for (auto & tile : SumLags(residuals, lags, SerialFor))
   {
@@ -94,7 +94,7 @@ ResidualsOfSquares(std::size_t side, std::size_t phase)
 {
   constexpr FrameGeometry geometry{ 16, 16, 1 };
   const std::size_t       across = (15 + phase) / side + 1;
-  return ResidualsOf(geometry, 2 * across * across, Ramp(geometry, 10.0, 200.0), [=](std::size_t t) {
+  return ComputeResiduals(geometry, 2 * across * across, Ramp(geometry, 10.0, 200.0), [=](std::size_t t) {
     DoubleFrame frame(16, 16);
     for (std::size_t p = 0; p < 256; ++p)
     {
@@ -192,7 +192,7 @@ TEST(SensorNoiseLagSums, SquaresOfEqualPixelsSumUpWhereverOneBegins)
 
 TEST(SensorNoiseLagSums, PairsAreSortedByTheLightOfTheFirst)
 {
-  const auto residuals = ResidualsOf(Geometry, Frames, Ramp(Geometry, 10.0, 200.0), Filtered({ { 0, 0, 1.0 } }));
+  const auto residuals = ComputeResiduals(Geometry, Frames, Ramp(Geometry, 10.0, 200.0), Filtered({ { 0, 0, 1.0 } }));
   const auto sums = SumLags(residuals, { { 0, 0, 0 }, { 1, 0, 0 } }, SerialFor);
   LagSums    own;
   for (const auto & tile : sums)
@@ -213,7 +213,7 @@ TEST(SensorNoiseLagSums, PairsAreSortedByTheLightOfTheFirst)
 
 TEST(SensorNoiseLagSums, SameBitsForAnyNumberOfThreads)
 {
-  const auto residuals = ResidualsOf(Geometry, Frames, Ramp(Geometry, 10.0, 200.0), WhiteNoise(Geometry, 4));
+  const auto residuals = ComputeResiduals(Geometry, Frames, Ramp(Geometry, 10.0, 200.0), WhiteNoise(Geometry, 4));
   const std::vector<Lag> lags{ { 0, 0, 0 }, { -1, 2, 0 }, { 0, 0, 3 } };
   const auto             serial = SumLags(residuals, lags, SerialFor);
   const auto             threads = SumLags(residuals, lags, Threads(3));

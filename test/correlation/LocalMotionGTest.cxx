@@ -72,7 +72,8 @@ TEST(SensorNoiseLocalMotion, IsTheMeanSquareOfWhatMoves)
 {
   constexpr double     rms = 0.01;
   const double         expected = rms * rms * 0.5 * SlopeDn * SlopeDn; // of the noise, by the mean square of a cosine
-  const MeasuredNumber found = FindLocalMotion(ResidualsOf(Geometry, Frames, Waves(), DisplacedRows(rms)), Threads(3));
+  const MeasuredNumber found =
+    FindLocalMotion(ComputeResiduals(Geometry, Frames, Waves(), DisplacedRows(rms)), Threads(3));
   // The variance that it is relative to holds it, too.
   EXPECT_NEAR(found.value, expected / (1.0 + expected), 4.5 * found.standardError);
   EXPECT_LT(found.standardError, 0.1 * expected);
@@ -80,7 +81,7 @@ TEST(SensorNoiseLocalMotion, IsTheMeanSquareOfWhatMoves)
 
 TEST(SensorNoiseLocalMotion, IsNoneOfAFilter)
 {
-  const MeasuredNumber found = FindLocalMotion(ResidualsOf(Geometry, Frames, Waves(), SmoothedNoise()), SerialFor);
+  const MeasuredNumber found = FindLocalMotion(ComputeResiduals(Geometry, Frames, Waves(), SmoothedNoise()), SerialFor);
   EXPECT_NEAR(found.value, 0.0, 4.5 * found.standardError);
   EXPECT_LT(found.standardError, 0.005);
 }
@@ -88,5 +89,5 @@ TEST(SensorNoiseLocalMotion, IsNoneOfAFilter)
 TEST(SensorNoiseLocalMotion, IsUnknownWithoutAScene)
 {
   const std::vector<double> flat(Geometry.Pixels(), 1000.0);
-  EXPECT_EQ(FindLocalMotion(ResidualsOf(Geometry, Frames, flat, WhiteNoise(Geometry, 3)), SerialFor).value, 0.0);
+  EXPECT_EQ(FindLocalMotion(ComputeResiduals(Geometry, Frames, flat, WhiteNoise(Geometry, 3)), SerialFor).value, 0.0);
 }

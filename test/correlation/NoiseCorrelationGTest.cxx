@@ -25,7 +25,7 @@ constexpr std::size_t Frames = 30;
 
 /** A still scene, camera B, codes that are not rounded. */
 NoiseResiduals
-ResidualsOf(const SensorFlaws & flaws, std::size_t size = Size, std::size_t frames = Frames)
+ComputeResiduals(const SensorFlaws & flaws, std::size_t size = Size, std::size_t frames = Frames)
 {
   SimulationSettings settings = simulator::StillSettings('B', frames);
   settings.flaws = flaws;
@@ -53,7 +53,7 @@ constexpr std::size_t ManyFrames = 100;
 NoiseCorrelation
 Measure(const SensorFlaws & flaws, std::size_t frames = Frames)
 {
-  return MeasureNoiseCorrelation(ResidualsOf(flaws, Size, frames), 0.0, SerialFor);
+  return MeasureNoiseCorrelation(ComputeResiduals(flaws, Size, frames), 0.0, SerialFor);
 }
 
 SensorFlaws
@@ -87,7 +87,7 @@ TEST(SensorNoiseNoiseCorrelation, PlainNoiseIsWhite)
 {
   const auto found = Measure({});
   EXPECT_EQ(found.kind, NoiseKind::White);
-  EXPECT_FALSE(found.IsShared());
+  EXPECT_FALSE(found.IsCorrelated());
   EXPECT_EQ(found.space.size(), 12U); // half of 5 x 5, less the pixel itself
   EXPECT_EQ(found.time.size(), 3U);
   for (const auto & lags : { found.space, found.time })
@@ -100,7 +100,7 @@ TEST(SensorNoiseNoiseCorrelation, PlainNoiseIsWhite)
   }
   ExpectNumber(found.rowsDn2, 0.0, 1.0);
   ExpectNumber(found.columnsDn2, 0.0, 1.0);
-  EXPECT_NEAR(SharedSquares(found.space), 1.0, 1e-4);
+  EXPECT_NEAR(VarianceInflation(found.space), 1.0, 1e-4);
   EXPECT_EQ(found.timeFactor.value, 1.0);
 }
 
@@ -122,10 +122,10 @@ TEST(SensorNoiseNoiseCorrelation, SmoothedFramesAreFilteredAndTheSumIsThatOfTheW
   ExpectNumber(CoefficientAt(found.space, { 1, 0, 0 }), product / square, 0.003);
   ExpectNumber(CoefficientAt(found.space, { -1, 1, 0 }), product * product / (square * square), 0.003);
   const double left = square * square / std::pow(weight, 4.0);
-  EXPECT_NEAR(found.Shape(ShapeOfShared::Constant).probability, 0.0, 0.1);
-  EXPECT_GT(found.Shape(ShapeOfShared::Variance).probability, 0.3); // the read noise is small: parts fit, too
-  ExpectNumber(found.Shape(ShapeOfShared::Variance).coefficient, 1.0 / left - 1.0, 0.05);
-  EXPECT_NEAR(SharedSquares(found.space),
+  EXPECT_NEAR(found.Shape(CovarianceShape::Constant).probability, 0.0, 0.1);
+  EXPECT_GT(found.Shape(CovarianceShape::Variance).probability, 0.3); // the read noise is small: parts fit, too
+  ExpectNumber(found.Shape(CovarianceShape::Variance).coefficient, 1.0 / left - 1.0, 0.05);
+  EXPECT_NEAR(VarianceInflation(found.space),
               1.0 + 4.0 * std::pow(product / square, 2.0) + 4.0 * std::pow(product / square, 4.0),
               0.1);
 }
@@ -137,8 +137,8 @@ TEST(SensorNoiseNoiseCorrelation, CoupledChargeIsCrosstalkInProportionToTheLight
   EXPECT_EQ(found.kind, NoiseKind::Crosstalk);
   // All neighbours together have what the pixel's shot noise, 1 DN/e-, has lost.
   const double lost = 1.0 - std::pow(1.0 - 4.0 * c, 2.0) - 4.0 * c * c;
-  ExpectNumber(found.Shape(ShapeOfShared::Light).coefficient, lost, 0.02);
-  EXPECT_NEAR(1.0 - found.Shape(ShapeOfShared::Constant).probability, 1.0, 0.05);
+  ExpectNumber(found.Shape(CovarianceShape::Light).coefficient, lost, 0.02);
+  EXPECT_NEAR(1.0 - found.Shape(CovarianceShape::Constant).probability, 1.0, 0.05);
 }
 
 TEST(SensorNoiseNoiseCorrelation, ChargeThatRepelsChargeGrowsWithTheSquareOfTheLight)
@@ -146,15 +146,15 @@ TEST(SensorNoiseNoiseCorrelation, ChargeThatRepelsChargeGrowsWithTheSquareOfTheL
   constexpr double k = 2e-6; // of 3000 e- at the brightest 8 k Q = 5 % of the variance
   const auto       found = Measure(With([](SensorFlaws & flaws) { flaws.brighterFatter.perElectron = k; }), ManyFrames);
   EXPECT_EQ(found.kind, NoiseKind::BrighterFatter);
-  EXPECT_GT(found.Shape(ShapeOfShared::Square).probability, 0.5);
+  EXPECT_GT(found.Shape(CovarianceShape::Square).probability, 0.5);
   ExpectNumber(
-    found.Shape(ShapeOfShared::Square).coefficient, 8.0 * k, 0.2 * 8.0 * k); // to first order, which is 2 % too much
+    found.Shape(CovarianceShape::Square).coefficient, 8.0 * k, 0.2 * 8.0 * k); // to first order, which is 2 % too much
 }
 
 TEST(SensorNoiseNoiseCorrelation, MixedFramesAreTemporalAndTheSumIsThatOfTheFilter)
 {
   constexpr double a = 0.5;
-  auto             residuals = ResidualsOf(With([](SensorFlaws & flaws) { flaws.temporalFilter.weight = a; }), 128, 60);
+  auto residuals = ComputeResiduals(With([](SensorFlaws & flaws) { flaws.temporalFilter.weight = a; }), 128, 60);
   residuals.DropFirst(8, SerialFor); // the first frame is not filtered
   const auto found = MeasureNoiseCorrelation(residuals, 0.0, SerialFor);
   EXPECT_EQ(found.kind, NoiseKind::Temporal);
@@ -191,16 +191,16 @@ TEST(SensorNoiseNoiseCorrelation, NoiseOfRowsAndColumnsIsTakenOffWhatNeighboursS
 
 TEST(SensorNoiseNoiseCorrelation, SmallFramesAndShortStacksAreNotMeasured)
 {
-  EXPECT_EQ(MeasureNoiseCorrelation(ResidualsOf({}, 24), 0.0, SerialFor).kind, NoiseKind::NotMeasured);
-  EXPECT_EQ(MeasureNoiseCorrelation(ResidualsOf({}, 64, 3), 0.0, SerialFor).kind, NoiseKind::NotMeasured);
-  auto residuals = ResidualsOf({}, 64);
+  EXPECT_EQ(MeasureNoiseCorrelation(ComputeResiduals({}, 24), 0.0, SerialFor).kind, NoiseKind::NotMeasured);
+  EXPECT_EQ(MeasureNoiseCorrelation(ComputeResiduals({}, 64, 3), 0.0, SerialFor).kind, NoiseKind::NotMeasured);
+  auto residuals = ComputeResiduals({}, 64);
   residuals.Take(std::vector<std::uint8_t>(64 * 64, 0), SerialFor);
   EXPECT_EQ(MeasureNoiseCorrelation(residuals, 0.0, SerialFor).kind, NoiseKind::NotMeasured);
 }
 
 TEST(SensorNoiseNoiseCorrelation, SameBitsForAnyNumberOfThreads)
 {
-  const auto residuals = ResidualsOf(With([](SensorFlaws & flaws) { flaws.smoothing.sdPixels = 0.5; }), 128, 12);
+  const auto residuals = ComputeResiduals(With([](SensorFlaws & flaws) { flaws.smoothing.sdPixels = 0.5; }), 128, 12);
   const auto serial = MeasureNoiseCorrelation(residuals, 0.0, SerialFor);
   const auto threads = MeasureNoiseCorrelation(residuals, 0.0, Threads(3));
   ASSERT_EQ(serial.space.size(), threads.space.size());
@@ -209,7 +209,7 @@ TEST(SensorNoiseNoiseCorrelation, SameBitsForAnyNumberOfThreads)
     EXPECT_EQ(serial.space[k].coefficient.value, threads.space[k].coefficient.value);
     EXPECT_EQ(serial.space[k].coefficient.standardError, threads.space[k].coefficient.standardError);
   }
-  EXPECT_EQ(serial.Shape(ShapeOfShared::Variance).coefficient.value,
-            threads.Shape(ShapeOfShared::Variance).coefficient.value);
+  EXPECT_EQ(serial.Shape(CovarianceShape::Variance).coefficient.value,
+            threads.Shape(CovarianceShape::Variance).coefficient.value);
   EXPECT_EQ(serial.kurtosis[3].value, threads.kurtosis[3].value);
 }

@@ -42,7 +42,7 @@ Measure(const NoiseResiduals & residuals)
 JackknifeEstimate
 Measure(std::size_t frames, const FrameOf & noise, const Eigen::MatrixXd & series = {})
 {
-  return Measure(ResidualsOf(Geometry, frames, Ramp(Geometry, 10.0, 200.0), noise, series));
+  return Measure(ComputeResiduals(Geometry, frames, Ramp(Geometry, 10.0, 200.0), noise, series));
 }
 
 template <typename TDraw>
@@ -158,7 +158,7 @@ TEST(SensorNoiseNoiseKurtosis, CopiesOfAPixelAndPixelsLeftOutHaveNoSeries)
     }
     return frame;
   };
-  auto       residuals = ResidualsOf(Geometry, 20, Ramp(Geometry, 10.0, 200.0), copies);
+  auto       residuals = ComputeResiduals(Geometry, 20, Ramp(Geometry, 10.0, 200.0), copies);
   const auto seriesOf = [&](std::size_t kind) {
     double series = 0.0;
     for (const auto & tile : SumKurtosis(residuals, SerialFor))
@@ -184,7 +184,7 @@ TEST(SensorNoiseNoiseKurtosis, CopiesOfAPixelAndPixelsLeftOutHaveNoSeries)
 
 TEST(SensorNoiseNoiseKurtosis, SameBitsForAnyNumberOfThreads)
 {
-  const auto residuals = ResidualsOf(Geometry, 12, Ramp(Geometry, 10.0, 200.0), WhiteNoise(Geometry, 9));
+  const auto residuals = ComputeResiduals(Geometry, 12, Ramp(Geometry, 10.0, 200.0), WhiteNoise(Geometry, 9));
   const auto serial = SumKurtosis(residuals, SerialFor);
   const auto threads = SumKurtosis(residuals, Threads(3));
   for (std::size_t i = 0; i < serial.size(); ++i)

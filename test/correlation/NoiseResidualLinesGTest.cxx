@@ -52,7 +52,7 @@ const std::vector<std::uint8_t> All(Geometry.Pixels(), 1);
 NoiseResiduals
 WithoutRows(double sd, std::vector<float> & left, const ParallelFor & parallelFor = SerialFor)
 {
-  auto residuals = ResidualsOf(Geometry, Frames, Light(), NoiseUnderRows(sd));
+  auto residuals = ComputeResiduals(Geometry, Frames, Light(), NoiseUnderRows(sd));
   left = residuals.TakeOffLines(LineAxis::Rows, All, parallelFor);
   return residuals;
 }
@@ -105,22 +105,22 @@ TEST(SensorNoiseNoiseResidualLines, VarianceStays)
   }
   const auto count = static_cast<double>(left.size());
   EXPECT_NEAR(leverage / count, 2.0 / 128.0, 1e-4); // two numbers a row of four tiles
-  const double variance = squares / residuals.GetFreedom() / count;
-  EXPECT_NEAR(variance, 1.0, 4.0 * std::sqrt(2.0 / (residuals.GetFreedom() * count)));
+  const double variance = squares / residuals.GetDof() / count;
+  EXPECT_NEAR(variance, 1.0, 4.0 * std::sqrt(2.0 / (residuals.GetDof() * count)));
 }
 
 TEST(SensorNoiseNoiseResidualLines, RowsOfOneLevelLoseTheirMeanAlone)
 {
   std::vector<float> left;
   auto               residuals =
-    ResidualsOf(Geometry, Frames, std::vector<double>(Geometry.Pixels(), 100.0), WhiteNoise(Geometry, 6));
+    ComputeResiduals(Geometry, Frames, std::vector<double>(Geometry.Pixels(), 100.0), WhiteNoise(Geometry, 6));
   left = residuals.TakeOffLines(LineAxis::Rows, All, SerialFor);
   EXPECT_NEAR(left.front(), 1.0 - 1.0 / 128.0, 1e-6);
 }
 
 TEST(SensorNoiseNoiseResidualLines, RowsWithoutPixelsTellNothing)
 {
-  auto                      residuals = ResidualsOf(Geometry, Frames, Light(), NoiseUnderRows(0.05));
+  auto                      residuals = ComputeResiduals(Geometry, Frames, Light(), NoiseUnderRows(0.05));
   std::vector<std::uint8_t> take = All;
   std::fill_n(take.begin(), Geometry.width, std::uint8_t{ 0 });
   const std::vector<float> left = residuals.TakeOffLines(LineAxis::Rows, take, SerialFor);
@@ -149,7 +149,7 @@ TEST(SensorNoiseNoiseResidualLines, ColumnsOfTheTransposedFrameAreItsRows)
     return other;
   };
   const auto frameOf = NoiseUnderRows(0.05);
-  auto       turned = ResidualsOf(Geometry, Frames, transposed(Light()), [&](std::size_t t) {
+  auto       turned = ComputeResiduals(Geometry, Frames, transposed(Light()), [&](std::size_t t) {
     DoubleFrame frame = frameOf(t);
     frame.values = transposed(frame.values);
     return frame;

@@ -77,18 +77,20 @@ ValuesOf(const NoiseResiduals & residuals)
 
 TEST(SensorNoiseNoiseResiduals, BasisHoldsTheConstantAndWhatTheSeriesAdd)
 {
-  const auto residuals = ResidualsOf(Geometry, Frames, Ramp(Geometry, 0.0, 200.0), WhiteNoise(Geometry, 1), Series());
+  const auto residuals =
+    ComputeResiduals(Geometry, Frames, Ramp(Geometry, 0.0, 200.0), WhiteNoise(Geometry, 1), Series());
   const Eigen::MatrixXd & basis = residuals.GetBasis();
   ASSERT_EQ(basis.cols(), 3); // the third series is the sum of the others
   EXPECT_LT((basis.transpose() * basis - Eigen::MatrixXd::Identity(3, 3)).norm(), 1e-12);
-  EXPECT_EQ(residuals.GetFreedom(), Frames - 3.0);
+  EXPECT_EQ(residuals.GetDof(), Frames - 3.0);
   EXPECT_LT((basis * (basis.transpose() * Series()) - Series()).norm(), 1e-10 * Series().norm());
   EXPECT_EQ(residuals.GetNumberOfPixels(), Geometry.Pixels());
 }
 
 TEST(SensorNoiseNoiseResiduals, AreOrthogonalToTheSeries)
 {
-  const auto residuals = ResidualsOf(Geometry, Frames, Ramp(Geometry, 0.0, 200.0), WhiteNoise(Geometry, 1), Series());
+  const auto residuals =
+    ComputeResiduals(Geometry, Frames, Ramp(Geometry, 0.0, 200.0), WhiteNoise(Geometry, 1), Series());
   const std::size_t pixels = residuals.GetTiles().Pixels();
   for (std::size_t i = 0; i < residuals.GetTiles().origins.size(); ++i)
   {
@@ -101,7 +103,7 @@ TEST(SensorNoiseNoiseResiduals, AreOrthogonalToTheSeries)
 
 TEST(SensorNoiseNoiseResiduals, NothingIsLeftOfASceneWithoutNoise)
 {
-  const auto residuals = ResidualsOf(Geometry, Frames, Ramp(Geometry, 0.0, 200.0), SceneFrame, Series());
+  const auto residuals = ComputeResiduals(Geometry, Frames, Ramp(Geometry, 0.0, 200.0), SceneFrame, Series());
   for (std::size_t i = 0; i < residuals.GetTiles().origins.size(); ++i)
   {
     for (std::size_t k = 0; k < ValuesOf(residuals); ++k)
@@ -133,10 +135,10 @@ TEST(SensorNoiseNoiseResiduals, WeightsAreTheInverseVarianceAtThePixelsLight)
 
 TEST(SensorNoiseNoiseResiduals, BinsOfTheLightGrowWithItAndHoldAsMany)
 {
-  const auto residuals = ResidualsOf(Geometry, Frames, Ramp(Geometry, 0.0, 200.0), ShotNoiseFrame);
-  std::array<std::size_t, NoiseResiduals::LightBins> counts{};
-  std::array<float, NoiseResiduals::LightBins>       lowest;
-  std::array<float, NoiseResiduals::LightBins>       highest;
+  const auto residuals = ComputeResiduals(Geometry, Frames, Ramp(Geometry, 0.0, 200.0), ShotNoiseFrame);
+  std::array<std::size_t, NoiseResiduals::IntensityBins> counts{};
+  std::array<float, NoiseResiduals::IntensityBins>       lowest;
+  std::array<float, NoiseResiduals::IntensityBins>       highest;
   lowest.fill(1e9F);
   highest.fill(-1e9F);
   for (std::size_t i = 0; i < residuals.GetTiles().origins.size(); ++i)
@@ -151,14 +153,14 @@ TEST(SensorNoiseNoiseResiduals, BinsOfTheLightGrowWithItAndHoldAsMany)
   }
   for (std::size_t b = 0; b < counts.size(); ++b)
   {
-    EXPECT_EQ(counts[b], Geometry.Pixels() / NoiseResiduals::LightBins);
+    EXPECT_EQ(counts[b], Geometry.Pixels() / NoiseResiduals::IntensityBins);
     EXPECT_LE(b > 0 ? highest[b - 1] : 0.0F, lowest[b]);
   }
 }
 
 TEST(SensorNoiseNoiseResiduals, PixelsThatAreNotTakenHaveNoWeight)
 {
-  auto                      residuals = ResidualsOf(Geometry, Frames, Ramp(Geometry, 0.0, 200.0), ShotNoiseFrame);
+  auto                      residuals = ComputeResiduals(Geometry, Frames, Ramp(Geometry, 0.0, 200.0), ShotNoiseFrame);
   std::vector<std::uint8_t> left(Geometry.Pixels());
   for (std::size_t p = 0; p < left.size(); ++p)
   {
@@ -183,11 +185,11 @@ TEST(SensorNoiseNoiseResiduals, WithoutTheFirstFramesTheyAreThoseOfTheRest)
   constexpr std::size_t dropped = 7;
   const auto            light = Ramp(Geometry, 0.0, 200.0);
   const auto            noise = WhiteNoise(Geometry, 3);
-  auto                  residuals = ResidualsOf(Geometry, Frames, light, noise, Series());
+  auto                  residuals = ComputeResiduals(Geometry, Frames, light, noise, Series());
   residuals.DropFirst(dropped, Threads(3));
-  const auto rest = ResidualsOf(
+  const auto rest = ComputeResiduals(
     Geometry, Frames - dropped, light, [&](std::size_t t) { return noise(t + dropped); }, Series().bottomRows(23));
-  ASSERT_EQ(residuals.GetFreedom(), rest.GetFreedom());
+  ASSERT_EQ(residuals.GetDof(), rest.GetDof());
   for (std::size_t i = 0; i < rest.GetTiles().origins.size(); ++i)
   {
     for (std::size_t k = 0; k < ValuesOf(rest); ++k)

@@ -13,7 +13,7 @@
 
 using namespace sensornoise;
 
-TEST(SensorNoisePixelsByLight, AreInTheOrderOfAComparison)
+TEST(SensorNoiseSortPixelsBySignal, AreInTheOrderOfAComparison)
 {
   std::mt19937_64                            random(17);
   std::normal_distribution<float>            normal(0.0F, 1.0F);
@@ -32,7 +32,7 @@ TEST(SensorNoisePixelsByLight, AreInTheOrderOfAComparison)
   }
   ASSERT_GT(std::count(light.begin(), light.end(), 0.0F), 100); // and of both signs, too
   std::sort(expected.begin(), expected.end());
-  const std::vector<std::uint32_t> order = PixelsByLight(light, take);
+  const std::vector<std::uint32_t> order = SortPixelsBySignal(light, take);
   ASSERT_EQ(order.size(), expected.size());
   for (std::size_t rank = 0; rank < order.size(); ++rank)
   {
@@ -40,8 +40,8 @@ TEST(SensorNoisePixelsByLight, AreInTheOrderOfAComparison)
   }
 }
 
-TEST(SensorNoisePixelsByLight, NoneAreTaken)
+TEST(SensorNoiseSortPixelsBySignal, NoneAreTaken)
 {
-  EXPECT_TRUE(PixelsByLight({}, {}).empty());
-  EXPECT_TRUE(PixelsByLight({ 1.0F, 2.0F }, { 0, 0 }).empty());
+  EXPECT_TRUE(SortPixelsBySignal({}, {}).empty());
+  EXPECT_TRUE(SortPixelsBySignal({ 1.0F, 2.0F }, { 0, 0 }).empty());
 }

@@ -38,11 +38,11 @@ ShareOf(double sd, double blend, double probability, double step = 1.0)
   const std::vector<double> mean(pixels, 100.0 * step);
   FrameSample               sample = FrameSample::Of<unsigned short>(Geometry, Frames);
   sample.AddFrames(codes.data(), 0, Frames, mean);
-  return sample.RepeatedShare(std::vector<std::uint8_t>(pixels, 1), step);
+  return sample.RepeatedFraction(std::vector<std::uint8_t>(pixels, 1), step);
 }
 } // namespace
 
-TEST(SensorNoiseRepeatedShare, NoiseAndFiltersHaveNone)
+TEST(SensorNoiseRepeatedFraction, NoiseAndFiltersHaveNone)
 {
   for (const double sd : { 0.7, 1.5, 10.0, 20.0 })
   {
@@ -54,7 +54,7 @@ TEST(SensorNoiseRepeatedShare, NoiseAndFiltersHaveNone)
   EXPECT_LT(ShareOf(10.0, 0.0, 0.0, 16.0), 0.01);
 }
 
-TEST(SensorNoiseRepeatedShare, RepeatedValuesAreCounted)
+TEST(SensorNoiseRepeatedFraction, RepeatedValuesAreCounted)
 {
   for (const double probability : { 0.1, 0.5 })
   {

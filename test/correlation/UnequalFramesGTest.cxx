@@ -74,7 +74,7 @@ ShotNoise(const Eigen::VectorXd & gamma)
     }
     return frame;
   };
-  return ResidualsOf(Geometry, static_cast<std::size_t>(Frames), light, frameOf, gamma);
+  return ComputeResiduals(Geometry, static_cast<std::size_t>(Frames), light, frameOf, gamma);
 }
 
 NoiseCorrelation

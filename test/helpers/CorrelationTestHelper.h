@@ -56,11 +56,11 @@ SampleOf(const FrameGeometry & geometry, std::size_t frames, const FrameOf & fra
 
 /** Of all pixels; black is 0. */
 inline NoiseResiduals
-ResidualsOf(const FrameGeometry &       geometry,
-            std::size_t                 frames,
-            const std::vector<double> & light,
-            const FrameOf &             frameOf,
-            const Eigen::MatrixXd &     series = {})
+ComputeResiduals(const FrameGeometry &       geometry,
+                 std::size_t                 frames,
+                 const std::vector<double> & light,
+                 const FrameOf &             frameOf,
+                 const Eigen::MatrixXd &     series = {})
 {
   const std::vector<std::uint8_t> all(geometry.Pixels(), 1);
   return { SampleOf(geometry, frames, frameOf), series, { light, all, 0.0 }, SerialFor };

@@ -61,7 +61,7 @@ struct FrameChange
 struct SyntheticFrames
 {
   ReferenceFrame            reference;
-  ProvisionalModel          model;
+  InitialNoiseModel         model;
   std::vector<std::uint8_t> take;
   std::vector<double>       pixels; ///< frame after frame
 

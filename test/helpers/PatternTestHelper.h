@@ -42,7 +42,7 @@ struct Maps
 {
   ReferenceFrame      frame;
   std::vector<double> variance;
-  std::vector<float>  freedom = std::vector<float>(Pixels, 1e4F);
+  std::vector<float>  dof = std::vector<float>(Pixels, 1e4F);
 
   explicit Maps(const std::function<Pixel(std::size_t x, std::size_t y)> & pixelAt, std::size_t frames = ManyFrames)
   {
@@ -62,9 +62,7 @@ struct Maps
   VarianceData
   Data() const
   {
-    return {
-      frame.mean.data(), frame.neighbourMean.data(), variance.data(), freedom.data(), frame.usable.data(), Pixels
-    };
+    return { frame.mean.data(), frame.neighbourMean.data(), variance.data(), dof.data(), frame.usable.data(), Pixels };
   }
 };
 

@@ -76,7 +76,7 @@ NormalSeries()
 struct Input
 {
   ReferenceFrame            frame;
-  ProvisionalModel          model;
+  InitialNoiseModel         model;
   MotionSeries              motion;
   ProjectionSums            sums; // until they are projected
   std::vector<std::uint8_t> mask;

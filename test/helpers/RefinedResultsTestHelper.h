@@ -24,13 +24,13 @@ struct HandMadeResults
 {
   static constexpr std::size_t Size = 32;
 
-  RefinedSettings     settings;
-  StillScene          scene;
-  SceneSeries         series;
-  StaticVariance      variance;
-  PolishedSeries      polished;
-  std::vector<double> correctedVariance;
-  NoiseCorrelation    correlation;
+  RefinedSettings       settings;
+  StaticScene           scene;
+  SceneSeries           series;
+  StaticVariance        variance;
+  ReestimatedComponents reestimated;
+  std::vector<double>   correctedVariance;
+  NoiseCorrelation      correlation;
 
   HandMadeResults()
   {
@@ -70,22 +70,22 @@ struct HandMadeResults
     variance.pixelUse = scene.pixelUse;
     variance.mask = scene.frame.usable;
 
-    polished.line.offset = -1000.0;
-    polished.line.standardError = 0.5;
-    polished.line.low = -1001.0;
-    polished.line.high = -999.0;
-    polished.line.flickerZ = 100.0;
-    polished.line.contrast = 0.99;
+    reestimated.line.offset = -1000.0;
+    reestimated.line.standardError = 0.5;
+    reestimated.line.low = -1001.0;
+    reestimated.line.high = -999.0;
+    reestimated.line.flickerZ = 100.0;
+    reestimated.line.contrast = 0.99;
     for (std::size_t t = 0; t < 20; ++t)
     {
-      polished.line.gamma.push_back(t % 2 == 0 ? 0.02 : -0.02);
+      reestimated.line.gamma.push_back(t % 2 == 0 ? 0.02 : -0.02);
     }
     // Any offset gives the same flicker, of precision 1e8.
-    polished.line.light << 0.0, 0.0, 0.0, 1e8;
-    polished.line.response = Eigen::MatrixX2d::Zero(20, 2);
+    reestimated.line.light << 0.0, 0.0, 0.0, 1e8;
+    reestimated.line.response = Eigen::MatrixX2d::Zero(20, 2);
     for (Eigen::Index t = 0; t < 20; ++t)
     {
-      polished.line.response(t, 1) = 1e8 * polished.line.gamma[static_cast<std::size_t>(t)];
+      reestimated.line.response(t, 1) = 1e8 * reestimated.line.gamma[static_cast<std::size_t>(t)];
     }
   }
   /** Light that differs over the frame, with an offset of its own: 102 +- 1 DN. */
@@ -93,12 +93,12 @@ struct HandMadeResults
   MakeLocal()
   {
     series.local.series = Eigen::MatrixXd::Ones(20, 1);
-    polished.localOffset = LocalOffset{ -998.0, 1.0, -1000.0, -996.0, 1.0, 16 };
+    reestimated.localOffset = LocalOffset{ -998.0, 1.0, -1000.0, -996.0, 1.0, 16 };
   }
   RefinedResults
   Get() const
   {
-    return { settings, scene, series, variance, polished, correctedVariance, 100.0, correlation };
+    return { settings, scene, series, variance, reestimated, correctedVariance, 100.0, correlation };
   }
 };
 

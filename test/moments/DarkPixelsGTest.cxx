@@ -30,8 +30,8 @@ MeanSquareOf(const std::vector<double> & values)
 TEST(SensorNoiseDarkPixels, TheDefectiveVarianceIsThatOfEightTimesTheTypicalNoise)
 {
   // The median of chi-square with 7 degrees of freedom is 6.3458, tabulated.
-  EXPECT_NEAR(MedianShareOfVariance(7.0), 6.3458 / 7.0, 1e-5);
-  EXPECT_NEAR(DefectiveVarianceDn2(4.0 * MedianShareOfVariance(7.0), 7.0), 64.0 * 4.0 * 9.0 / 7.0, 1e-9);
+  EXPECT_NEAR(MedianToMeanOfVariance(7.0), 6.3458 / 7.0, 1e-5);
+  EXPECT_NEAR(DefectiveVarianceDn2(4.0 * MedianToMeanOfVariance(7.0), 7.0), 64.0 * 4.0 * 9.0 / 7.0, 1e-9);
 }
 
 // Pixels of one sensor: the mean is that of its own pixels, whose noise is drawn once.

@@ -44,18 +44,18 @@ LineOf(const Maps & maps)
   return line;
 }
 
-LevelPattern
+FixedPatternEstimate
 PatternOf(const Maps & maps, const ParallelFor & parallelFor = SerialFor)
 {
-  return MeasureLevelPattern(maps.frame, maps.Data(), LineOf(maps), BlackDn, parallelFor);
+  return EstimateFixedPattern(maps.frame, maps.Data(), LineOf(maps), BlackDn, parallelFor);
 }
 
 /** The share of a gain pattern by its definition: variance^2 times mean squared light, over the levels' variance. */
 double
-GainShare(const LevelPattern & pattern, const Maps & maps, double sd)
+GainShare(const FixedPatternEstimate & pattern, const Maps & maps, double sd)
 {
   const double fluxDn = LineOf(maps).pivotDn - BlackDn;
-  return sd * sd * (fluxDn * fluxDn + pattern.lightDn2) / pattern.lightDn2;
+  return sd * sd * (fluxDn * fluxDn + pattern.levelVarianceDn2) / pattern.levelVarianceDn2;
 }
 
 /** The flattest squares, 12 of 256, tell by half of their pixels: 1,536, of which the standard error of a variance is
@@ -77,78 +77,78 @@ NormalMap()
 }
 } // namespace
 
-TEST(SensorNoiseLevelPattern, WhitePatternOfGainHasItsShare)
+TEST(SensorNoiseFixedPatternEstimate, WhitePatternOfGainHasItsShare)
 {
   const std::vector<double> normal = NormalMap();
   for (const double sd : { 0.005, 0.01 })
   {
     const Maps maps([&](std::size_t x, std::size_t y) { return Pixel{ Ramp(y), 1.0 + sd * normal[y * Size + x] }; });
-    const LevelPattern pattern = PatternOf(maps);
+    const FixedPatternEstimate pattern = PatternOf(maps);
     // The levels are evenly spread over 100 DN, with some noise.
-    EXPECT_NEAR(pattern.lightDn2 / (1e4 / 12.0), 1.0, 0.05);
-    EXPECT_NEAR(pattern.gainShare / GainShare(pattern, maps, sd), 1.0 + PatternError, 5.0 * PatternError) << sd;
+    EXPECT_NEAR(pattern.levelVarianceDn2 / (1e4 / 12.0), 1.0, 0.05);
+    EXPECT_NEAR(pattern.gainFraction / GainShare(pattern, maps, sd), 1.0 + PatternError, 5.0 * PatternError) << sd;
   }
 }
 
-TEST(SensorNoiseLevelPattern, WhitePatternOfOffsetHasItsShare)
+TEST(SensorNoiseFixedPatternEstimate, WhitePatternOfOffsetHasItsShare)
 {
   const std::vector<double> normal = NormalMap();
   const Maps                maps(
     [&](std::size_t x, std::size_t y) { return Pixel{ Ramp(y), 1.0, 1.0, 12.0 * normal[y * Size + x] }; });
-  const LevelPattern pattern = PatternOf(maps);
+  const FixedPatternEstimate pattern = PatternOf(maps);
   EXPECT_NEAR(pattern.OffsetVarianceDn2() / 144.0, 1.0 + PatternError, 5.0 * PatternError);
-  EXPECT_NEAR(pattern.offsetShare, pattern.OffsetVarianceDn2() / pattern.lightDn2, 1e-12);
-  EXPECT_EQ(pattern.LargestShare(), std::max(pattern.gainShare, pattern.offsetShare));
+  EXPECT_NEAR(pattern.offsetFraction, pattern.OffsetVarianceDn2() / pattern.levelVarianceDn2, 1e-12);
+  EXPECT_EQ(pattern.LargestFraction(), std::max(pattern.gainFraction, pattern.offsetFraction));
 }
 
-TEST(SensorNoiseLevelPattern, NoiseOfTheMeansIsNoPattern)
+TEST(SensorNoiseFixedPatternEstimate, NoiseOfTheMeansIsNoPattern)
 {
-  const Maps         maps([](std::size_t, std::size_t y) { return Pixel{ Ramp(y) }; }, FewFrames);
-  const LevelPattern pattern = PatternOf(maps);
+  const Maps                 maps([](std::size_t, std::size_t y) { return Pixel{ Ramp(y) }; }, FewFrames);
+  const FixedPatternEstimate pattern = PatternOf(maps);
   // What is left is the error of the noise's own variance, one standard error and the added one.
   const double noiseDn2 = LineOf(maps).intercept / static_cast<double>(FewFrames);
   EXPECT_GT(pattern.OffsetVarianceDn2(), 0.0);
   EXPECT_LT(pattern.OffsetVarianceDn2(), 6.0 * PatternError * noiseDn2);
-  EXPECT_NEAR(pattern.lightDn2 / (1e4 / 12.0), 1.0, 0.03);
+  EXPECT_NEAR(pattern.levelVarianceDn2 / (1e4 / 12.0), 1.0, 0.03);
 }
 
-TEST(SensorNoiseLevelPattern, SceneThatIsRoughEverywhereCountsAsTheLargestPatternOfASensor)
+TEST(SensorNoiseFixedPatternEstimate, SceneThatIsRoughEverywhereCountsAsTheLargestPatternOfASensor)
 {
   const std::vector<double> normal = NormalMap();
   const Maps maps([&](std::size_t x, std::size_t y) { return Pixel{ 4000.0 * (1.0 + 0.2 * normal[y * Size + x]) }; });
-  const LevelPattern pattern = PatternOf(maps);
-  EXPECT_NEAR(pattern.gainShare, GainShare(pattern, maps, 0.03), 1e-9 * pattern.gainShare);
+  const FixedPatternEstimate pattern = PatternOf(maps);
+  EXPECT_NEAR(pattern.gainFraction, GainShare(pattern, maps, 0.03), 1e-9 * pattern.gainFraction);
   // Five times the noise, whose variance is the same everywhere here.
   EXPECT_NEAR(pattern.OffsetVarianceDn2(), 25.0 * LineOf(maps).intercept, 1e-9 * pattern.OffsetVarianceDn2());
 }
 
-TEST(SensorNoiseLevelPattern, TextureAboutAFlatPlaceIsNoPattern)
+TEST(SensorNoiseFixedPatternEstimate, TextureAboutAFlatPlaceIsNoPattern)
 {
   // A rough scene with a flat quarter: the pattern is that of the flat part.
-  const std::vector<double> normal = NormalMap();
-  const Maps                maps([&](std::size_t x, std::size_t y) {
+  const std::vector<double>  normal = NormalMap();
+  const Maps                 maps([&](std::size_t x, std::size_t y) {
     const bool isFlat = x < Size / 2 && y < Size / 2;
     return Pixel{ 300.0 * (isFlat ? 1.0 : 1.0 + 0.1 * normal[Pixels - 1 - y * Size - x]),
                   1.0 + 0.01 * normal[y * Size + x] };
   });
-  const LevelPattern        pattern = PatternOf(maps);
-  EXPECT_NEAR(pattern.gainShare / GainShare(pattern, maps, 0.01), 1.0 + PatternError, 5.0 * PatternError);
+  const FixedPatternEstimate pattern = PatternOf(maps);
+  EXPECT_NEAR(pattern.gainFraction / GainShare(pattern, maps, 0.01), 1.0 + PatternError, 5.0 * PatternError);
 }
 
-TEST(SensorNoiseLevelPattern, WithoutLevelsEverythingCouldBePattern)
+TEST(SensorNoiseFixedPatternEstimate, WithoutLevelsEverythingCouldBePattern)
 {
   const Maps maps([](std::size_t, std::size_t) { return Pixel{ 100.0 }; });
-  EXPECT_EQ(PatternOf(maps).gainShare, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(PatternOf(maps).gainFraction, std::numeric_limits<double>::infinity());
   EXPECT_EQ(PatternOf(maps).OffsetVarianceDn2(), 0.0);
   Maps few([](std::size_t, std::size_t y) { return Pixel{ Ramp(y) }; });
   for (std::size_t p = 0; p < Pixels; ++p)
   {
     few.frame.usable[p] = p % 9 == 0 ? few.frame.usable[p] : 0; // 28 of a square: fewer than 32 of a half
   }
-  EXPECT_EQ(PatternOf(few).offsetShare, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(PatternOf(few).offsetFraction, std::numeric_limits<double>::infinity());
 }
 
-TEST(SensorNoiseLevelPattern, DiagonalNeighboursShareNoRowAndNoColumn)
+TEST(SensorNoiseFixedPatternEstimate, DiagonalNeighboursShareNoRowAndNoColumn)
 {
   std::vector<double> mean(49, 0.0);
   for (std::size_t i = 0; i < 7; ++i)
@@ -163,12 +163,12 @@ TEST(SensorNoiseLevelPattern, DiagonalNeighboursShareNoRowAndNoColumn)
   EXPECT_EQ(DiagonalMean(mean.data(), 7, 24), mean[24]);
 }
 
-TEST(SensorNoiseLevelPattern, ThreadsChangeNoBit)
+TEST(SensorNoiseFixedPatternEstimate, ThreadsChangeNoBit)
 {
   const std::vector<double> normal = NormalMap();
   const Maps maps([&](std::size_t x, std::size_t y) { return Pixel{ Ramp(y), 1.0 + 0.01 * normal[y * Size + x] }; });
-  const LevelPattern expected = PatternOf(maps);
-  const LevelPattern pattern = PatternOf(maps, test::Threads(3));
-  EXPECT_EQ(pattern.gainShare, expected.gainShare);
-  EXPECT_EQ(pattern.offsetShare, expected.offsetShare);
+  const FixedPatternEstimate expected = PatternOf(maps);
+  const FixedPatternEstimate pattern = PatternOf(maps, test::Threads(3));
+  EXPECT_EQ(pattern.gainFraction, expected.gainFraction);
+  EXPECT_EQ(pattern.offsetFraction, expected.offsetFraction);
 }

@@ -56,8 +56,8 @@ NumbersOf(const Eigen::VectorXd & series)
   return { series.data(), series.data() + series.size() };
 }
 
-FrameFreedom
-FreedomOf(const Eigen::VectorXd & gamma)
+FrameDof
+DofOf(const Eigen::VectorXd & gamma)
 {
   return { gamma.normalized(), NumbersOf(gamma) };
 }
@@ -74,7 +74,7 @@ ProjectorOf(const Eigen::VectorXd & gamma)
 
 /** (tr P)^2 / tr M^2 of the covariance M of the residuals. */
 double
-DenseFreedom(const Eigen::VectorXd & gamma, double fraction)
+DenseDof(const Eigen::VectorXd & gamma, double fraction)
 {
   const Eigen::MatrixXd projector = ProjectorOf(gamma);
   const Eigen::VectorXd variance = 1.0 + fraction * gamma.array();
@@ -83,63 +83,63 @@ DenseFreedom(const Eigen::VectorXd & gamma, double fraction)
 }
 } // namespace
 
-TEST(SensorNoiseFrameFreedom, OfTwoLevelsHasAClosedForm)
+TEST(SensorNoiseFrameDof, OfTwoLevelsHasAClosedForm)
 {
   // The basis fits the mean of the 15 lit frames, of variance 1 + 3 b, and that of the 45 others, of 1 - b.
-  const FrameFreedom freedom = FreedomOf(EveryFourthLit());
-  EXPECT_FALSE(freedom.IsEqual());
+  const FrameDof dof = DofOf(EveryFourthLit());
+  EXPECT_FALSE(dof.IsEqual());
   for (const double b : { 0.0, 0.3, 0.9, 0.9885, 1.0 })
   {
     const double lit = 1.0 + 3.0 * b;
     const double dark = 1.0 - b;
-    EXPECT_NEAR(Left * freedom.FractionAt(b), Left * Left / (14.0 * lit * lit + 44.0 * dark * dark), 1e-9) << b;
+    EXPECT_NEAR(Left * dof.DofFractionAt(b), Left * Left / (14.0 * lit * lit + 44.0 * dark * dark), 1e-9) << b;
   }
-  EXPECT_NEAR(Left * freedom.FractionAt(0.9885), 15.28, 0.005);
-  EXPECT_NEAR(Left * freedom.FractionAt(1.0), Left * Left / 224.0, 1e-9);
+  EXPECT_NEAR(Left * dof.DofFractionAt(0.9885), 15.28, 0.005);
+  EXPECT_NEAR(Left * dof.DofFractionAt(1.0), Left * Left / 224.0, 1e-9);
 }
 
-TEST(SensorNoiseFrameFreedom, IsTheTraceOfTheResidualsCovariance)
+TEST(SensorNoiseFrameDof, IsTheTraceOfTheResidualsCovariance)
 {
   for (const Eigen::VectorXd & gamma : { EveryFourthLit(), Exponential(), Sine(0.02), Sine(0.6) })
   {
     for (const double b : { 0.2, 0.7, 1.0 })
     {
-      EXPECT_NEAR(Left * FreedomOf(gamma).FractionAt(b), DenseFreedom(gamma, b), 1e-9);
+      EXPECT_NEAR(Left * DofOf(gamma).DofFractionAt(b), DenseDof(gamma, b), 1e-9);
     }
   }
-  EXPECT_NEAR(Left * FreedomOf(Exponential()).FractionAt(1.0), 32.69, 0.005);
+  EXPECT_NEAR(Left * DofOf(Exponential()).DofFractionAt(1.0), 32.69, 0.005);
 }
 
-TEST(SensorNoiseFrameFreedom, OfASmallFlickerIsThatOfEqualFrames)
+TEST(SensorNoiseFrameDof, OfASmallFlickerIsThatOfEqualFrames)
 {
-  const FrameFreedom freedom = FreedomOf(Sine(0.02));
-  EXPECT_NEAR(Left * freedom.FractionAt(1.0), 57.98, 0.005); // 58 / (1 + 0.02^2)
-  EXPECT_TRUE(freedom.IsEqual());
-  EXPECT_FALSE(FreedomOf(Sine(0.11)).IsEqual());
-  EXPECT_TRUE(FrameFreedom().IsEqual());
-  EXPECT_EQ(FrameFreedom().FractionAt(1.0), 1.0);
+  const FrameDof dof = DofOf(Sine(0.02));
+  EXPECT_NEAR(Left * dof.DofFractionAt(1.0), 57.98, 0.005); // 58 / (1 + 0.02^2)
+  EXPECT_TRUE(dof.IsEqual());
+  EXPECT_FALSE(DofOf(Sine(0.11)).IsEqual());
+  EXPECT_TRUE(FrameDof().IsEqual());
+  EXPECT_EQ(FrameDof().DofFractionAt(1.0), 1.0);
 }
 
-TEST(SensorNoiseFrameFreedom, OneLitFrameLeavesEqualOnesThatAreNotLikeTheMean)
+TEST(SensorNoiseFrameDof, OneLitFrameLeavesEqualOnesThatAreNotLikeTheMean)
 {
-  const FrameFreedom freedom =
-    FreedomOf(Eigen::VectorXd::NullaryExpr(Frames, [](Eigen::Index t) { return t == 7 ? Frames - 1.0 : -1.0; }));
+  const FrameDof dof =
+    DofOf(Eigen::VectorXd::NullaryExpr(Frames, [](Eigen::Index t) { return t == 7 ? Frames - 1.0 : -1.0; }));
   for (const double b : { 0.0, 0.5, 0.99, 1.0 })
   {
-    EXPECT_NEAR(freedom.FractionAt(b), 1.0, 1e-9) << b;
+    EXPECT_NEAR(dof.DofFractionAt(b), 1.0, 1e-9) << b;
   }
-  EXPECT_FALSE(freedom.IsEqual());
+  EXPECT_FALSE(dof.IsEqual());
 }
 
-TEST(SensorNoiseFrameFreedom, FractionsOutsideOfTheirRangeAreTheNearest)
+TEST(SensorNoiseFrameDof, FractionsOutsideOfTheirRangeAreTheNearest)
 {
-  const FrameFreedom freedom = FreedomOf(EveryFourthLit());
-  EXPECT_EQ(freedom.FractionAt(-1.0), 1.0);
-  EXPECT_EQ(freedom.FractionAt(1.5), freedom.FractionAt(1.0));
-  EXPECT_EQ(freedom.FractionAt(std::nan("")), 1.0);
+  const FrameDof dof = DofOf(EveryFourthLit());
+  EXPECT_EQ(dof.DofFractionAt(-1.0), 1.0);
+  EXPECT_EQ(dof.DofFractionAt(1.5), dof.DofFractionAt(1.0));
+  EXPECT_EQ(dof.DofFractionAt(std::nan("")), 1.0);
 }
 
-TEST(SensorNoiseFrameFreedom, IsWhatSimulatedVariancesScatterBy)
+TEST(SensorNoiseFrameDof, IsWhatSimulatedVariancesScatterBy)
 {
   constexpr int       pixels = 20000;
   constexpr double    b = 0.9;
@@ -160,7 +160,7 @@ TEST(SensorNoiseFrameFreedom, IsWhatSimulatedVariancesScatterBy)
     }
     const double mean = sum / pixels;
     const double found = 2.0 * Left * Left / (squares / pixels - mean * mean);
-    const double expected = Left * FreedomOf(gamma).FractionAt(b);
+    const double expected = Left * DofOf(gamma).DofFractionAt(b);
     // Of a chi-square's variance: relative standard error sqrt((2 + 12/f) / pixels).
     EXPECT_NEAR(found / expected, 1.0, 4.0 * std::sqrt((2.0 + 12.0 / expected) / pixels));
   }
@@ -168,7 +168,7 @@ TEST(SensorNoiseFrameFreedom, IsWhatSimulatedVariancesScatterBy)
 
 // Eight series that live in the 15 lit frames leave 6 residuals there, of variance 4 where there is no read noise. They
 // are 24 of the 50 that the divisor stands for: the rest is put in by the gain, and does not scatter.
-TEST(SensorNoiseFrameFreedom, OfSeriesThatLiveInFewFramesCountsWhatTheGainPutsIn)
+TEST(SensorNoiseFrameDof, OfSeriesThatLiveInFewFramesCountsWhatTheGainPutsIn)
 {
   const Eigen::VectorXd gamma = EveryFourthLit();
   Eigen::MatrixXd       columns(Frames, 9);
@@ -180,32 +180,32 @@ TEST(SensorNoiseFrameFreedom, OfSeriesThatLiveInFewFramesCountsWhatTheGainPutsIn
       Eigen::VectorXd::NullaryExpr(Frames, [&](Eigen::Index t) { return gamma(t) > 0.0 ? random.Normal() : 0.0; });
   }
   const Eigen::MatrixXd basis = Orthonormalise(columns, Frames);
-  EXPECT_NEAR(50.0 * FrameFreedom(basis, NumbersOf(gamma)).FractionAt(1.0), 50.0 * 50.0 / (6.0 * 16.0), 1e-9);
+  EXPECT_NEAR(50.0 * FrameDof(basis, NumbersOf(gamma)).DofFractionAt(1.0), 50.0 * 50.0 / (6.0 * 16.0), 1e-9);
 }
 
-TEST(SensorNoiseFrameFreedom, ChangesHowPreciseAPixelIsAndNotItsVariance)
+TEST(SensorNoiseFrameDof, ChangesHowPreciseAPixelIsAndNotItsVariance)
 {
   projection::Input  input(projection::NormalSeries());
   ProjectedVariance  projected = input.Project();
   const auto         variance = projected.GetVariance();
   const auto         divisor = projected.GetDivisor();
   const Eigen::Index frames = projection::Frames;
-  EXPECT_EQ(projected.GetFreedom(), divisor);
+  EXPECT_EQ(projected.GetDof(), divisor);
   const Eigen::VectorXd gamma = 0.3 * std::sqrt(static_cast<double>(frames)) * projection::Basis().GetBasis().col(0);
   projected.SetIllumination(NumbersOf(gamma), 100.0);
-  EXPECT_TRUE(projected.HasUnequalFrames());
+  EXPECT_TRUE(projected.HasUnequalNoise());
   VarianceLine line;
   line.gain = 2.0;
   line.intercept = -150.0; // a variance of 50 DN^2 at the offset
   projected.Compute(line);
   projected.Compute(0.0);
-  const FrameFreedom freedom(projection::Basis().GetBasis(), NumbersOf(gamma));
+  const FrameDof dof(projection::Basis().GetBasis(), NumbersOf(gamma));
   for (std::size_t p = 0; p < projection::Pixels; ++p)
   {
     if (input.mask[p] != 0)
     {
       const double shot = 2.0 * (input.frame.neighbourMean[p] - 100.0);
-      ASSERT_NEAR(projected.GetFreedom()[p], divisor[p] * freedom.FractionAt(shot / (shot + 50.0)), 1e-4) << p;
+      ASSERT_NEAR(projected.GetDof()[p], divisor[p] * dof.DofFractionAt(shot / (shot + 50.0)), 1e-4) << p;
       ASSERT_NEAR(projected.GetVariance()[p], variance[p], 1e-9 * variance[p]) << p;
     }
   }

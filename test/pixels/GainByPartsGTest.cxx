@@ -100,7 +100,7 @@ TEST(SensorNoiseGainByParts, UnlikeReadNoiseIsNoGain)
   EXPECT_EQ(found.places->partition, Partition::LeftRight);
   EXPECT_EQ(found.places->size, 0.0);
   EXPECT_FALSE(found.places->Differ());
-  EXPECT_TRUE(found.places->DifferInTheDark());
+  EXPECT_TRUE(found.places->DarkVariancesDiffer());
   EXPECT_TRUE(found.places->DifferMuch());
   // 128 tiles a half with an error of 0.01 each determine 0.06 h to 0.001.
   EXPECT_NEAR(found.places->dark[1] - found.places->dark[0], 0.8, 0.8 * 0.1);

@@ -54,7 +54,7 @@ struct Burst
                        Eigen::MatrixXd(static_cast<Eigen::Index>(Frames), 0),
                        Eigen::MatrixXd(static_cast<Eigen::Index>(Frames), 0) };
   ReferenceFrame            frame;
-  ProvisionalModel          model;
+  InitialNoiseModel         model;
   MotionSeries              motion;
   std::vector<std::uint8_t> mask;
   ResidualSquares           squares;
@@ -140,7 +140,7 @@ TEST(SensorNoiseGainFeedback, SettledLineIsWhereTheIterationEnds)
   {
     gain = fit(gain).gain;
   }
-  const VarianceLine settled = feedback.Settle(fit(0.2), 0.2);
+  const VarianceLine settled = feedback.SolveFixedPoint(fit(0.2), 0.2);
   EXPECT_NEAR(settled.gain, gain, 1e-12);
   EXPECT_NEAR(settled.gain, 0.5, 1e-12);
   EXPECT_NEAR(settled.intercept, fit(gain).intercept, 1e-12);
@@ -153,11 +153,11 @@ TEST(SensorNoiseGainFeedback, WithoutAFeedbackTheLineIsUnchanged)
 {
   VarianceLine line = TrueLine();
   line.covariance << 4.0, -1.0, -1.0, 9.0;
-  const VarianceLine same = GainFeedback(0.009, -1.0).Settle(line, 7.0);
+  const VarianceLine same = GainFeedback(0.009, -1.0).SolveFixedPoint(line, 7.0);
   EXPECT_EQ(same.gain, line.gain);
   EXPECT_EQ(same.covariance, line.covariance);
   // One lit frame has no residual: all of the gain was put in.
-  const VarianceLine none = GainFeedback(1.0, -100.0).Settle(line, 7.0);
+  const VarianceLine none = GainFeedback(1.0, -100.0).SolveFixedPoint(line, 7.0);
   EXPECT_EQ(none.gain, line.gain);
   EXPECT_NEAR(none.covariance(0, 0), 4.0 + std::pow(line.At(1000.0) / 50.0, 2), 1e-9); // levels scatter by 50 DN
 }

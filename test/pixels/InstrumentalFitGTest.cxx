@@ -34,7 +34,7 @@ struct Lines
     fit.Iterate(8);
     fit.FillErrors();
     all = fit.GetLine();
-    light = FitLightLine(fit, maps.Data(), maps.frame);
+    light = FitInstrumental(fit, maps.Data(), maps.frame);
   }
   /** Share of a part of the levels' variance. */
   double

@@ -50,12 +50,11 @@ struct Scene
     }
     return series;
   }
-  PixelLight
+  IlluminationResponses
   Data() const
   {
-    return {
-      input.frame, *input.coordinates, Basis().NumberOfLightFactors(), line, input.mask, CentreDn, 400.0, 1200.0
-    };
+    return { input.frame, *input.coordinates, Basis().NumberOfIlluminationFactors(), line, input.mask, CentreDn, 400.0,
+             1200.0 };
   }
 };
 

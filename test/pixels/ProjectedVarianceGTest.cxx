@@ -19,7 +19,7 @@ using namespace sensornoise::test::projection;
 namespace
 {
 double
-FreedomWithoutMotion()
+DofWithoutMotion()
 {
   return static_cast<double>(Frames - 1 - Basis().Size());
 }
@@ -28,7 +28,7 @@ FreedomWithoutMotion()
 TEST(SensorNoiseProjectedVariance, IsTheExplicitResidualOverItsDegreesOfFreedom)
 {
   ASSERT_EQ(Basis().Size(), 3u);
-  ASSERT_EQ(Basis().NumberOfLightFactors(), Light);
+  ASSERT_EQ(Basis().NumberOfIlluminationFactors(), Light);
   const Eigen::MatrixXd series = NormalSeries();
   Input                 input(series);
   ProjectedVariance     projected = input.Project();
@@ -41,7 +41,7 @@ TEST(SensorNoiseProjectedVariance, IsTheExplicitResidualOverItsDegreesOfFreedom)
     const double rss = rest.col(static_cast<Eigen::Index>(p)).squaredNorm();
     if (input.mask[p] != 0)
     {
-      ASSERT_EQ(projected.GetFreedom()[p], Frames - 1 - 3);
+      ASSERT_EQ(projected.GetDof()[p], Frames - 1 - 3);
       // Sums of 30 values of 1,000 in squares of 20^2: 1e-16 30 1000 / 20.
       ASSERT_NEAR(projected.GetVariance()[p], rss / (Frames - 1 - 3), 1e-11 * rss) << p;
     }
@@ -121,8 +121,7 @@ TEST(SensorNoiseProjectedVariance, LeverageOfTheMotionCostsDegreesOfFreedom)
       const double          leverage =
         d.dot(input.motion.inverseGram * d) / input.model.NoiseVariance(input.frame.neighbourMean[p]);
       ASSERT_LT(leverage, 0.5);
-      ASSERT_NEAR(projected.GetFreedom()[p], FreedomWithoutMotion() * (1.0 - leverage), 1e-5 * FreedomWithoutMotion())
-        << p;
+      ASSERT_NEAR(projected.GetDof()[p], DofWithoutMotion() * (1.0 - leverage), 1e-5 * DofWithoutMotion()) << p;
       largest = std::max(largest, leverage);
     }
   }
@@ -171,5 +170,5 @@ TEST(SensorNoiseProjectedVariance, ThreadsChangeNoBit)
   expected.Compute(1.0);
   projected.Compute(1.0);
   EXPECT_TRUE(HaveSameBits(projected.GetVariance(), expected.GetVariance()));
-  EXPECT_TRUE(HaveSameBits(projected.GetFreedom(), expected.GetFreedom()));
+  EXPECT_TRUE(HaveSameBits(projected.GetDof(), expected.GetDof()));
 }

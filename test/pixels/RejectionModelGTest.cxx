@@ -61,7 +61,7 @@ struct Burst
 {
   ReferenceFrame                     frame;
   std::unique_ptr<TemporalBasis>     basis;
-  ProvisionalModel                   model;
+  InitialNoiseModel                  model;
   MotionSeries                       motion;
   std::unique_ptr<ProjectedVariance> projected;
 
@@ -107,15 +107,15 @@ struct Burst
       std::make_unique<ProjectedVariance>(frame, *basis, motion, std::move(squares), model, frame.usable, SerialFor);
     projected->Compute(0.0);
   }
-  JudgingLine
+  RejectionModel
   Judge(const ParallelFor & parallelFor = SerialFor) const
   {
-    return MakeJudgingLine(MakeLine(), *projected, frame.usable, BlackDn, parallelFor);
+    return FitRejectionModel(MakeLine(), *projected, frame.usable, BlackDn, parallelFor);
   }
   std::vector<std::uint8_t>
-  Misfit(const JudgingLine & judging) const
+  Misfit(const RejectionModel & judging) const
   {
-    return FindLocalMisfit(*projected, judging, frame.usable, SerialFor);
+    return RejectNeighbourhoods(*projected, judging, frame.usable, SerialFor);
   }
 };
 
@@ -147,21 +147,21 @@ IsInPatch(std::size_t p)
 }
 } // namespace
 
-TEST(SensorNoiseJudgingLine, StraightSensorIsJudgedByItsLine)
+TEST(SensorNoiseRejectionModel, StraightSensorIsJudgedByItsLine)
 {
-  const Burst       burst(StraightVariance);
-  const JudgingLine judging = burst.Judge();
+  const Burst          burst(StraightVariance);
+  const RejectionModel judging = burst.Judge();
   EXPECT_TRUE(judging.levels.empty() && judging.ratios.empty());
   EXPECT_FALSE(judging.byNeighbours);
-  EXPECT_EQ(judging.line.noiseSpreadDn4, 0.0);
+  EXPECT_EQ(judging.line.noiseDispersionDn4, 0.0);
   EXPECT_EQ(judging.At(500.0), MakeLine().At(500.0));
   EXPECT_EQ(Count(burst.Misfit(judging)), 0u);
 }
 
-TEST(SensorNoiseJudgingLine, BentResponseIsFollowedAndBlamesNoPixel)
+TEST(SensorNoiseRejectionModel, BentResponseIsFollowedAndBlamesNoPixel)
 {
-  const Burst       burst(BentVariance);
-  const JudgingLine judging = burst.Judge();
+  const Burst          burst(BentVariance);
+  const RejectionModel judging = burst.Judge();
   ASSERT_GE(judging.levels.size(), 8u);
   EXPECT_TRUE(std::is_sorted(judging.levels.begin(), judging.levels.end()));
   // The median of six squares of 256 pixels, of 20 degrees of freedom: 5 x 1.25 x sqrt(2 / 20 / 256 / 6) = 5 %.
@@ -174,7 +174,7 @@ TEST(SensorNoiseJudgingLine, BentResponseIsFollowedAndBlamesNoPixel)
   EXPECT_GT(Count(burst.Misfit({ MakeLine(), {}, {} })), Pixels / 10);
 }
 
-TEST(SensorNoiseJudgingLine, MovingPatchIsFoundUnderABentResponse)
+TEST(SensorNoiseRejectionModel, MovingPatchIsFoundUnderABentResponse)
 {
   const Burst burst([](std::size_t p) { return (IsInPatch(p) ? 3.0 : 1.0) * BentVariance(p); });
   const auto  misfit = burst.Misfit(burst.Judge());
@@ -185,7 +185,7 @@ TEST(SensorNoiseJudgingLine, MovingPatchIsFoundUnderABentResponse)
   EXPECT_LT(Count(misfit), 50u * 50u); // with a margin of a core about it
 }
 
-TEST(SensorNoiseJudgingLine, PixelsOfTheirOwnNoiseAreNotBlamed)
+TEST(SensorNoiseRejectionModel, PixelsOfTheirOwnNoiseAreNotBlamed)
 {
   // Read noise whose logarithm has a standard deviation of 0.4: the mean is 1.38 of the median.
   std::vector<double>        read(Pixels);
@@ -202,12 +202,12 @@ TEST(SensorNoiseJudgingLine, PixelsOfTheirOwnNoiseAreNotBlamed)
   {
     spread += (value - mean) * (value - mean) / Pixels;
   }
-  const auto        varianceOf = [&](std::size_t p) { return read[p] + 0.4 * LightAt(p); };
-  const JudgingLine judging = Burst(varianceOf).Judge();
+  const auto           varianceOf = [&](std::size_t p) { return read[p] + 0.4 * LightAt(p); };
+  const RejectionModel judging = Burst(varianceOf).Judge();
   EXPECT_FALSE(judging.levels.empty());
   // The median square has fewer of the heavy tail's pixels than the mean one.
-  EXPECT_GT(judging.line.noiseSpreadDn4, 0.3 * spread);
-  EXPECT_LT(judging.line.noiseSpreadDn4, 1.5 * spread);
+  EXPECT_GT(judging.line.noiseDispersionDn4, 0.3 * spread);
+  EXPECT_LT(judging.line.noiseDispersionDn4, 1.5 * spread);
   EXPECT_EQ(Count(Burst(varianceOf).Misfit(judging)), 0u);
   const auto  moved = [&](std::size_t p) { return (IsInPatch(p) ? 3.0 : 1.0) * varianceOf(p); };
   const Burst patch(moved);
@@ -216,25 +216,25 @@ TEST(SensorNoiseJudgingLine, PixelsOfTheirOwnNoiseAreNotBlamed)
   EXPECT_LT(Count(misfit), 50u * 50u);
 }
 
-TEST(SensorNoiseJudgingLine, PixelsOfTheirOwnOffsetAreJudgedByTheirNeighbours)
+TEST(SensorNoiseRejectionModel, PixelsOfTheirOwnOffsetAreJudgedByTheirNeighbours)
 {
   // The line's value moves by 0.4 x 60 DN with such offsets, a fifth of that at the darkest level.
-  const Burst       burst(StraightVariance, 60.0);
-  const JudgingLine judging = burst.Judge();
+  const Burst          burst(StraightVariance, 60.0);
+  const RejectionModel judging = burst.Judge();
   EXPECT_TRUE(judging.byNeighbours);
   EXPECT_EQ(judging.LevelsOf(burst.frame)[1000], burst.frame.neighbourMean[1000]);
   EXPECT_EQ(Count(burst.Misfit(judging)), 0u);
 }
 
-TEST(SensorNoiseJudgingLine, RatioIsLinearBetweenLevelsAndConstantBeyond)
+TEST(SensorNoiseRejectionModel, RatioIsLinearBetweenLevelsAndConstantBeyond)
 {
-  const JudgingLine judging{ MakeLine(), { 200.0, 400.0 }, { 1.0, 1.2 } };
+  const RejectionModel judging{ MakeLine(), { 200.0, 400.0 }, { 1.0, 1.2 } };
   EXPECT_EQ(judging.At(100.0), MakeLine().At(100.0));
   EXPECT_NEAR(judging.At(250.0), 1.05 * MakeLine().At(250.0), 1e-9);
   EXPECT_NEAR(judging.At(900.0), 1.2 * MakeLine().At(900.0), 1e-9);
 }
 
-TEST(SensorNoiseJudgingLine, ThreadsChangeNoBit)
+TEST(SensorNoiseRejectionModel, ThreadsChangeNoBit)
 {
   const Burst burst(BentVariance);
   EXPECT_EQ(burst.Judge().ratios, burst.Judge(test::Threads(3)).ratios);

@@ -30,7 +30,7 @@ struct Maps
   std::vector<double>       mean;
   std::vector<double>       neighbourMean;
   std::vector<double>       variance;
-  std::vector<float>        freedom = std::vector<float>(Pixels, static_cast<float>(Freedom));
+  std::vector<float>        dof = std::vector<float>(Pixels, static_cast<float>(Freedom));
   std::vector<std::uint8_t> mask = std::vector<std::uint8_t>(Pixels, 1);
 
   Maps()
@@ -49,7 +49,7 @@ struct Maps
   VarianceData
   Data() const
   {
-    return { mean.data(), neighbourMean.data(), variance.data(), freedom.data(), mask.data(), Pixels };
+    return { mean.data(), neighbourMean.data(), variance.data(), dof.data(), mask.data(), Pixels };
   }
 };
 } // namespace
@@ -73,7 +73,7 @@ TEST(SensorNoiseSampledVariance, HoldsTheMapsOfEvenlySpreadPixels)
     ASSERT_LT(p, Pixels);
     ASSERT_EQ(data.neighbourMean[i], maps.neighbourMean[p]);
     ASSERT_EQ(data.variance[i], maps.variance[p]);
-    ASSERT_EQ(data.freedom[i], maps.freedom[p]);
+    ASSERT_EQ(data.dof[i], maps.dof[p]);
     ASSERT_NE(data.mask[i], 0);
   }
   EXPECT_GT(p, Pixels - 200); // up to the end

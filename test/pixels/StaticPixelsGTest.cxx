@@ -30,7 +30,7 @@ struct Noise
 {
   Input             input;
   ProjectedVariance projected;
-  JudgingLine       line;
+  RejectionModel    line;
 
   explicit Noise(const std::function<double(std::size_t p)> & factor)
     : input(Series(factor))
@@ -53,25 +53,25 @@ struct Noise
   ClassFit
   Judge() const
   {
-    return JudgeClasses(projected, line, input.mask, SerialFor);
+    return TestClasses(projected, line, input.mask, SerialFor);
   }
   std::vector<std::uint8_t>
   Misfit() const
   {
-    return FindLocalMisfit(projected, line, input.mask, SerialFor);
+    return RejectNeighbourhoods(projected, line, input.mask, SerialFor);
   }
 };
 
 /** Whether a pixel's ratio is far above 1, and whether it is so on either side. */
 bool
-IsFarAbove(double ratio, double freedom)
+IsFarAbove(double ratio, double dof)
 {
-  return !(ratio < FarLimits(freedom).high);
+  return !(ratio < FarLimits(dof).high);
 }
 bool
-IsFarOff(double ratio, double freedom)
+IsFarOff(double ratio, double dof)
 {
-  return IsFarAbove(ratio, freedom) || !(ratio > FarLimits(freedom).low);
+  return IsFarAbove(ratio, dof) || !(ratio > FarLimits(dof).low);
 }
 
 double
@@ -147,20 +147,16 @@ TEST(SensorNoiseStaticPixels, SingleNoisyPixelsAreNotTheirSurroundings)
 
 TEST(SensorNoiseStaticPixels, FarOffIsFiveStandardDeviations)
 {
-  for (const double freedom : { 10.0, 30.0, 100.0 })
+  for (const double dof : { 10.0, 30.0, 100.0 })
   {
     // The normal deviates' tail probabilities; the cube root is about 0.1 standard deviations off.
-    const auto above = [&](double z) {
-      return ChiSquareUpperQuantile(0.5 * std::erfc(z / std::sqrt(2.0)), freedom) / freedom;
-    };
-    const auto below = [&](double z) {
-      return ChiSquareQuantile(0.5 * std::erfc(z / std::sqrt(2.0)), freedom) / freedom;
-    };
-    EXPECT_TRUE(IsFarAbove(above(5.2), freedom) && IsFarOff(above(5.2), freedom)) << freedom;
-    EXPECT_FALSE(IsFarAbove(above(4.8), freedom) || IsFarOff(above(4.8), freedom)) << freedom;
-    EXPECT_FALSE(IsFarAbove(below(6.5), freedom)) << freedom;
-    EXPECT_FALSE(IsFarOff(below(4.3), freedom)) << freedom;
-    EXPECT_TRUE(IsFarOff(below(6.0), freedom)) << freedom;
+    const auto above = [&](double z) { return ChiSquareUpperQuantile(0.5 * std::erfc(z / std::sqrt(2.0)), dof) / dof; };
+    const auto below = [&](double z) { return ChiSquareQuantile(0.5 * std::erfc(z / std::sqrt(2.0)), dof) / dof; };
+    EXPECT_TRUE(IsFarAbove(above(5.2), dof) && IsFarOff(above(5.2), dof)) << dof;
+    EXPECT_FALSE(IsFarAbove(above(4.8), dof) || IsFarOff(above(4.8), dof)) << dof;
+    EXPECT_FALSE(IsFarAbove(below(6.5), dof)) << dof;
+    EXPECT_FALSE(IsFarOff(below(4.3), dof)) << dof;
+    EXPECT_TRUE(IsFarOff(below(6.0), dof)) << dof;
   }
 }
 
@@ -168,7 +164,7 @@ TEST(SensorNoiseStaticPixels, RunsAreJudgedAsSinglePixelsAre)
 {
   Noise noise([](std::size_t p) { return p % 97 == 0 ? 3.0 : p % 89 == 0 ? 0.1 : 1.0; });
   noise.line.line.gain = 0.1;
-  noise.line.line.noiseSpreadDn4 = 900.0;
+  noise.line.line.noiseDispersionDn4 = 900.0;
   const ReferenceFrame & frame = noise.projected.GetFrame();
   const auto [darkest, brightest] = std::minmax_element(frame.mean.begin(), frame.mean.end());
   for (const bool departs : { false, true })
@@ -180,7 +176,7 @@ TEST(SensorNoiseStaticPixels, RunsAreJudgedAsSinglePixelsAre)
       noise.line.ratios = { 0.9, 1.2, 1.05 };
     }
     noise.line.byNeighbours = departs;
-    JudgedRun   run;
+    TestedRun   run;
     std::size_t far = 0;
     ForRuns(Width, 20 * Width, [&](std::size_t first, std::size_t pixels) {
       ASSERT_LE(pixels, PixelsPerRun);
@@ -192,12 +188,12 @@ TEST(SensorNoiseStaticPixels, RunsAreJudgedAsSinglePixelsAre)
         {
           const double expected = noise.line.At(noise.line.LevelsOf(frame)[p]);
           const double ratio = noise.projected.GetVariance()[p] / expected;
-          const double freedom = noise.line.EffectiveFreedom(noise.projected.GetFreedom()[p], expected);
+          const double dof = noise.line.EffectiveDof(noise.projected.GetDof()[p], expected);
           ASSERT_NEAR(run.expected[i], expected, 1e-12 * expected) << p;
           ASSERT_NEAR(run.ratio[i], ratio, 1e-12 * ratio) << p;
-          ASSERT_EQ(run.isAbove[i] != 0.0, IsFarAbove(ratio, freedom)) << p;
-          ASSERT_EQ(run.isOff[i] != 0.0, IsFarOff(ratio, freedom)) << p;
-          far += IsFarOff(ratio, freedom) ? 1 : 0;
+          ASSERT_EQ(run.isAbove[i] != 0.0, IsFarAbove(ratio, dof)) << p;
+          ASSERT_EQ(run.isOff[i] != 0.0, IsFarOff(ratio, dof)) << p;
+          far += IsFarOff(ratio, dof) ? 1 : 0;
         }
       }
     });

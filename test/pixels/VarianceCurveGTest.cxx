@@ -61,7 +61,7 @@ CurveOfPixels(double gain, double wave)
   std::chi_squared_distribution<>  chiSquare(30.0);
   std::vector<double>              mean;
   std::vector<double>              variance;
-  const std::vector<float>         freedom(pixels, 30.0F);
+  const std::vector<float>         dof(pixels, 30.0F);
   const std::vector<std::uint8_t>  mask(pixels, 1);
   for (std::size_t p = 0; p < pixels; ++p)
   {
@@ -69,7 +69,7 @@ CurveOfPixels(double gain, double wave)
     variance.push_back((20.0 + gain * mean[p]) * (1.0 + wave * std::sin(0.03 * mean[p])) * chiSquare(random) / 30.0);
   }
   VarianceFit fit(
-    { mean.data(), mean.data(), variance.data(), freedom.data(), mask.data(), pixels }, SerialFor, std::nullopt);
+    { mean.data(), mean.data(), variance.data(), dof.data(), mask.data(), pixels }, SerialFor, std::nullopt);
   fit.Iterate(8);
   return fit.CurveAbout(fit.GetLine());
 }
@@ -80,8 +80,8 @@ TEST(SensorNoiseVarianceCurve, StraightLineDepartsFromItselfNowhere)
   const VarianceCurve curve = EvenCurve([](double) { return 0.0; });
   EXPECT_EQ(curve.ReducedChi2(), 0.0);
   EXPECT_EQ(curve.Nonlinearity(1.0), 0.0);
-  ASSERT_EQ(curve.SlopesOfHalves().size(), 4u);
-  for (const SlopeExcess & half : curve.SlopesOfHalves())
+  ASSERT_EQ(curve.FitHalves().size(), 4u);
+  for (const SlopeExcess & half : curve.FitHalves())
   {
     EXPECT_EQ(half.value, 0.0);
   }
@@ -94,7 +94,7 @@ TEST(SensorNoiseVarianceCurve, NoiseAboutALineIsChance)
   EXPECT_NEAR(curve.ReducedChi2(), 1.0, 0.9); // 62 degrees of freedom: 5 standard deviations of sqrt(2 / 62)
   // A group of 1,250 pixels is known to sqrt(2 / 30 / 1250) = 0.73 %. Of 5 of them, chance may have 2.
   EXPECT_LT(curve.Nonlinearity(1.0), std::sqrt(25.0 - 4.0) * 0.0073);
-  for (const SlopeExcess & half : curve.SlopesOfHalves())
+  for (const SlopeExcess & half : curve.FitHalves())
   {
     EXPECT_NEAR(half.value, 0.0, 5.0 * std::sqrt(half.variance));
     EXPECT_GT(half.variance, 0.0);
@@ -126,7 +126,7 @@ TEST(SensorNoiseVarianceCurve, ParabolaHasTheSizeAndTheSlopesOfItsFormula)
   }
   EXPECT_EQ(curve.Nonlinearity(1e9), 0.0); // all of it may be chance
   // A half, by count as by information, has its centre 32 DN from the pivot: there the parabola has the slope 2 c x.
-  const std::vector<SlopeExcess> halves = curve.SlopesOfHalves();
+  const std::vector<SlopeExcess> halves = curve.FitHalves();
   ASSERT_EQ(halves.size(), 4u);
   const double ofHalf = 1.0 / (Weight * 4.0 * 32.0 * (32.0 * 32.0 - 1.0) / 12.0);
   const double ofAll = 1.0 / (Weight * 64.0 * meanSquare);
@@ -147,21 +147,21 @@ TEST(SensorNoiseVarianceCurve, HalvesOfTheInformationArePartedWhereItIs)
     const auto x = static_cast<double>(b);
     curve.bins.push_back(BinAt(b < 60 ? x : 1000.0 + 100.0 * (x - 60.0), excessAt));
   }
-  const std::vector<SlopeExcess> halves = curve.SlopesOfHalves();
+  const std::vector<SlopeExcess> halves = curve.FitHalves();
   ASSERT_EQ(halves.size(), 4u);
   EXPECT_NEAR(halves[0].value, -0.1, 1e-12); // the darker half of the pixels
   EXPECT_NEAR(halves[2].value, -0.1, 1e-12);
   EXPECT_NEAR(halves[3].value, 0.3, 1e-12);
   // With two bright bins the brighter half of the information is one level, which has no slope.
   curve.bins.erase(curve.bins.begin() + 60, curve.bins.begin() + 62);
-  EXPECT_EQ(curve.SlopesOfHalves().size(), 3u);
+  EXPECT_EQ(curve.FitHalves().size(), 3u);
 }
 
 TEST(SensorNoiseVarianceCurve, DarkestShareIsThatOfTheLight)
 {
   const VarianceCurve curve = EvenCurve([](double) { return 0.0; }); // from 437 to 563 DN
-  EXPECT_NEAR(curve.DarkestShare(413.0), 24.0 / 150.0, 1e-12);
-  EXPECT_EQ(curve.DarkestShare(450.0), 0.0); // no light
-  EXPECT_EQ(curve.DarkestShare(600.0), 1.0); // no levels above black
-  EXPECT_EQ((VarianceCurve{ MakeLine(), {} }.DarkestShare(0.0)), 1.0);
+  EXPECT_NEAR(curve.DarkestFraction(413.0), 24.0 / 150.0, 1e-12);
+  EXPECT_EQ(curve.DarkestFraction(450.0), 0.0); // no light
+  EXPECT_EQ(curve.DarkestFraction(600.0), 1.0); // no levels above black
+  EXPECT_EQ((VarianceCurve{ MakeLine(), {} }.DarkestFraction(0.0)), 1.0);
 }

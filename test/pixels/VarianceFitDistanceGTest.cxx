@@ -35,7 +35,7 @@ struct Maps
   std::vector<double>       mean;
   std::vector<double>       variance;
   std::vector<double>       readVariance;
-  std::vector<float>        freedom = std::vector<float>(Pixels, Freedom);
+  std::vector<float>        dof = std::vector<float>(Pixels, Freedom);
   std::vector<std::uint8_t> mask = std::vector<std::uint8_t>(Pixels, 1);
 
   explicit Maps(const std::function<double(std::mt19937 &)> & readVarianceOf)
@@ -53,7 +53,7 @@ struct Maps
   VarianceData
   Data() const
   {
-    return { mean.data(), mean.data(), variance.data(), freedom.data(), mask.data(), Pixels };
+    return { mean.data(), mean.data(), variance.data(), dof.data(), mask.data(), Pixels };
   }
   VarianceFit
   Fit(TrimRule rule, const ParallelFor & parallelFor = SerialFor) const
@@ -117,9 +117,9 @@ TEST(SensorNoiseVarianceFitDistance, SpreadOfThePixelsOwnNoiseIsFound)
     spread += (value - mean) * (value - mean) / Pixels;
   }
   // Of heavy tails, by the dark pixels in the main: known to a fifth.
-  EXPECT_NEAR(maps.Fit(TrimRule::Distance).GetLine().noiseSpreadDn4 / spread, 1.0, 0.5);
+  EXPECT_NEAR(maps.Fit(TrimRule::Distance).GetLine().noiseDispersionDn4 / spread, 1.0, 0.5);
   // Pixels of equal noise have none, and the weights stay those of chi-square.
-  EXPECT_EQ(Maps([](std::mt19937 &) { return 1.0; }).Fit(TrimRule::Distance).GetLine().noiseSpreadDn4, 0.0);
+  EXPECT_EQ(Maps([](std::mt19937 &) { return 1.0; }).Fit(TrimRule::Distance).GetLine().noiseDispersionDn4, 0.0);
 }
 
 TEST(SensorNoiseVarianceFitDistance, ErrorsAreThoseOfTheWeights)
@@ -131,7 +131,7 @@ TEST(SensorNoiseVarianceFitDistance, ErrorsAreThoseOfTheWeights)
   for (const double mean : maps.mean)
   {
     const Eigen::Vector2d row(mean, 1.0);
-    information += row * row.transpose() / (2.0 * std::pow(line.At(mean), 2) / Freedom + line.noiseSpreadDn4);
+    information += row * row.transpose() / (2.0 * std::pow(line.At(mean), 2) / Freedom + line.noiseDispersionDn4);
   }
   const Eigen::Matrix2d fisher = information.inverse();
   EXPECT_NEAR(line.covariance(0, 0) / fisher(0, 0), 1.0, 0.2); // heavy tails: twice the scatter of normal ones
@@ -182,5 +182,5 @@ TEST(SensorNoiseVarianceFitDistance, ThreadsChangeNoBit)
   const VarianceLine line = maps.Fit(TrimRule::Distance, test::Threads(3)).GetLine();
   EXPECT_EQ(line.gain, expected.gain);
   EXPECT_EQ(line.covariance, expected.covariance);
-  EXPECT_EQ(line.noiseSpreadDn4, expected.noiseSpreadDn4);
+  EXPECT_EQ(line.noiseDispersionDn4, expected.noiseDispersionDn4);
 }

@@ -31,7 +31,7 @@ struct Maps
   std::vector<double>       mean;
   std::vector<double>       neighbourMean;
   std::vector<double>       variance;
-  std::vector<float>        freedom = std::vector<float>(Pixels, Freedom);
+  std::vector<float>        dof = std::vector<float>(Pixels, Freedom);
   std::vector<std::uint8_t> mask = std::vector<std::uint8_t>(Pixels, 1);
 
   explicit Maps(bool isNoisy)
@@ -50,7 +50,7 @@ struct Maps
   VarianceData
   Data() const
   {
-    return { mean.data(), neighbourMean.data(), variance.data(), freedom.data(), mask.data(), Pixels };
+    return { mean.data(), neighbourMean.data(), variance.data(), dof.data(), mask.data(), Pixels };
   }
   VarianceLine
   Fit(const ParallelFor & parallelFor = SerialFor) const
@@ -135,7 +135,7 @@ TEST(SensorNoiseVarianceFit, ParabolaIsFoundBesideTheLine)
   EXPECT_NEAR(line.curvature * trimmed, curvature, 1e-6 * curvature);
   for (const double x : { 100.0, 600.0, 1100.0 })
   {
-    EXPECT_NEAR((line.At(x) + line.BendAt(x)) * trimmed, parabola(x), 1e-4) << x;
+    EXPECT_NEAR((line.At(x) + line.CurvatureDeviationAt(x)) * trimmed, parabola(x), 1e-4) << x;
   }
 }
 
@@ -160,7 +160,7 @@ TEST(SensorNoiseVarianceFit, OutliersAndPixelsOutsideTheMaskHaveNoPart)
   for (std::size_t p = 0; p < Pixels; p += 3)
   {
     masked.variance[p] = masked.mean[p] = masked.neighbourMean[p] = std::nan("");
-    masked.freedom[p] = 0.0F;
+    masked.dof[p] = 0.0F;
   }
   EXPECT_EQ(masked.Fit().gain, part.gain);
   EXPECT_EQ(masked.Fit().covariance, part.covariance);
@@ -203,8 +203,8 @@ TEST(SensorNoiseVarianceFit, StartsBetweenPatchesOfFewLevels)
     maps.mean[p] = 200.0 + gain * electrons;
     maps.neighbourMean[p] = maps.mean[p] + uniform(random);
     const double                    variance = 9.0 + gain * gain * electrons;
-    const double                    freedom = Freedom / (1.0 + 0.5 * gain * gain / variance);
-    std::gamma_distribution<double> gamma(0.5 * freedom, 2.0 / freedom);
+    const double                    dof = Freedom / (1.0 + 0.5 * gain * gain / variance);
+    std::gamma_distribution<double> gamma(0.5 * dof, 2.0 / dof);
     maps.variance[p] = variance * gamma(random);
   }
   const VarianceLine line = maps.Fit();

@@ -19,10 +19,10 @@ namespace
 constexpr Eigen::Index Frames = 40;
 constexpr Eigen::Index Tiles = 20;
 constexpr double       PixelsOfTile = 1000.0;
-constexpr double       Gain = 0.5;         // [DN/e-]
-constexpr double       ReadDn2 = 4.0;      // [DN^2]
-constexpr double       OffsetDn = 100.0;   // [DN]
-constexpr double       LargestShare = 0.9; // of the light that the darkest tile lacks
+constexpr double       Gain = 0.5;            // [DN/e-]
+constexpr double       ReadDn2 = 4.0;         // [DN^2]
+constexpr double       OffsetDn = 100.0;      // [DN]
+constexpr double       LargestFraction = 0.9; // of the light that the darkest tile lacks
 
 VarianceLine
 Line()
@@ -49,7 +49,7 @@ TilesOf(TFunction gainOf)
   CounterSeededRandom   random(5, 0, 0);
   for (Eigen::Index i = 0; i < Tiles; ++i)
   {
-    light(i) = 1000.0 * (1.0 - LargestShare * static_cast<double>(i) / static_cast<double>(Tiles));
+    light(i) = 1000.0 * (1.0 - LargestFraction * static_cast<double>(i) / static_cast<double>(Tiles));
     Eigen::VectorXd variances(Frames);
     for (Eigen::Index t = 0; t < Frames; ++t)
     {

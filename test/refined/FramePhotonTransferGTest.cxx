@@ -121,7 +121,7 @@ TEST(SensorNoiseFramePhotonTransfer, IsNotMovedByWhatTilesDifferBy)
   Eigen::MatrixXd     squares = plain.SquaresDn2();
   for (Eigen::Index i = 0; i < Tiles; ++i)
   {
-    squares.row(i) += 20.0 * static_cast<double>(i) * plain.LeftShare().transpose();
+    squares.row(i) += 20.0 * static_cast<double>(i) * plain.RemainingFraction().transpose();
   }
   const FrameEnergies uneven(squares, plain.LightDn(), plain.Pixels(), BasisOf(Gamma()));
   const VarianceLine  line = FitFramePhotonTransfer(uneven, { Gamma(), OffsetDn, ZeroDn }, LineOf(1.0, 0.0)).line;
@@ -203,7 +203,7 @@ TEST(SensorNoiseFrameNoise, IsOneForAllFramesAndNamesTheOthers)
 {
   const TileLevels levels(Gamma(), OffsetDn, ZeroDn);
   const auto       judge = [&](const FrameEnergies & energies) {
-    return JudgeFrameNoise(
+    return GroupFramesByNoise(
       NoiseOfFrames(energies, levels, LineOf(Gain, InterceptDn2), 0.0), 0.01, InRefined.leastUnlikeNoise);
   };
   const Eigen::VectorXd plain = NoiseOfFrames(Energies(Gamma(), Exactly), levels, LineOf(Gain, InterceptDn2), 0.0);
@@ -229,8 +229,8 @@ TEST(SensorNoiseFrameNoise, OfTwoKindsMakesGroups)
   // Two halves that differ by 20 %: the value between them is 10 % from either, and none of the frames has it.
   const TileLevels levels(Gamma(), OffsetDn, ZeroDn);
   const auto       energies = Energies(Gamma(), [](Eigen::Index, Eigen::Index t) { return t % 2 == 0 ? 1.0 : 1.2; });
-  const FrameNoise found =
-    JudgeFrameNoise(NoiseOfFrames(energies, levels, LineOf(Gain, InterceptDn2), 0.0), 0.01, InRefined.leastUnlikeNoise);
+  const FrameNoise found = GroupFramesByNoise(
+    NoiseOfFrames(energies, levels, LineOf(Gain, InterceptDn2), 0.0), 0.01, InRefined.leastUnlikeNoise);
   ASSERT_EQ(found.groups.size(), 2U);
   EXPECT_EQ(found.groups[0].frames.size(), 10U);
   EXPECT_EQ(found.groups[1].frames.size(), 10U);
@@ -239,7 +239,7 @@ TEST(SensorNoiseFrameNoise, OfTwoKindsMakesGroups)
               1.2,
               0.05);
   EXPECT_EQ(found.unlike, found.groups[1].frames);
-  EXPECT_TRUE(found.HasSeveralKinds());
+  EXPECT_TRUE(found.HasSeveralGroups());
 }
 
 TEST(SensorNoiseFrameNoise, ThatVariesWithoutGroupsIsScatter)
@@ -247,8 +247,8 @@ TEST(SensorNoiseFrameNoise, ThatVariesWithoutGroupsIsScatter)
   const TileLevels levels(Gamma(), OffsetDn, ZeroDn);
   const auto       energies = Energies(
     Gamma(), [](Eigen::Index, Eigen::Index t) { return std::exp(0.05 * static_cast<double>((7 * t) % Frames - 10)); });
-  const FrameNoise found =
-    JudgeFrameNoise(NoiseOfFrames(energies, levels, LineOf(Gain, InterceptDn2), 0.0), 0.01, InRefined.leastUnlikeNoise);
+  const FrameNoise found = GroupFramesByNoise(
+    NoiseOfFrames(energies, levels, LineOf(Gain, InterceptDn2), 0.0), 0.01, InRefined.leastUnlikeNoise);
   EXPECT_TRUE(found.unlike.empty());
   EXPECT_GT(found.scatter, InRefined.leastUnlikeNoise);
 }

@@ -45,12 +45,12 @@ LineOf(double gain, double gainError)
 /** What the passes found of a sensor of 1 DN/e-, 100 DN and 8 DN. */
 struct Found
 {
-  RefinedSettings     settings;
-  StillScene          scene;
-  SceneSeries         series;
-  StaticVariance      variance;
-  PolishedSeries      polished;
-  std::vector<double> corrected;
+  RefinedSettings       settings;
+  StaticScene           scene;
+  SceneSeries           series;
+  StaticVariance        variance;
+  ReestimatedComponents reestimated;
+  std::vector<double>   corrected;
 
   explicit Found(double gainError = 0.002)
   {
@@ -74,7 +74,7 @@ struct Found
   GainEstimate
   Estimate(double blackDn = OffsetDn) const
   {
-    return EstimateGain({ settings, scene, series, variance, polished, corrected, blackDn });
+    return EstimateGain({ settings, scene, series, variance, reestimated, corrected, blackDn });
   }
 };
 } // namespace
@@ -83,7 +83,7 @@ TEST(SensorNoiseGainEstimate, StraightSensorKeepsItsLineAndItsErrors)
 {
   const GainEstimate estimate = Found().Estimate();
   EXPECT_EQ(estimate.line.gain, 1.0);
-  EXPECT_FALSE(estimate.IsBent());
+  EXPECT_FALSE(estimate.IsNonlinear());
   EXPECT_EQ(estimate.nonlinearity, 0.0);
   EXPECT_EQ(estimate.RelativeModelError(), 0.0);
   EXPECT_NEAR(estimate.StandardError(), 0.002, 1e-12);
@@ -96,12 +96,12 @@ TEST(SensorNoiseGainEstimate, LineIsChosenByErrorsAndNeverByValues)
   for (const double lightGain : { 0.9, 1.0, 1.1 })
   {
     Found found;
-    found.variance.fromLight = LineOf(lightGain, 0.005);
+    found.variance.instrumentalLine = LineOf(lightGain, 0.005);
     EXPECT_EQ(found.Estimate().line.gain, 1.0) << lightGain; // no pattern: 0.002 is less
-    found.variance.pattern.gainShare = 0.01;
+    found.variance.pattern.gainFraction = 0.01;
     EXPECT_EQ(found.Estimate().line.gain, lightGain); // 0.01 is more than 0.005
     EXPECT_NEAR(found.Estimate().StandardError(), 0.005, 1e-12);
-    found.variance.pattern.gainShare = 0.004;
+    found.variance.pattern.gainFraction = 0.004;
     const GainEstimate wider = found.Estimate();
     EXPECT_EQ(wider.line.gain, 1.0);
     EXPECT_NEAR(wider.StandardError(), std::hypot(0.002, 0.004), 1e-12); // what the pattern could cause
@@ -119,7 +119,7 @@ TEST(SensorNoiseGainEstimate, BentResponseHasTheMeanGain)
   const GainEstimate estimate = found.Estimate();
   const auto         cubic = FindMeanGain(found.variance.curve, 3);
   ASSERT_TRUE(cubic);
-  EXPECT_TRUE(estimate.IsBent());
+  EXPECT_TRUE(estimate.IsNonlinear());
   EXPECT_EQ(estimate.line.gain, cubic->value);
   EXPECT_EQ(estimate.nonlinearity, found.variance.curve.Nonlinearity(1.0));
   // The interval reaches half of the way to the slope, and a third of the nonlinearity, on either side.
@@ -145,7 +145,7 @@ TEST(SensorNoiseGainEstimate, OneLevelAndADarkPointArePhotonTransfer)
 TEST(SensorNoiseGainEstimate, LevelsThatMayAllBePatternLeaveThePhotonTransfer)
 {
   Found found;
-  found.variance.pattern.gainShare = found.variance.pattern.offsetShare = std::numeric_limits<double>::infinity();
+  found.variance.pattern.gainFraction = found.variance.pattern.offsetFraction = std::numeric_limits<double>::infinity();
   found.settings.offset = KnownOffset{ 90.0, 0.03, 20, DarkVariance{ 50.0, 0.4 } };
   const GainEstimate estimate = found.Estimate();
   const double       light = PivotDn - 90.0;
@@ -175,5 +175,5 @@ TEST(SensorNoiseGainEstimate, LineThatIsNotKnownHasNoDepartures)
   const GainEstimate estimate = found.Estimate(-1e4); // as of a flat field: little of the light differs
   EXPECT_FALSE(estimate.isWide);
   EXPECT_EQ(estimate.nonlinearity, 0.0);
-  EXPECT_FALSE(estimate.IsBent());
+  EXPECT_FALSE(estimate.IsNonlinear());
 }

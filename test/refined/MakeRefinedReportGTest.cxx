@@ -45,7 +45,7 @@ TEST(SensorNoiseMakeRefinedReport, ErrorsOfTheLineNeedNoOffset)
 {
   HandMadeResults results;
   const Report    known = MakeRefinedReport(results.Get());
-  results.polished.line.flickerZ = 0.1;
+  results.reestimated.line.flickerZ = 0.1;
   const Report report = MakeRefinedReport(results.Get());
   EXPECT_EQ(report.offset.status, EstimateStatus::NotIdentifiable);
   ASSERT_TRUE(known.covariance && report.covariance);
@@ -84,7 +84,7 @@ TEST(SensorNoiseMakeRefinedReport, LocalLightIsADriftOrLamps)
   results.MakeLocal();
   EXPECT_TRUE(HasWarning(MakeRefinedReport(results.Get()), WarningCode::LocalLight));
   EXPECT_DOUBLE_EQ(ValueOf(MakeRefinedReport(results.Get()).offset), 102.0);
-  results.polished.isOffsetDrift = true;
+  results.reestimated.isOffsetDrift = true;
   const Report drift = MakeRefinedReport(results.Get());
   EXPECT_TRUE(HasWarning(drift, WarningCode::OffsetDrift));
   EXPECT_FALSE(HasWarning(drift, WarningCode::LocalLight));
@@ -116,7 +116,7 @@ TEST(SensorNoiseMakeRefinedReport, EnlargedFramesLeaveLimitsOfTheGainAndTheLineO
   HandMadeResults results;
   results.correlation.kind = NoiseKind::Enlarged;
   results.correlation.enlargement = EnlargementTrace{ 1, true, false, 0.5, 0.15 };
-  SharedShape & shape = results.correlation.Shape(ShapeOfShared::Variance);
+  WeightedShape & shape = results.correlation.Shape(CovarianceShape::Variance);
   shape = { { 3.0, 0.0 }, 1.0, 1.0, 0.0, 0.0, 0.0 };
   const Report report = MakeRefinedReport(results.Get());
   EXPECT_EQ(report.gain.status, EstimateStatus::NotIdentifiable);
@@ -137,7 +137,7 @@ TEST(SensorNoiseMakeRefinedReport, RefusalKeepsWhatDarkFramesTell)
 {
   HandMadeResults results;
   results.settings.offset = KnownOffset{ 97.0, 0.2, 20, DarkVariance{ 81.0, 0.3 } };
-  const Report report = MakeRefusal(
+  const Report report = MakeFailedReport(
     results.settings, results.scene, results.scene.pixelUse, NothingToMeasure("nothing", WarningCode::CodesTooCoarse));
   EXPECT_TRUE(HasWarning(report, WarningCode::CodesTooCoarse));
   EXPECT_FALSE(report.IsUsable());

@@ -31,7 +31,7 @@ static_assert(Width * Height > 2 * ProjectionSums::SlabPixels, "the frames have 
 
 /** Noise of 1 DN/e- and 10 DN^2 on waves, in light that flickers: everywhere alike, or in bands of rows. */
 Stack<Codes>
-FramesOf(bool isLightLocal)
+FramesOf(bool isIlluminationLocal)
 {
   Stack<Codes>                    stack{ Width, Height, Frames, {} };
   std::minstd_rand                random(19);
@@ -41,7 +41,8 @@ FramesOf(bool isLightLocal)
   {
     for (std::size_t y = 0; y < Height; ++y)
     {
-      const double phase = 1.7 * static_cast<double>(t * t) + (isLightLocal ? static_cast<double>(y) / 60.0 : 0.0);
+      const double phase =
+        1.7 * static_cast<double>(t * t) + (isIlluminationLocal ? static_cast<double>(y) / 60.0 : 0.0);
       const double brightness = 1.0 + 0.04 * std::sin(phase);
       for (std::size_t x = 0; x < Width; ++x)
       {

@@ -37,7 +37,7 @@ struct Results : HandMadeResults
   bool
   IsRefused(const std::string & reason) const
   {
-    return this->Estimate().obstacle.rfind(reason, 0) == 0 && !reason.empty();
+    return this->Estimate().failureReason.rfind(reason, 0) == 0 && !reason.empty();
   }
 };
 } // namespace
@@ -45,7 +45,7 @@ struct Results : HandMadeResults
 TEST(SensorNoiseOffsetEstimate, FlickerTellsItWithItsInterval)
 {
   const OffsetEstimate offset = Results().Estimate();
-  EXPECT_EQ(offset.obstacle, "");
+  EXPECT_EQ(offset.failureReason, "");
   EXPECT_DOUBLE_EQ(offset.valueDn, 100.0);
   EXPECT_DOUBLE_EQ(offset.standardErrorDn, 0.5);
   EXPECT_DOUBLE_EQ(*offset.interval.low, 99.0);
@@ -55,12 +55,12 @@ TEST(SensorNoiseOffsetEstimate, FlickerTellsItWithItsInterval)
 TEST(SensorNoiseOffsetEstimate, PatternOfOffsetsWidensItInProportionToTheLight)
 {
   Results results;
-  results.variance.pattern.offsetShare = 0.01; // of 1,000 DN: 10 DN
+  results.variance.pattern.offsetFraction = 0.01; // of 1,000 DN: 10 DN
   const OffsetEstimate offset = results.Estimate();
   EXPECT_DOUBLE_EQ(offset.standardErrorDn, std::hypot(0.5, 10.0));
   EXPECT_DOUBLE_EQ(*offset.interval.low, 99.0 - 19.6);
   EXPECT_DOUBLE_EQ(*offset.interval.high, 101.0 + 19.6);
-  results.variance.pattern.offsetShare = 1e-4; // 0.1 DN: a fifth of the error
+  results.variance.pattern.offsetFraction = 1e-4; // 0.1 DN: a fifth of the error
   EXPECT_DOUBLE_EQ(results.Estimate().standardErrorDn, 0.5);
 }
 
@@ -78,14 +78,14 @@ TEST(SensorNoiseOffsetEstimate, WhatKeepsTheFlickerFromTellingItIsSaid)
     change(results);
     return results.IsRefused(reason);
   };
-  EXPECT_TRUE(refusedWith([](Results & r) { r.polished.line.contrast = 0.9; }, "the scene has one intensity"));
-  EXPECT_TRUE(refusedWith([](Results & r) { r.polished.line.isLevelMotion = true; }, "the scene is a ramp"));
-  EXPECT_TRUE(refusedWith([](Results & r) { r.polished.line.flickerZ = 6.0; }, "the flicker"));
-  EXPECT_TRUE(refusedWith([](Results & r) { r.polished.line.low = -std::numeric_limits<double>::infinity(); },
+  EXPECT_TRUE(refusedWith([](Results & r) { r.reestimated.line.contrast = 0.9; }, "the scene has one intensity"));
+  EXPECT_TRUE(refusedWith([](Results & r) { r.reestimated.line.isLevelMotion = true; }, "the scene is a ramp"));
+  EXPECT_TRUE(refusedWith([](Results & r) { r.reestimated.line.flickerZ = 6.0; }, "the flicker"));
+  EXPECT_TRUE(refusedWith([](Results & r) { r.reestimated.line.low = -std::numeric_limits<double>::infinity(); },
                           "the flicker leaves the offset without bounds"));
   // A quarter of 3,000 DN.
-  EXPECT_TRUE(refusedWith([](Results & r) { r.polished.line.high = -250.9; }, "the interval of the offset"));
-  EXPECT_FALSE(refusedWith([](Results & r) { r.polished.line.high = -251.1; }, "the interval of the offset"));
+  EXPECT_TRUE(refusedWith([](Results & r) { r.reestimated.line.high = -250.9; }, "the interval of the offset"));
+  EXPECT_FALSE(refusedWith([](Results & r) { r.reestimated.line.high = -251.1; }, "the interval of the offset"));
 }
 
 TEST(SensorNoiseOffsetEstimate, LimitsHoldButForThreeOfItsErrors)
@@ -94,29 +94,29 @@ TEST(SensorNoiseOffsetEstimate, LimitsHoldButForThreeOfItsErrors)
   results.limits.highestDn = 98.4; // 1.6 DN below: 3.2 errors
   EXPECT_TRUE(results.IsRefused("the level that does not flicker, 100 DN"));
   results.limits.highestDn = 98.6;
-  EXPECT_EQ(results.Estimate().obstacle, "");
+  EXPECT_EQ(results.Estimate().failureReason, "");
   results.limits.highestDn = 150.0;
   results.limits.lowestDn = 101.6;
   EXPECT_TRUE(results.IsRefused("the level that does not flicker, 100 DN"));
   // The error of the intercept, 0.1 DN^2 over a gain of 1 DN/e-, moves that end, too.
   results.gain.covariance(1, 1) = 0.01;
-  EXPECT_EQ(results.Estimate().obstacle, "");
+  EXPECT_EQ(results.Estimate().failureReason, "");
 }
 
 TEST(SensorNoiseOffsetEstimate, WhereLightIsLocalTheResponsesToItTell)
 {
   Results results;
   results.MakeLocal();
-  results.polished.line.flickerZ = 0.0; // no flicker of the whole frame is needed
+  results.reestimated.line.flickerZ = 0.0; // no flicker of the whole frame is needed
   const OffsetEstimate offset = results.Estimate();
-  EXPECT_EQ(offset.obstacle, "");
+  EXPECT_EQ(offset.failureReason, "");
   EXPECT_DOUBLE_EQ(offset.valueDn, 102.0);
   EXPECT_DOUBLE_EQ(offset.standardErrorDn, 1.0);
-  results.polished.localOffset->phi = 4.1;
+  results.reestimated.localOffset->phi = 4.1;
   EXPECT_TRUE(results.IsRefused("the lamps do not agree on one offset"));
-  results.polished.localOffset.reset();
+  results.reestimated.localOffset.reset();
   EXPECT_TRUE(results.IsRefused("the illumination changes differently over the frame"));
-  results.polished.isOffsetDrift = true; // then it is no light, and the flicker counts
+  results.reestimated.isOffsetDrift = true; // then it is no light, and the flicker counts
   EXPECT_TRUE(results.IsRefused("the flicker"));
 }
 
@@ -124,11 +124,11 @@ TEST(SensorNoiseOffsetEstimate, OffsetInUseIsKnownOrToldOrInTheMiddleOfTheLimits
 {
   Results    results;
   const auto inUse = [&results] {
-    return OffsetInUse(results.Get(), results.gain, results.Estimate(), results.limits);
+    return ChooseOffset(results.Get(), results.gain, results.Estimate(), results.limits);
   };
   EXPECT_DOUBLE_EQ(inUse().valueDn, 100.0);
   EXPECT_DOUBLE_EQ(inUse().errorDn, 0.5);
-  results.polished.line.flickerZ = 0.0;
+  results.reestimated.line.flickerZ = 0.0;
   EXPECT_DOUBLE_EQ(inUse().valueDn, 100.0); // of 50 to 150 DN, as likely everywhere
   EXPECT_DOUBLE_EQ(inUse().errorDn, 100.0 / std::sqrt(12.0));
   results.settings.offset = KnownOffset{ 97.0, 0.2 };

@@ -27,7 +27,7 @@ Line(double gain, double interceptDn2, double pivotDn)
   line.weightSum = 7.0;
   line.curvature = 1e-5;
   line.curvatureSd = 2e-5;
-  line.noiseSpreadDn4 = 3.0;
+  line.noiseDispersionDn4 = 3.0;
   line.isDetermined = true;
   return line;
 }
@@ -39,7 +39,7 @@ LinesThrough(TFunction varianceAt)
 {
   SensorLines lines;
   lines.all = Line(Gain, InterceptDn2, 900.0);
-  lines.fromLight = Line(1.1 * Gain, 0.9 * InterceptDn2, 800.0);
+  lines.instrumentalLine = Line(1.1 * Gain, 0.9 * InterceptDn2, 800.0);
   lines.curve.line = lines.all;
   for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
   {
@@ -69,18 +69,18 @@ VarianceOf(const VarianceCurve & curve, std::size_t b)
 }
 
 void
-SetShape(NoiseCorrelation & correlation, ShapeOfShared which, const MeasuredNumber & coefficient, double probability)
+SetShape(NoiseCorrelation & correlation, CovarianceShape which, const MeasuredNumber & coefficient, double probability)
 {
-  SharedShape & shape = correlation.Shape(which);
+  WeightedShape & shape = correlation.Shape(which);
   shape = { coefficient, probability };
-  shape.ofVariance = which == ShapeOfShared::Variance ? 1.0 : 0.0;
-  shape.ofLight = which == ShapeOfShared::Light ? 1.0 : 0.0;
-  shape.ofSquare = which == ShapeOfShared::Square ? 1.0 : 0.0;
+  shape.ofVariance = which == CovarianceShape::Variance ? 1.0 : 0.0;
+  shape.ofLight = which == CovarianceShape::Light ? 1.0 : 0.0;
+  shape.ofSquare = which == CovarianceShape::Square ? 1.0 : 0.0;
 }
 
 /** What is shared, all of one shape. */
 NoiseCorrelation
-Sharing(ShapeOfShared shape, double coefficient, double standardError = 0.0)
+Sharing(CovarianceShape shape, double coefficient, double standardError = 0.0)
 {
   NoiseCorrelation correlation;
   SetShape(correlation, shape, { coefficient, standardError }, 1.0);
@@ -91,12 +91,12 @@ Sharing(ShapeOfShared shape, double coefficient, double standardError = 0.0)
 TEST(SensorNoiseSensorLines, WithoutSharingTheyAreThoseOfThePixels)
 {
   const SensorLines lines = StraightLines();
-  const SensorLines sensor = WithSharedNoise(lines, {}, BlackDn, CodesDn2);
+  const SensorLines sensor = AddCovariances(lines, {}, BlackDn, CodesDn2);
   EXPECT_DOUBLE_EQ(sensor.all.gain, lines.all.gain);
   EXPECT_DOUBLE_EQ(sensor.all.intercept, lines.all.intercept);
-  EXPECT_DOUBLE_EQ(sensor.fromLight.gain, lines.fromLight.gain);
+  EXPECT_DOUBLE_EQ(sensor.instrumentalLine.gain, lines.instrumentalLine.gain);
   EXPECT_EQ(sensor.all.covariance, lines.all.covariance);
-  EXPECT_EQ(sensor.errorOfShared.norm(), 0.0);
+  EXPECT_EQ(sensor.covarianceOfCorrelation.norm(), 0.0);
   for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
   {
     EXPECT_NEAR(VarianceOf(sensor.curve, b), VarianceOf(lines.curve, b), 1e-9);
@@ -109,15 +109,15 @@ TEST(SensorNoiseSensorLines, AFilterScalesTheVarianceWithoutTheCodesNoise)
 {
   constexpr double  shared = 1.5;
   const SensorLines lines = StraightLines();
-  const auto        correlation = Sharing(ShapeOfShared::Variance, shared);
-  const SensorLines sensor = WithSharedNoise(lines, correlation, BlackDn, CodesDn2);
+  const auto        correlation = Sharing(CovarianceShape::Variance, shared);
+  const SensorLines sensor = AddCovariances(lines, correlation, BlackDn, CodesDn2);
   constexpr double  factor = 1.0 + shared;
   EXPECT_DOUBLE_EQ(FilterFactor(correlation), factor);
   EXPECT_NEAR(sensor.all.gain, factor * Gain, 1e-12);
   EXPECT_NEAR(sensor.all.intercept, factor * (InterceptDn2 - CodesDn2) + CodesDn2, 1e-12);
   EXPECT_NEAR(sensor.all.intercept, VarianceOfSensor(InterceptDn2, correlation, CodesDn2), 1e-12);
   EXPECT_LT((sensor.all.covariance - factor * factor * lines.all.covariance).norm(), 1e-12);
-  EXPECT_NEAR(sensor.fromLight.gain, factor * lines.fromLight.gain, 1e-12);
+  EXPECT_NEAR(sensor.instrumentalLine.gain, factor * lines.instrumentalLine.gain, 1e-12);
   for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
   {
     const double variance = VarianceOf(lines.curve, b);
@@ -129,10 +129,10 @@ TEST(SensorNoiseSensorLines, AFilterScalesTheVarianceWithoutTheCodesNoise)
 
 TEST(SensorNoiseSensorLines, FramesThatAreMixedScaleItToo)
 {
-  auto correlation = Sharing(ShapeOfShared::Variance, 0.5);
+  auto correlation = Sharing(CovarianceShape::Variance, 0.5);
   correlation.timeFactor = { 3.0, 0.0 };
   EXPECT_DOUBLE_EQ(FilterFactor(correlation), 4.5);
-  const SensorLines sensor = WithSharedNoise(StraightLines(), correlation, BlackDn, CodesDn2);
+  const SensorLines sensor = AddCovariances(StraightLines(), correlation, BlackDn, CodesDn2);
   EXPECT_NEAR(sensor.all.gain, 4.5 * Gain, 1e-12);
   EXPECT_NEAR(sensor.all.intercept, 4.5 * (InterceptDn2 - CodesDn2) + CodesDn2, 1e-12);
 }
@@ -141,7 +141,7 @@ TEST(SensorNoiseSensorLines, CoupledChargeAddsASlopeAboutBlack)
 {
   constexpr double  shared = 0.05;
   const SensorLines lines = StraightLines();
-  const SensorLines sensor = WithSharedNoise(lines, Sharing(ShapeOfShared::Light, shared), BlackDn, CodesDn2);
+  const SensorLines sensor = AddCovariances(lines, Sharing(CovarianceShape::Light, shared), BlackDn, CodesDn2);
   EXPECT_NEAR(sensor.all.gain, Gain + shared, 1e-12);
   EXPECT_NEAR(
     sensor.all.intercept + sensor.all.gain * BlackDn, InterceptDn2 + Gain * BlackDn, 1e-9); // read noise stays
@@ -161,7 +161,7 @@ TEST(SensorNoiseSensorLines, ChargeThatRepelsChargeLeavesALineBehind)
     const double z = level - BlackDn;
     return 30.0 + 0.4 * z - shared * z * z;
   });
-  const SensorLines sensor = WithSharedNoise(lines, Sharing(ShapeOfShared::Square, shared), BlackDn, CodesDn2);
+  const SensorLines sensor = AddCovariances(lines, Sharing(CovarianceShape::Square, shared), BlackDn, CodesDn2);
   for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
   {
     const double z = lines.curve.LevelOf(lines.curve.bins[b]) - BlackDn;
@@ -190,7 +190,7 @@ TEST(SensorNoiseSensorLines, TheLineThroughALossIsMadeTheSensorsOwn)
   const Eigen::Vector2d fitted = square.inverse() * product;
   lines.all.gain = fitted(0);
   lines.all.intercept = fitted(1);
-  const SensorLines sensor = WithSharedNoise(lines, Sharing(ShapeOfShared::Square, shared), BlackDn, CodesDn2);
+  const SensorLines sensor = AddCovariances(lines, Sharing(CovarianceShape::Square, shared), BlackDn, CodesDn2);
   EXPECT_NEAR(sensor.all.gain, 0.4, 1e-9);
   EXPECT_NEAR(sensor.all.intercept + sensor.all.gain * BlackDn, 30.0, 1e-6);
 }
@@ -199,55 +199,56 @@ TEST(SensorNoiseSensorLines, WhatIsNotKnownOfTheSharingIsAnErrorOfGainAndInterce
 {
   const SensorLines lines = StraightLines();
   const auto        filtered =
-    WithSharedNoise(lines, Sharing(ShapeOfShared::Variance, 1.5, 0.02), BlackDn, CodesDn2).errorOfShared;
+    AddCovariances(lines, Sharing(CovarianceShape::Variance, 1.5, 0.02), BlackDn, CodesDn2).covarianceOfCorrelation;
   EXPECT_NEAR(std::sqrt(filtered(0, 0)), 0.02 * Gain, 1e-12);
   EXPECT_NEAR(std::sqrt(filtered(1, 1)), 0.02 * (InterceptDn2 - CodesDn2), 1e-12);
   EXPECT_NEAR(filtered(0, 1), 4e-4 * Gain * (InterceptDn2 - CodesDn2), 1e-12);
   const auto coupled =
-    WithSharedNoise(lines, Sharing(ShapeOfShared::Light, 0.05, 0.002), BlackDn, CodesDn2).errorOfShared;
+    AddCovariances(lines, Sharing(CovarianceShape::Light, 0.05, 0.002), BlackDn, CodesDn2).covarianceOfCorrelation;
   EXPECT_NEAR(std::sqrt(coupled(0, 0)), 0.002, 1e-12);
   EXPECT_NEAR(coupled(0, 1), -4e-6 * BlackDn, 1e-12);
 
   // Two shapes, as likely: the gain may be either.
   NoiseCorrelation both;
-  SetShape(both, ShapeOfShared::Variance, { 0.2, 0.0 }, 0.5);
-  SetShape(both, ShapeOfShared::Light, { 0.06, 0.0 }, 0.5);
-  const SensorLines sensor = WithSharedNoise(lines, both, BlackDn, CodesDn2);
+  SetShape(both, CovarianceShape::Variance, { 0.2, 0.0 }, 0.5);
+  SetShape(both, CovarianceShape::Light, { 0.06, 0.0 }, 0.5);
+  const SensorLines sensor = AddCovariances(lines, both, BlackDn, CodesDn2);
   EXPECT_NEAR(sensor.all.gain, Gain + 0.5 * (0.2 * Gain + 0.06), 1e-12);
-  EXPECT_NEAR(std::sqrt(sensor.errorOfShared(0, 0)), 0.5 * (0.2 * Gain - 0.06), 1e-12);
+  EXPECT_NEAR(std::sqrt(sensor.covarianceOfCorrelation(0, 0)), 0.5 * (0.2 * Gain - 0.06), 1e-12);
 
   // Half of the dark noise lies behind the filter, or all of it: the same gain, other intercepts.
   NoiseCorrelation part;
-  SetShape(part, ShapeOfShared::Variance, { 1.0, 0.0 }, 0.5);
+  SetShape(part, CovarianceShape::Variance, { 1.0, 0.0 }, 0.5);
   const double darkDn2 = InterceptDn2 + Gain * BlackDn - CodesDn2;
-  part.Shape(ShapeOfShared::FirstPart) = { { 1.0, 0.0 }, 0.5, 1.0, 0.0, 0.0, -0.5 * darkDn2 };
-  const SensorLines between = WithSharedNoise(lines, part, BlackDn, CodesDn2);
+  part.Shape(CovarianceShape::FirstPart) = { { 1.0, 0.0 }, 0.5, 1.0, 0.0, 0.0, -0.5 * darkDn2 };
+  const SensorLines between = AddCovariances(lines, part, BlackDn, CodesDn2);
   EXPECT_NEAR(between.all.gain, 2.0 * Gain, 1e-12);
   EXPECT_NEAR(between.all.At(BlackDn), 1.75 * darkDn2 + CodesDn2, 1e-9);
   const Eigen::Vector2d atBlack(BlackDn, 1.0);
-  EXPECT_NEAR(std::sqrt(atBlack.dot(between.errorOfShared * atBlack)), 0.25 * darkDn2, 1e-9);
+  EXPECT_NEAR(std::sqrt(atBlack.dot(between.covarianceOfCorrelation * atBlack)), 0.25 * darkDn2, 1e-9);
   EXPECT_NEAR(VarianceOfSensor(darkDn2 + CodesDn2, part, CodesDn2), between.all.At(BlackDn), 1e-9);
-  EXPECT_NEAR(SpreadOfShapes(darkDn2 + CodesDn2, part, CodesDn2), 0.25 * darkDn2, 1e-9);
+  EXPECT_NEAR(StandardDeviationOfShapes(darkDn2 + CodesDn2, part, CodesDn2), 0.25 * darkDn2, 1e-9);
 
   NoiseCorrelation mixed;
   mixed.timeFactor = { 3.0, 0.06 };
   EXPECT_NEAR(
-    std::sqrt(WithSharedNoise(lines, mixed, BlackDn, CodesDn2).errorOfShared(0, 0)), 0.02 * 3.0 * Gain, 1e-12);
+    std::sqrt(AddCovariances(lines, mixed, BlackDn, CodesDn2).covarianceOfCorrelation(0, 0)), 0.02 * 3.0 * Gain, 1e-12);
   NoiseCorrelation wide;
   wide.beyondReach = 0.01; // of the variance, not of the sum
-  EXPECT_NEAR(std::sqrt(WithSharedNoise(lines, wide, BlackDn, CodesDn2).errorOfShared(0, 0)), 0.01 * Gain, 1e-12);
+  EXPECT_NEAR(
+    std::sqrt(AddCovariances(lines, wide, BlackDn, CodesDn2).covarianceOfCorrelation(0, 0)), 0.01 * Gain, 1e-12);
 }
 
 TEST(SensorNoiseSensorLines, NoiseOfWholeRowsIsNotThePixelsOwn)
 {
-  NoiseCorrelation correlation = Sharing(ShapeOfShared::Variance, 1.5);
+  NoiseCorrelation correlation = Sharing(CovarianceShape::Variance, 1.5);
   correlation.rowsDn2 = { 4.0, 0.1 };
   correlation.columnsDn2 = { 0.3, 0.1 }; // not seen
   const SensorLines lines = StraightLines();
-  const SensorLines sensor = WithSharedNoise(lines, correlation, BlackDn, CodesDn2);
+  const SensorLines sensor = AddCovariances(lines, correlation, BlackDn, CodesDn2);
   EXPECT_NEAR(sensor.all.gain, 2.5 * Gain, 1e-12);
   EXPECT_NEAR(sensor.all.intercept, 2.5 * (InterceptDn2 - CodesDn2 - 4.0) + CodesDn2, 1e-12);
   EXPECT_NEAR(VarianceOfSensor(InterceptDn2, correlation, CodesDn2), sensor.all.intercept, 1e-12);
   EXPECT_NEAR(VarianceOf(sensor.curve, 5), 2.5 * (VarianceOf(lines.curve, 5) - CodesDn2 - 4.0) + CodesDn2, 1e-9);
-  EXPECT_NEAR(std::sqrt(sensor.errorOfShared(1, 1)), 2.5 * 0.1, 1e-12);
+  EXPECT_NEAR(std::sqrt(sensor.covarianceOfCorrelation(1, 1)), 2.5 * 0.1, 1e-12);
 }

@@ -87,9 +87,9 @@ TEST(SensorNoiseGuardBand, UnderStrongChangesTheLevelsThatAreReachedDecide)
   scene.codes.clipLowDn = 505.0;
   scene.codes.clipHighDn = 2200.0;
   scene.codes.quantisationStepDn = 4.0;
-  const ProvisionalModel & model = scene.frames.model;
-  const double             signal = model.centreDn - 500.0;
-  const auto               guardedAbout = [&](double lowest, double highest) {
+  const InitialNoiseModel & model = scene.frames.model;
+  const double              signal = model.centreDn - 500.0;
+  const auto                guardedAbout = [&](double lowest, double highest) {
     constexpr double        none = std::numeric_limits<double>::infinity();
     const IlluminationRange range{ -0.9 * signal, signal, lowest, highest, none };
     return FindGuardBand(scene.frames.reference, model, scene.codes, range, SerialFor, 3.0);

@@ -26,7 +26,7 @@ constexpr std::size_t Height = 60;
 
 /** A frame whose variance is that of \a truth, but for \a spoiled pixels of 50 times as much. */
 ReferenceFrame
-FrameOf(const ProvisionalModel & truth, std::size_t every = 0)
+FrameOf(const InitialNoiseModel & truth, std::size_t every = 0)
 {
   ReferenceFrame frame = SyntheticFrames(Width, Height, std::vector<FrameChange>(40)).reference;
   const auto &   stencils = MotionStencils();
@@ -44,10 +44,10 @@ FrameOf(const ProvisionalModel & truth, std::size_t every = 0)
   return frame;
 }
 
-ProvisionalModel
+InitialNoiseModel
 Truth(double darkestDn)
 {
-  ProvisionalModel truth;
+  InitialNoiseModel truth;
   truth.darkestDn = darkestDn;
   truth.interceptDn2 = 300.0;
   truth.slopeDn = 1.5;
@@ -59,9 +59,9 @@ Truth(double darkestDn)
 }
 
 void
-ExpectTruth(const ProvisionalModel & model)
+ExpectTruth(const InitialNoiseModel & model)
 {
-  const ProvisionalModel truth = Truth(model.darkestDn);
+  const InitialNoiseModel truth = Truth(model.darkestDn);
   EXPECT_NEAR(model.interceptDn2, truth.interceptDn2, 1e-6);
   EXPECT_NEAR(model.slopeDn, truth.slopeDn, 1e-8);
   EXPECT_NEAR(model.flickerVariance, truth.flickerVariance, 1e-10);
@@ -71,24 +71,24 @@ ExpectTruth(const ProvisionalModel & model)
 }
 } // namespace
 
-TEST(SensorNoiseProvisionalModel, VarianceOfTheModelIsRecoveredExactly)
+TEST(SensorNoiseInitialNoiseModel, VarianceOfTheModelIsRecoveredExactly)
 {
-  const double darkest = FitProvisionalModel(FrameOf(Truth(300.0))).darkestDn; // of the mean alone
-  ExpectTruth(FitProvisionalModel(FrameOf(Truth(darkest))));
+  const double darkest = FitInitialNoiseModel(FrameOf(Truth(300.0))).darkestDn; // of the mean alone
+  ExpectTruth(FitInitialNoiseModel(FrameOf(Truth(darkest))));
 }
 
-TEST(SensorNoiseProvisionalModel, PixelsFarAboveTheModelAreTrimmed)
+TEST(SensorNoiseInitialNoiseModel, PixelsFarAboveTheModelAreTrimmed)
 {
-  const double darkest = FitProvisionalModel(FrameOf(Truth(300.0))).darkestDn;
-  ExpectTruth(FitProvisionalModel(FrameOf(Truth(darkest), 20)));
+  const double darkest = FitInitialNoiseModel(FrameOf(Truth(300.0))).darkestDn;
+  ExpectTruth(FitInitialNoiseModel(FrameOf(Truth(darkest), 20)));
 }
 
-TEST(SensorNoiseProvisionalModel, LevelsAreThoseOfTheUsablePixels)
+TEST(SensorNoiseInitialNoiseModel, LevelsAreThoseOfTheUsablePixels)
 {
-  const ReferenceFrame   frame = FrameOf(Truth(300.0));
-  const ProvisionalModel model = FitProvisionalModel(frame);
-  std::vector<double>    means;
-  double                 sum = 0.0;
+  const ReferenceFrame    frame = FrameOf(Truth(300.0));
+  const InitialNoiseModel model = FitInitialNoiseModel(frame);
+  std::vector<double>     means;
+  double                  sum = 0.0;
   for (std::size_t p = 0; p < frame.mean.size(); ++p)
   {
     if (frame.usable[p] != 0)
@@ -106,9 +106,9 @@ TEST(SensorNoiseProvisionalModel, LevelsAreThoseOfTheUsablePixels)
   EXPECT_NEAR(static_cast<double>(brighter), 0.002 * pixels, 1.0);
 }
 
-TEST(SensorNoiseProvisionalModel, NoiseIsNeverBelowTheDarkestLevels)
+TEST(SensorNoiseInitialNoiseModel, NoiseIsNeverBelowTheDarkestLevels)
 {
-  const ProvisionalModel truth = Truth(300.0);
+  const InitialNoiseModel truth = Truth(300.0);
   EXPECT_EQ(truth.NoiseVariance(300.0), 300.0);
   EXPECT_EQ(truth.NoiseVariance(-1e6), 300.0);
   EXPECT_EQ(truth.NoiseVariance(400.0), 300.0 + 150.0);
@@ -116,14 +116,14 @@ TEST(SensorNoiseProvisionalModel, NoiseIsNeverBelowTheDarkestLevels)
   EXPECT_DOUBLE_EQ(truth.RawVariance(400.0, 2.0, 3.0), 450.0 + 2e-3 * 1e4 + 0.012 + 0.009 - 2.0 * 0.0005 * 6.0);
 }
 
-TEST(SensorNoiseProvisionalModel, FewPixelsAreAnErrorThatSaysHowMany)
+TEST(SensorNoiseInitialNoiseModel, FewPixelsAreAnErrorThatSaysHowMany)
 {
   ReferenceFrame frame = FrameOf(Truth(300.0));
   std::fill(frame.usable.begin(), frame.usable.end(), std::uint8_t{ 0 });
   std::fill_n(frame.usable.begin() + 5 * Width + 2, 60, std::uint8_t{ 1 });
   try
   {
-    FitProvisionalModel(frame);
+    FitInitialNoiseModel(frame);
     FAIL();
   }
   catch (const NothingToMeasure & error)
@@ -132,7 +132,7 @@ TEST(SensorNoiseProvisionalModel, FewPixelsAreAnErrorThatSaysHowMany)
   }
 }
 
-TEST(SensorNoiseProvisionalModel, SampleTakesEveryNthPixelOfTheMask)
+TEST(SensorNoiseInitialNoiseModel, SampleTakesEveryNthPixelOfTheMask)
 {
   std::mt19937 random(17);
   for (const std::size_t pixels : { 1, 15, 16, 17, 1003, 4096 })
@@ -163,7 +163,7 @@ TEST(SensorNoiseProvisionalModel, SampleTakesEveryNthPixelOfTheMask)
   }
 }
 
-TEST(SensorNoiseProvisionalModel, SampleIsEvenAndKeepsAllOfASmallFrame)
+TEST(SensorNoiseInitialNoiseModel, SampleIsEvenAndKeepsAllOfASmallFrame)
 {
   std::vector<std::uint8_t> mask(1000, 0);
   for (std::size_t p = 0; p < mask.size(); p += 2)
@@ -183,7 +183,7 @@ TEST(SensorNoiseProvisionalModel, SampleIsEvenAndKeepsAllOfASmallFrame)
   }
 }
 
-TEST(SensorNoiseProvisionalModel, BinsHaveEqualCountsAndMedians)
+TEST(SensorNoiseInitialNoiseModel, BinsHaveEqualCountsAndMedians)
 {
   std::vector<double> values;
   for (int i = 0; i < 320; ++i)

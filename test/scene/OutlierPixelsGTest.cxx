@@ -37,11 +37,11 @@ TEST(SensorNoiseUnexplainedPixels, AreThoseFarAboveTheModel)
   {
     setRatio(p, 1.0);
   }
-  EXPECT_EQ(Count(FindUnexplained(frame, frames.model, SerialFor)), 0u);
+  EXPECT_EQ(Count(FindOutlierPixels(frame, frames.model, SerialFor)), 0u);
   const std::size_t lonely = 20 * Width + 20;
   setRatio(lonely, 3.1);
   setRatio(lonely + 10, 2.9);
-  const auto alone = FindUnexplained(frame, frames.model, SerialFor);
+  const auto alone = FindOutlierPixels(frame, frames.model, SerialFor);
   EXPECT_EQ(Count(alone), 1u);
   EXPECT_EQ(alone[lonely], 1);
   // A spot that moves takes along the pixels in it whose variance is small by chance, and is told from single pixels.
@@ -52,7 +52,7 @@ TEST(SensorNoiseUnexplainedPixels, AreThoseFarAboveTheModel)
       setRatio(y * Width + x, (x + y) % 3 == 0 ? 1.0 : 10.0);
     }
   }
-  const auto moving = FindUnexplained(frame, frames.model, SerialFor);
+  const auto moving = FindOutlierPixels(frame, frames.model, SerialFor);
   for (std::size_t y = 30; y < 37; ++y)
   {
     for (std::size_t x = 30; x < 37; ++x)

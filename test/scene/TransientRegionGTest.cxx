@@ -30,7 +30,7 @@ using Excess = std::function<double(double x, double y, double meanDn)>;
 ReferenceFrame
 FrameWith(const Excess & excess, std::size_t size = Size)
 {
-  ProvisionalModel truth;
+  InitialNoiseModel truth;
   truth.darkestDn = 300.0;
   truth.interceptDn2 = 300.0;
   truth.slopeDn = 1.5;
@@ -59,7 +59,7 @@ FrameWith(const Excess & excess, std::size_t size = Size)
 std::vector<std::uint8_t>
 FindIn(const ReferenceFrame & frame)
 {
-  return FindCrossedRegion(frame, FitProvisionalModel(frame));
+  return FindTransientRegion(frame, FitInitialNoiseModel(frame));
 }
 
 /** A thing of 1,000 DN that hides every pixel it reaches for a quarter of the burst. */
@@ -86,12 +86,12 @@ ShareOfRows(const std::vector<std::uint8_t> & region, double top, double bottom)
 }
 } // namespace
 
-TEST(SensorNoiseCrossedRegion, StaticSceneHasNone)
+TEST(SensorNoiseTransientRegion, StaticSceneHasNone)
 {
   EXPECT_TRUE(FindIn(FrameWith([](double, double, double) { return 0.0; })).empty());
 }
 
-TEST(SensorNoiseCrossedRegion, IsFoundWhereMostOfTheFrameIsCrossed)
+TEST(SensorNoiseTransientRegion, IsFoundWhereMostOfTheFrameIsCrossed)
 {
   for (const double top : { 1.0 / 3.0, 0.25, 0.5 })
   {
@@ -103,7 +103,7 @@ TEST(SensorNoiseCrossedRegion, IsFoundWhereMostOfTheFrameIsCrossed)
   }
 }
 
-TEST(SensorNoiseCrossedRegion, ThingAsBrightAsWhatItHidesLeavesNoIslands)
+TEST(SensorNoiseTransientRegion, ThingAsBrightAsWhatItHidesLeavesNoIslands)
 {
   const auto region = FindIn(FrameWith([](double x, double y, double mean) {
     const bool isIsland = std::hypot(x - 0.5, y - 0.7) < 0.06;
@@ -113,7 +113,7 @@ TEST(SensorNoiseCrossedRegion, ThingAsBrightAsWhatItHidesLeavesNoIslands)
   EXPECT_EQ(ShareOfRows(region, 1.0 / 3.0, 1.0), 1.0);
 }
 
-TEST(SensorNoiseCrossedRegion, VerdictDoesNotDependOnTheNumberOfPixels)
+TEST(SensorNoiseTransientRegion, VerdictDoesNotDependOnTheNumberOfPixels)
 {
   for (const std::size_t size : { std::size_t{ 96 }, std::size_t{ 384 } })
   {
@@ -126,7 +126,7 @@ TEST(SensorNoiseCrossedRegion, VerdictDoesNotDependOnTheNumberOfPixels)
   }
 }
 
-TEST(SensorNoiseCrossedRegion, LightThatDiffersOverTheFrameIsNone)
+TEST(SensorNoiseTransientRegion, LightThatDiffersOverTheFrameIsNone)
 {
   // A third of the frame has steady light, the rest flickers by 9 %.
   EXPECT_TRUE(FindIn(FrameWith([](double, double y, double mean) {
@@ -136,7 +136,7 @@ TEST(SensorNoiseCrossedRegion, LightThatDiffersOverTheFrameIsNone)
                 .empty());
 }
 
-TEST(SensorNoiseCrossedRegion, SmallThingsAreLeftToTheLaterPasses)
+TEST(SensorNoiseTransientRegion, SmallThingsAreLeftToTheLaterPasses)
 {
   EXPECT_TRUE(FindIn(FrameWith([](double x, double y, double mean) {
                 return std::hypot(x - 0.5, y - 0.5) < 0.15 ? Hidden(mean) : 0.0;
@@ -144,7 +144,7 @@ TEST(SensorNoiseCrossedRegion, SmallThingsAreLeftToTheLaterPasses)
                 .empty());
 }
 
-TEST(SensorNoiseCrossedRegion, FrameOfWhichLittleIsStillIsLeftAlone)
+TEST(SensorNoiseTransientRegion, FrameOfWhichLittleIsStillIsLeftAlone)
 {
   // A corner of 6 % is still, of which 3 % are no neighbours of what moves.
   EXPECT_TRUE(FindIn(FrameWith([](double x, double y, double mean) {

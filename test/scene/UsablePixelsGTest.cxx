@@ -34,7 +34,7 @@ struct Scene
   UsablePixels
   Find(const std::vector<double> & frameMeans = std::vector<double>(Frames, 950.0)) const
   {
-    return LeaveOutCoarseAndGuarded(frames.reference, frames.model, codes, frameMeans, pixelUse, SerialFor);
+    return ExcludeCoarseAndGuarded(frames.reference, frames.model, codes, frameMeans, pixelUse, SerialFor);
   }
 };
 
@@ -75,7 +75,7 @@ TEST(SensorNoiseUsablePixels, WithoutCodesAllServe)
   EXPECT_EQ(found.usable, scene.frames.reference.usable);
   EXPECT_EQ(found.pixelUse, scene.pixelUse);
   EXPECT_EQ(found.count, static_cast<double>((Width - 4) * (Height - 4)));
-  EXPECT_NO_THROW(RequireFineCodes(found, 0.0));
+  EXPECT_NO_THROW(RequireFineQuantization(found, 0.0));
 }
 
 TEST(SensorNoiseUsablePixels, GuardedAndCoarsePixelsAreLeftOut)
@@ -111,12 +111,12 @@ TEST(SensorNoiseUsablePixels, CoarseCodesAreRefusedAboveAFifth)
   found.count = 700.0;
   found.nearClip = 100;
   found.coarse = 200;
-  EXPECT_NO_THROW(RequireFineCodes(found, 4.0));
+  EXPECT_NO_THROW(RequireFineQuantization(found, 4.0));
   found.nearClip = 99;
   found.coarse = 201;
   try
   {
-    RequireFineCodes(found, 4.0);
+    RequireFineQuantization(found, 4.0);
     FAIL();
   }
   catch (const NothingToMeasure & error)

@@ -38,10 +38,10 @@ struct Cells
     prediction.variance.assign(pixels.size(), 10.0);
     prediction.keep.assign(pixels.size(), 1);
   }
-  VarianceCells
+  VarianceTiles
   Make() const
   {
-    return VarianceCells(sample, pixels, { Width, Height, 1 }, Frames);
+    return VarianceTiles(sample, pixels, { Width, Height, 1 }, Frames);
   }
   /** Calls function(pixel) for the pixels of a cell. */
   template <typename TFunction>
@@ -59,7 +59,7 @@ struct Cells
 };
 } // namespace
 
-TEST(SensorNoiseVarianceCells, AreJudgedByTheirMedianAndByCrowdsFarAbove)
+TEST(SensorNoiseVarianceTiles, AreJudgedByTheirMedianAndByCrowdsFarAbove)
 {
   Cells input;
   input.ForCell(1, 0, [&](std::size_t p) { input.sample.raw[p] *= 1.5; });
@@ -67,10 +67,10 @@ TEST(SensorNoiseVarianceCells, AreJudgedByTheirMedianAndByCrowdsFarAbove)
   input.ForCell(3, 0, [&](std::size_t p) { input.sample.raw[p] *= 1.3; });
   input.ForCell(4, 1, [&](std::size_t p) { input.prediction.keep[p] = p % 8 < 2 ? 0 : 1; }); // a quarter
   input.ForCell(5, 1, [&](std::size_t p) { input.prediction.keep[p] = p % 8 < 1 ? 0 : 1; }); // an eighth
-  const VarianceCells cells = input.Make();
+  const VarianceTiles cells = input.Make();
   ASSERT_EQ(cells.Columns(), 8u);
   ASSERT_EQ(cells.Rows(), 4u);
-  const JudgedCells judged = cells.Judge(input.prediction);
+  const TileComparison judged = cells.Judge(input.prediction);
   EXPECT_EQ(judged.fits[0], CellFit::Fits);
   EXPECT_EQ(judged.fits[1], CellFit::Above);
   EXPECT_EQ(judged.fits[2], CellFit::Below);
@@ -82,17 +82,17 @@ TEST(SensorNoiseVarianceCells, AreJudgedByTheirMedianAndByCrowdsFarAbove)
   EXPECT_DOUBLE_EQ(judged.fitting, 29.0 / 32.0);
 }
 
-TEST(SensorNoiseVarianceCells, FewPixelsTellNothing)
+TEST(SensorNoiseVarianceTiles, FewPixelsTellNothing)
 {
   Cells input;
   input.pixels.resize(7); // all in the first cell
   input.sample.raw.resize(7);
-  const JudgedCells judged = input.Make().Judge(input.prediction);
+  const TileComparison judged = input.Make().Judge(input.prediction);
   EXPECT_EQ(judged.fits, std::vector<CellFit>(32, CellFit::Unknown));
   EXPECT_EQ(judged.fitting + judged.below + judged.above, 0.0);
 }
 
-TEST(SensorNoiseVarianceCells, LightChangesPixelsInProportionToTheirLevel)
+TEST(SensorNoiseVarianceTiles, LightChangesPixelsInProportionToTheirLevel)
 {
   Cells      input;
   const auto levelOf = [&](std::size_t p) { return 100.0 * input.sample.TermsOf(p)(1); };
@@ -101,8 +101,8 @@ TEST(SensorNoiseVarianceCells, LightChangesPixelsInProportionToTheirLevel)
   input.ForCell(1, 0, [&](std::size_t p) { input.sample.raw[p] += input.median * 0.01 * levelOf(p) * levelOf(p); });
   input.ForCell(
     2, 2, [&](std::size_t p) { input.sample.raw[p] += 0.04 * (100.0 - levelOf(p)) * (100.0 - levelOf(p)); });
-  const VarianceCells cells = input.Make();
-  JudgedCells         judged = cells.Judge(input.prediction);
+  const VarianceTiles cells = input.Make();
+  TileComparison      judged = cells.Judge(input.prediction);
   for (const std::size_t c : { 0, 1, 18 })
   {
     EXPECT_EQ(judged.fits[c], CellFit::Above) << c;
@@ -110,7 +110,7 @@ TEST(SensorNoiseVarianceCells, LightChangesPixelsInProportionToTheirLevel)
   EXPECT_DOUBLE_EQ(cells.FindLight(judged, input.prediction, 2.5).explained, 2.0 / 3.0);
   judged.fits[18] = CellFit::Unknown;
   judged.fits[1] = CellFit::Unknown;
-  const LightOfCells light = cells.FindLight(judged, input.prediction, 2.5);
+  const IlluminationTest light = cells.FindLight(judged, input.prediction, 2.5);
   EXPECT_EQ(light.explained, 1.0);
   EXPECT_NEAR(light.modulation, 0.2, 0.01); // the median stands for the mean to 1 %
 }

@@ -104,9 +104,9 @@ TEST(SensorNoiseCellNoise, ShotFractionsOfDarkFramesAreUnbiased)
 TEST(SensorNoiseCellNoise, WhitenedResidualsAreWhite)
 {
   const auto largestOverEdge = [](const Eigen::MatrixXd & rest) {
-    const double          freedom = static_cast<double>(Frames) - 2.0;
-    const double          variance = rest.squaredNorm() / (freedom * static_cast<double>(Cells));
-    const double          edge = variance * std::pow(std::sqrt(freedom) + std::sqrt(static_cast<double>(Cells)), 2);
+    const double          dof = static_cast<double>(Frames) - 2.0;
+    const double          variance = rest.squaredNorm() / (dof * static_cast<double>(Cells));
+    const double          edge = variance * std::pow(std::sqrt(dof) + std::sqrt(static_cast<double>(Cells)), 2);
     const Eigen::MatrixXd gram = rest * rest.transpose();
     return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff() / edge;
   };

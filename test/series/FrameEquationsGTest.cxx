@@ -244,7 +244,7 @@ TEST(SensorNoiseFrameEquations, OneIntensityLeavesTheLightAlone)
   const std::vector<double> mean(pixels, 500.0);
   const ReferenceFrame      frame = MakeReferenceFrame(
     mean, std::vector<double>(pixels, 50.0), std::vector<std::uint8_t>(pixels, 1), { Width, Height, 1 }, 24);
-  ProvisionalModel model;
+  InitialNoiseModel model;
   model.interceptDn2 = 30.0;
   model.centreDn = 200.0;
   ShiftInstruments instruments{ mean, mean, mean };

@@ -234,7 +234,7 @@ TEST(SensorNoiseOffsetLine, RampTellsTheFlickerWhateverTheLevel)
     const auto line = FitOffsetLine(sums, {});
     ASSERT_TRUE(line) << across;
     EXPECT_TRUE(line->isLevelMotion) << across;
-    EXPECT_FALSE(line->TellsOffset()) << across;
+    EXPECT_FALSE(line->DeterminesOffset()) << across;
     for (std::size_t t = 0; t < changes.size(); ++t)
     {
       EXPECT_NEAR(line->gamma[t], changes[t].slope, 1e-9) << across << ' ' << t;

@@ -36,7 +36,7 @@ FrameRegressors::WeightedColumns
 ColumnsAt(const FrameRegressors & regressors, std::size_t p)
 {
   const ReferenceFrame &           frame = regressors.GetFrame();
-  const ProvisionalModel &         model = regressors.GetModel();
+  const InitialNoiseModel &        model = regressors.GetModel();
   const ShiftInstruments &         instruments = regressors.GetInstruments();
   const auto                       derivatives = ApplyStencils(frame.mean.data(), Width, p);
   const double                     noise = model.NoiseVariance(frame.neighbourMean[p]);

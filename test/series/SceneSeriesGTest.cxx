@@ -35,7 +35,7 @@ TEST(SensorNoiseSceneSeries, FlickerTellsTheOffset)
   // 6 standard errors.
   EXPECT_NEAR(series.offset + frames.model.centreDn, 120.0, 6.0 * series.line.standardError);
   EXPECT_EQ(series.local.series.cols(), 0);
-  EXPECT_EQ(series.basis.NumberOfLightFactors(), 1u);
+  EXPECT_EQ(series.basis.NumberOfIlluminationFactors(), 1u);
   EXPECT_GE(series.basis.Size(), 1 + series.motion.stencils.size());
 }
 
@@ -66,11 +66,11 @@ TEST(SensorNoiseSceneSeries, OneIntensityTellsTheFlickerAboutAKnownOffset)
     sums.AddFrames(frame.data(), t, 1, SerialFor);
   }
   const SceneSeries blind = FindSceneSeries(sums, RollingShutter::Auto);
-  EXPECT_FALSE(blind.isOffsetTold);
+  EXPECT_FALSE(blind.isOffsetIdentifiable);
   EXPECT_EQ(blind.line.contrast, 0.0);
   EXPECT_EQ(blind.offset, 0.0 - 500.0); // about black
   const SceneSeries known = FindSceneSeries(sums, RollingShutter::Auto, 100.0);
-  EXPECT_FALSE(known.isOffsetTold);
+  EXPECT_FALSE(known.isOffsetIdentifiable);
   EXPECT_EQ(known.offset, 100.0 - 500.0);
   ASSERT_EQ(known.line.gamma.size(), changes.size());
   for (std::size_t t = 0; t < changes.size(); ++t)

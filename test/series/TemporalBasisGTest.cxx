@@ -77,7 +77,7 @@ TEST(SensorNoiseTemporalBasis, IsOrthonormalAndOrthogonalToTheConstant)
 {
   const TemporalBasis basis = BasisOf(Normal(Frames, 9, 1), 2);
   ASSERT_EQ(basis.Size(), 9u);
-  EXPECT_EQ(basis.NumberOfLightFactors(), 3u);
+  EXPECT_EQ(basis.NumberOfIlluminationFactors(), 3u);
   const Eigen::MatrixXd & q = basis.GetBasis();
   EXPECT_LT((q.transpose() * q - Eigen::MatrixXd::Identity(9, 9)).cwiseAbs().maxCoeff(), 1e-14);
   EXPECT_LT(q.colwise().sum().cwiseAbs().maxCoeff(), 1e-14);
@@ -126,7 +126,7 @@ TEST(SensorNoiseTemporalBasis, LightAloneHasTheCoordinatesOfTheWhole)
   const TemporalBasis basis = BasisOf(Normal(Frames, 9, 3), 2);
   const TemporalBasis light = basis.OfLight();
   ASSERT_EQ(light.Size(), 3u);
-  EXPECT_EQ(light.NumberOfLightFactors(), 3u);
+  EXPECT_EQ(light.NumberOfIlluminationFactors(), 3u);
   EXPECT_EQ(light.GetBasis(), basis.GetBasis().leftCols(3));
   const Eigen::VectorXd y = 30.0 * Normal(Frames, 1, 4).array() + 3000.0;
   EXPECT_EQ(CoordinatesOf(light, y.eval()), CoordinatesOf(basis, y.eval()).head(3).eval());
@@ -169,7 +169,7 @@ TEST(SensorNoiseTemporalBasis, SeriesThatAddNothingAreLeftOut)
   series.col(5) = series.col(2) - series.col(3);
   const TemporalBasis basis = BasisOf(series, 1);
   EXPECT_EQ(basis.Size(), 3u);
-  EXPECT_EQ(basis.NumberOfLightFactors(), 1u);
+  EXPECT_EQ(basis.NumberOfIlluminationFactors(), 1u);
   EXPECT_EQ(TemporalBasis().Size(), 0u);
 }
 
@@ -179,7 +179,7 @@ TEST(SensorNoiseTemporalBasis, ShortBurstKeepsTheLightAndEnoughDegreesOfFreedom)
   const TemporalBasis   basis = BasisOf(series, 2);
   EXPECT_GE(basis.Size(), 3u);
   EXPECT_LE(static_cast<double>(basis.Size()), 0.6 * static_cast<double>(Frames - 2));
-  EXPECT_EQ(basis.NumberOfLightFactors(), 3u);
+  EXPECT_EQ(basis.NumberOfIlluminationFactors(), 3u);
 }
 
 TEST(SensorNoiseTemporalBasis, MotionColumnsAreTheCoefficientsAndTheirProducts)

@@ -64,8 +64,8 @@ CheckPoisson(double mean)
   }
   chiSquare += (found - expected) * (found - expected) / expected;
   // Exceeded with probability below exp(-14) = 1e-6 (Laurent and Massart, Ann. Statist. 28(5), 2000, lemma 1).
-  const double freedom = classes;
-  EXPECT_LT(chiSquare, freedom + 2.0 * std::sqrt(14.0 * freedom) + 2.0 * 14.0);
+  const double dof = classes;
+  EXPECT_LT(chiSquare, dof + 2.0 * std::sqrt(14.0 * dof) + 2.0 * 14.0);
 }
 } // namespace
 

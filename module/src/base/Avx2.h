@@ -8,7 +8,7 @@ namespace sensornoise
 
 /** Returns whether loops may use AVX2: on x86-64, SIMD vectors of 32 bytes instead of 16. */
 inline bool
-HasWideVectors()
+HasAvx2()
 {
 #if defined(__GNUC__) && defined(__x86_64__)
   return __builtin_cpu_supports("avx2");
@@ -32,13 +32,13 @@ CallWithWideVectors(const TFunction & function)
 } // namespace detail
 
 /** Calls function(), a loop whose time is spent in arithmetic, compiled for the SIMD instructions of the processor; see
- * HasWideVectors(). The bits are the same on all processors. */
+ * HasAvx2(). The bits are the same on all processors. */
 template <typename TFunction>
 void
-WithWideVectors(const TFunction & function)
+CallWithAvx2(const TFunction & function)
 {
 #if defined(__GNUC__) && defined(__x86_64__)
-  if (HasWideVectors())
+  if (HasAvx2())
   {
     detail::CallWithWideVectors(function);
     return;

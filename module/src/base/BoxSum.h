@@ -154,7 +154,7 @@ ForBoxBands(std::size_t height, const ParallelFor & parallelFor, TFunction funct
 {
   constexpr std::size_t band = 64; // number of rows
   parallelFor((height + band - 1) / band,
-              [&](std::size_t b) { WithWideVectors([&] { function(b * band, std::min(height, (b + 1) * band)); }); });
+              [&](std::size_t b) { CallWithAvx2([&] { function(b * band, std::min(height, (b + 1) * band)); }); });
 }
 
 /** Calls use(y, sums) with the box sums of every row; \a makeSource() returns the source of a BoxRows. */

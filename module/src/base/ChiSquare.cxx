@@ -17,7 +17,7 @@ namespace
 {
 
 void
-CheckDegreesOfFreedom(double dof)
+RequireDof(double dof)
 {
   if (!(dof > 0.0) || !std::isfinite(dof))
   {
@@ -80,7 +80,7 @@ SolveTail(double probability, bool isUpper, double start, TTails tails, TSlope s
 double
 SolveChiSquare(double lower, double upper, double dof)
 {
-  CheckDegreesOfFreedom(dof);
+  RequireDof(dof);
   if (lower == 0.0 || upper == 0.0)
   {
     return lower == 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
@@ -111,21 +111,21 @@ SolveChiSquare(double lower, double upper, double dof)
 double
 ChiSquareCdf(double x, double dof)
 {
-  CheckDegreesOfFreedom(dof);
+  RequireDof(dof);
   return GammaTails(0.5 * dof, 0.5 * x).lower;
 }
 
 double
 ChiSquareUpper(double x, double dof)
 {
-  CheckDegreesOfFreedom(dof);
+  RequireDof(dof);
   return GammaTails(0.5 * dof, 0.5 * x).upper;
 }
 
 double
 StudentCdf(double t, double dof)
 {
-  CheckDegreesOfFreedom(dof);
+  RequireDof(dof);
   if (t == 0.0 || std::isnan(t))
   {
     return t == 0.0 ? 0.5 : t;
@@ -191,7 +191,7 @@ ChiSquareUpperQuantile(double probability, double dof)
 double
 StudentQuantile(double probability, double dof)
 {
-  CheckDegreesOfFreedom(dof);
+  RequireDof(dof);
   CheckProbability(probability);
   const double upper = 2.0 * std::min(probability, 1.0 - probability);
   const double sign = probability < 0.5 ? -1.0 : 1.0;

@@ -23,7 +23,7 @@ struct CommonConstants
 
   /** Largest signal of a dark level, as a fraction of the signal of the brightest levels [1]. At levels of 20 to 80 % a
    * gamma of 1.3 deviates from a line by 2 %, and has half the gain. */
-  double darkShare{ 0.1 };
+  double darkFraction{ 0.1 };
 
   /** Least difference of the variances without signal, relative to the larger one, that counts [1]. Chosen by the size
    * of the effect: 5 % of the read noise. */
@@ -31,10 +31,10 @@ struct CommonConstants
 
   /** Fraction of the pixels of a neighbourhood far above the expected variance, from which the whole neighbourhood does
    * not fit [1]. Chosen empirically. */
-  double largestFarShare{ 0.15 };
+  double largestOutlierFraction{ 0.15 };
 
   /** Least fraction of its pixels that a tile or cell needs [1]. Chosen empirically. */
-  double leastCoveredShare{ 0.25 };
+  double leastCoveredFraction{ 0.25 };
 
   /** Smallest ratio of a variance to its expectation from the line [1]: a variance is above 0. Chosen empirically. */
   double leastVarianceRatio{ 0.1 };

@@ -14,7 +14,7 @@ namespace sensornoise
 /** Returns a clause that says why the flicker does not determine the offset. \a flickerZ is the excess of the variance
  * of the flicker over its noise, in standard deviations [1]. */
 inline std::string
-TextOfFaintFlicker(double flickerZ)
+DescribeInsignificantFlicker(double flickerZ)
 {
   return flickerZ > 0.0
            ? "the flicker is only " + RoundedApart(flickerZ, Significance.everyPixel) +

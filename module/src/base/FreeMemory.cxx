@@ -128,7 +128,7 @@ RequireMemory(double bytes, const std::string & what)
 }
 
 void
-GiveBackFreedMemory()
+ReleaseFreedMemory()
 {
 #ifdef __GLIBC__
   malloc_trim(0);

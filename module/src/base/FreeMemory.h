@@ -25,7 +25,7 @@ RequireMemory(double bytes, const std::string & what);
 /** Returns freed memory, which the C library keeps between pieces in use, to the system. Does nothing with C libraries
  * other than glibc. */
 SensorNoise_EXPORT void
-GiveBackFreedMemory();
+ReleaseFreedMemory();
 
 /** Returns a number of bytes as readable text, for example "2.4 GB". */
 SensorNoise_EXPORT std::string

@@ -93,7 +93,7 @@ struct PixelLayout
     this->ForRuns(begin, end, [&](std::size_t p, std::size_t place, std::size_t count) {
       const TPixel * const from = start + place;
       TPixel * const       to = room + (p - begin);
-      WithWideVectors([&] { step == 2 ? CopyEvery<2>(from, count, to) : CopyEvery<1>(from, count, to); });
+      CallWithAvx2([&] { step == 2 ? CopyEvery<2>(from, count, to) : CopyEvery<1>(from, count, to); });
     });
     return room;
   }

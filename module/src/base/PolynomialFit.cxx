@@ -29,7 +29,7 @@ struct NormalSums
   double                              centre{ 0.0 };
   double                              scale{ 1.0 };
   std::size_t                         pixels{ 0 };
-  bool                                isSpread{ false }; // whether the pixels have more than one intensity
+  bool                                hasSeveralIntensities{ false }; // whether the pixels have more than one intensity
 };
 
 /** Mean and variance of the pixels of a run, 0 for pixels that are not used. */
@@ -66,8 +66,8 @@ SumNormal(const RegressionData & data, const ParallelFor & parallelFor, TWeight 
     data.pixels, parallelFor, [&](std::size_t p) { return data.Has(p); }, [&](std::size_t p) { return data.mean[p]; });
   Sums total;
   total.pixels = range.values;
-  total.isSpread = range.highest > range.lowest;
-  if (!total.isSpread)
+  total.hasSeveralIntensities = range.highest > range.lowest;
+  if (!total.hasSeveralIntensities)
   {
     return total;
   }
@@ -77,7 +77,7 @@ SumNormal(const RegressionData & data, const ParallelFor & parallelFor, TWeight 
     RegressionRun run{};
     OfRun         power{};
     ForRuns(begin, end, [&](std::size_t first, std::size_t count) {
-      WithWideVectors([&] {
+      CallWithAvx2([&] {
         run.Take(data, first, count);
         for (std::size_t i = 0; i < count; ++i)
         {
@@ -119,7 +119,7 @@ Solve(const NormalSums<VDegreeOfSums> & sums)
   using Vector = Eigen::Matrix<double, VDegree + 1, 1>;
   PolynomialFit fit;
   fit.pixels = sums.pixels;
-  if (fit.pixels <= VDegree || !sums.isSpread)
+  if (fit.pixels <= VDegree || !sums.hasSeveralIntensities)
   {
     return fit;
   }
@@ -175,7 +175,10 @@ FitLineAndParabola(const RegressionData & data, const ParallelFor & parallelFor)
 }
 
 FitQuality
-JudgeLine(const RegressionData & data, const PolynomialFit & line, std::size_t frames, const ParallelFor & parallelFor)
+EvaluateLineFit(const RegressionData & data,
+                const PolynomialFit &  line,
+                std::size_t            frames,
+                const ParallelFor &    parallelFor)
 {
   FitQuality quality;
   if (!line.isDetermined)
@@ -187,7 +190,7 @@ JudgeLine(const RegressionData & data, const PolynomialFit & line, std::size_t f
     return SumBlocks<1>(data.pixels, parallelFor, [&](std::size_t begin, std::size_t end, auto & sum) {
       RegressionRun run{};
       ForRuns(begin, end, [&](std::size_t first, std::size_t count) {
-        WithWideVectors([&] {
+        CallWithAvx2([&] {
           run.Take(data, first, count);
           sum[0] += SumOfRun(count, [&](std::size_t i) {
             const double own = term(run.mean[i], run.variance[i]);

@@ -72,10 +72,10 @@ struct FitQuality
 /** Computes the quality of the fit of \a line. A sample variance of T frames has the variance 2 V^2 / (T-1), with V the
  * value of the line. */
 SensorNoise_EXPORT FitQuality
-JudgeLine(const RegressionData & data,
-          const PolynomialFit &  line,
-          std::size_t            frames,
-          const ParallelFor &    parallelFor = SerialFor);
+EvaluateLineFit(const RegressionData & data,
+                const PolynomialFit &  line,
+                std::size_t            frames,
+                const ParallelFor &    parallelFor = SerialFor);
 
 } // namespace sensornoise
 

@@ -53,7 +53,7 @@ AddAxis(const NoiseResiduals &     residuals,
     {
       const std::size_t at = axis == 0 ? origin.x + x : origin.y + p / tiles.side;
       const std::size_t k = axis * BlockPhases::Period + at % BlockPhases::Period;
-      sums.covariance[k] += products[p] * std::sqrt(w) / residuals.GetFreedom();
+      sums.covariance[k] += products[p] * std::sqrt(w) / residuals.GetDof();
       sums.pairs[k] += 1.0;
     }
   }
@@ -84,7 +84,7 @@ SumBlockPhases(const NoiseResiduals & residuals, const ParallelFor & parallelFor
 }
 
 double
-SpreadOfPhases(const std::vector<BlockPhases> & tiles)
+RmsOfPhases(const std::vector<BlockPhases> & tiles)
 {
   const JackknifeEstimate estimate = Jackknife(tiles, Differences);
   const Eigen::VectorXd   variances = estimate.covariance.diagonal();

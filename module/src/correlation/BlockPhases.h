@@ -38,7 +38,7 @@ SumBlockPhases(const NoiseResiduals & residuals, const ParallelFor & parallelFor
 /** Returns the root mean square deviation of the phases' coefficients from the mean of their axis, without the part
  * that statistical scatter explains [1]. */
 SensorNoise_EXPORT double
-SpreadOfPhases(const std::vector<BlockPhases> & tiles);
+RmsOfPhases(const std::vector<BlockPhases> & tiles);
 
 } // namespace sensornoise
 

@@ -18,11 +18,11 @@ namespace
 double
 LightOf(const DistantSums & far)
 {
-  const double squares = far.constant * far.lightSquare;
+  const double squares = far.constant * far.signalSquare;
   const double determinant = squares - far.light * far.light;
   if (determinant > InCorrelation.leastSpread * squares)
   {
-    return (far.constant * far.lightCovariance - far.light * far.covariance) / determinant;
+    return (far.constant * far.signalCovariance - far.light * far.covariance) / determinant;
   }
   return far.light > 0.0 ? far.covariance / far.light : 0.0;
 }
@@ -48,11 +48,11 @@ CommonNoise::TakeOff(LagSums sums, const Lag & lag) const
 }
 
 CommonNoise
-FindCommonNoise(const SharedLight & sums)
+FindCommonNoise(const DistantCovariance & sums)
 {
   CommonNoise common;
   common.light = LightOf(sums.far);
-  for (std::size_t d = 0; d < SharedLight::Lines; ++d)
+  for (std::size_t d = 0; d < DistantCovariance::Lines; ++d)
   {
     common.rows[d] = ConstantOf(sums.rows[d], common.light);
     common.columns[d] = ConstantOf(sums.columns[d], common.light);

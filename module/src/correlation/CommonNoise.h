@@ -16,12 +16,12 @@ namespace sensornoise
  * neighbours is evaluated. */
 struct CommonNoise
 {
-  double light{ 0.0 };                              ///< residual illumination: the coefficient of the squared signal
-                                                    ///< [1]
-  std::array<double, SharedLight::Lines> rows{};    ///< covariance of pixels this many rows apart, and far apart along
-                                                    ///< the rows [DN^2]
-  std::array<double, SharedLight::Lines> columns{}; ///< covariance of pixels this many columns apart, and far apart
-                                                    ///< along the columns [DN^2]
+  double light{ 0.0 };                                 ///< residual illumination: the coefficient of the squared signal
+                                                       ///< [1]
+  std::array<double, DistantCovariance::Lines> rows{}; ///< covariance of pixels this many rows apart, and far apart
+                                                       ///< along the rows [DN^2]
+  std::array<double, DistantCovariance::Lines> columns{}; ///< covariance of pixels this many columns apart, and far
+                                                          ///< apart along the columns [DN^2]
 
   /** Returns \a sums, the sums of the spatial lag \a lag, without the common covariance. */
   SensorNoise_EXPORT LagSums
@@ -30,7 +30,7 @@ struct CommonNoise
 
 /** Estimates the common noise from the sums over tiles. */
 SensorNoise_EXPORT CommonNoise
-FindCommonNoise(const SharedLight & sums);
+FindCommonNoise(const DistantCovariance & sums);
 
 } // namespace sensornoise
 

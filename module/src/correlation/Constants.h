@@ -18,30 +18,30 @@ struct CorrelationConstants
   /** Smallest numbers of tiles, pixels and degrees of freedom for a measurement. Chosen empirically. */
   std::size_t leastTiles{ 4 };
   std::size_t leastPixels{ 1024 };
-  double      leastFreedom{ 3.0 };
+  double      leastDof{ 3.0 };
   /** Largest number of intensity bins of equal count in which the variance is averaged, and smallest number of pixels
    * in one bin. Chosen empirically. */
   std::size_t noiseBins{ 32 };
   std::size_t leastPixelsOfBin{ 256 };
   /** The darkest level is taken as the zero of the signal if it lies below this fraction of the range from black to the
    * brightest level [1]: flat fields have no level near black. Chosen empirically. */
-  double darkShare{ 0.3 };
+  double darkFraction{ 0.3 };
   /** Smallest determinant of the two normal equations, relative to the product of their diagonal, for which a component
    * that grows with the signal is separated from a constant one [1]. Below it, the error of either component would be
    * seven times the error of their sum. Chosen empirically. */
   double leastSpread{ 0.05 };
   /** Largest number of tiles whose lines determine the illumination of rows; of more tiles, every n-th line is used.
    * Chosen for its computing time: a thousandth of the time for 100 frames of 512 x 512 pixels. */
-  std::size_t mostTilesOfLineLight{ 32 };
+  std::size_t mostTilesOfLineIllumination{ 32 };
   /** Smallest variance of the signal along a line, relative to its mean square, for which the signal is a regressor
    * beside the constant [1]. It guards against rounding errors, as both regressors are subtracted together. */
-  double leastSpreadOfLine{ 1e-4 };
+  double leastVarianceOfLine{ 1e-4 };
   /** Smallest fraction of a pixel's variance that may remain after the regression along its line [1]. A pixel that
    * makes up half of its line determines the regression, and little of its own noise remains. */
   double leastLeftOfLine{ 0.5 };
   /** Fraction of the variance of row or column noise that the temporal components of the scene may absorb as
    * illumination [1]. Chosen empirically: row noise as large as the read noise loses 3 to 8 %. */
-  double lostToSeries{ 0.04 };
+  double fractionLostToComponents{ 0.04 };
   ///@}
 
   /** \name Detection of spatial noise correlation */
@@ -93,10 +93,10 @@ struct CorrelationConstants
   double evidenceOfPart{ 5.545 };
   /** Largest difference of chi-squares that a curvature of the variance contributes [1], as a non-linear response
    * causes curvature, too. Chosen empirically. */
-  double mostEvidenceOfBend{ 20.0 };
+  double mostEvidenceOfCurvature{ 20.0 };
   /** Largest fraction of that chi-square that may remain when the brighter-fatter effect explains the curvature [1].
    * Chosen empirically. */
-  double largestShareOfBend{ 0.5 };
+  double largestFractionOfCurvature{ 0.5 };
   /** Probability of a constant covariance above which a negative noise correlation is attributed to the rounding of
    * blocks [1]. Chosen empirically. */
   double roundingProbability{ 0.05 };
@@ -106,7 +106,7 @@ struct CorrelationConstants
   /** Largest root mean square by which a negative correlation of nearest neighbours may depend on the position in a
    * block [1]. Chosen empirically: a JPEG of quality 98 makes 0.01. A positive correlation may depend on it: frames
    * may have been binned, or rows read in groups. */
-  double largestSpreadOfPhases{ 0.003 };
+  double largestRmsOfPhases{ 0.003 };
   /** Lowest frequency at which an oscillation of a coefficient is searched [cycles/pixel]: enlargements up to 16 times.
    */
   double leastCyclesPerPixel{ 1.0 / 16.0 };

@@ -30,9 +30,9 @@ namespace sensornoise
 namespace
 {
 double
-LevelWithoutLight(const CorrelationSettings &       settings,
-                  const std::vector<double> &       mean,
-                  const std::vector<std::uint8_t> & take)
+EstimateBlackLevel(const CorrelationSettings &       settings,
+                   const std::vector<double> &       mean,
+                   const std::vector<std::uint8_t> & take)
 {
   if (!std::isnan(settings.offsetDn))
   {
@@ -48,7 +48,7 @@ LevelWithoutLight(const CorrelationSettings &       settings,
     return 0.0;
   }
   const double darkest = Quantile(levels, InCommon.darkestQuantile);
-  return ZeroOfLight(darkest, Quantile(levels, InCommon.brightestQuantile), 0.0);
+  return ZeroOfSignal(darkest, Quantile(levels, InCommon.brightestQuantile), 0.0);
 }
 
 /** Returns the frames of a sample that do not equal an earlier frame. */
@@ -76,11 +76,11 @@ DistinctOf(const NoiseSample & sample)
 
 /** Returns the sums of the sampled pixels in each frame, unweighted and weighted with the signal: frames x 2. */
 Eigen::MatrixXd
-FrameMeansOf(const NoiseSample &               sample,
-             const std::vector<double> &       mean,
-             const std::vector<std::uint8_t> & take,
-             double                            blackDn,
-             const ParallelFor &               parallelFor)
+SumFrames(const NoiseSample &               sample,
+          const std::vector<double> &       mean,
+          const std::vector<std::uint8_t> & take,
+          double                            blackDn,
+          const ParallelFor &               parallelFor)
 {
   const SampleTiles & tiles = sample.GetTiles();
   Eigen::MatrixXd     means = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(tiles.frames), 2);
@@ -138,7 +138,7 @@ SumOverLags(const NoiseCorrelation & correlation, const MeasuredNumber & space)
 }
 
 std::vector<LightNoise>
-LightsOf(const NoiseResiduals & residuals, const NoiseCorrelation & correlation)
+NoiseByLevel(const NoiseResiduals & residuals, const NoiseCorrelation & correlation)
 {
   struct Sums
   {
@@ -146,8 +146,8 @@ LightsOf(const NoiseResiduals & residuals, const NoiseCorrelation & correlation)
     double light{ 0.0 };
     double variance{ 0.0 };
   };
-  std::array<Sums, NoiseResiduals::LightBins> bins;
-  const SampleTiles &                         tiles = residuals.GetTiles();
+  std::array<Sums, NoiseResiduals::IntensityBins> bins;
+  const SampleTiles &                             tiles = residuals.GetTiles();
   for (std::size_t i = 0; i < tiles.origins.size(); ++i)
   {
     for (std::size_t p = 0; p < tiles.Pixels(); ++p)
@@ -163,13 +163,13 @@ LightsOf(const NoiseResiduals & residuals, const NoiseCorrelation & correlation)
     }
   }
   std::vector<LightNoise> lights;
-  const double            shared = SharedSquares(correlation.space) * SharedSquares(correlation.time);
+  const double            shared = VarianceInflation(correlation.space) * VarianceInflation(correlation.time);
   for (std::size_t b = 0; b < bins.size(); ++b)
   {
     if (bins[b].pixels > 0.0)
     {
       const double variance = bins[b].variance / bins[b].pixels;
-      const double error = variance * std::sqrt(2.0 * shared / (residuals.GetFreedom() * bins[b].pixels));
+      const double error = variance * std::sqrt(2.0 * shared / (residuals.GetDof() * bins[b].pixels));
       lights.push_back({ bins[b].light / bins[b].pixels,
                          { variance, error },
                          SumOverLags(correlation, correlation.spaceFactorOfBins[b]) });
@@ -222,10 +222,10 @@ EstimateCorrelation(NoiseSample                       sample,
     taken[p] = taken[p] != 0 && std::isfinite(mean[p]) ? 1 : 0;
   }
   CorrelationEstimate            estimate;
-  const double                   blackDn = LevelWithoutLight(settings, mean, taken);
+  const double                   blackDn = EstimateBlackLevel(settings, mean, taken);
   const std::vector<std::size_t> distinct = DistinctOf(sample);
   sample.KeepFrames(distinct);
-  const Eigen::MatrixXd means = settings.frameMeans ? FrameMeansOf(sample, mean, taken, blackDn, parallelFor)
+  const Eigen::MatrixXd means = settings.frameMeans ? SumFrames(sample, mean, taken, blackDn, parallelFor)
                                                     : Eigen::MatrixXd(static_cast<Eigen::Index>(distinct.size()), 0);
   const double          codesDn2 = settings.quantisationStepDn * settings.quantisationStepDn / 12.0;
   NoiseResiduals        residuals(std::move(sample),
@@ -241,7 +241,7 @@ EstimateCorrelation(NoiseSample                       sample,
   if (correlation.kind != NoiseKind::NotMeasured)
   {
     estimate.sumOverLags = SumOverLags(correlation, correlation.spaceFactor);
-    estimate.lights = LightsOf(residuals, correlation);
+    estimate.lights = NoiseByLevel(residuals, correlation);
   }
   return estimate;
 }

@@ -77,7 +77,7 @@ CorrelationSums::CorrelationSums(const NoiseResiduals & residuals,
   , m_Tiles(residuals.GetTiles().origins.size())
   , m_Lags{ Lag{} }
   , m_OfUnequalFrames(
-      residuals.GetUnequalFrames().GetGain() / residuals.GetFreedom() *
+      residuals.GetUnequalFrames().GetGain() / residuals.GetDof() *
       residuals.GetUnequalFrames().Autocovariance(residuals.GetBasis(), residuals.GetTiles().frames / 3))
 {
   for (int distance = 1; distance <= rings; ++distance)
@@ -90,7 +90,7 @@ CorrelationSums::CorrelationSums(const NoiseResiduals & residuals,
   const LagSummation    lags(residuals, m_Lags);
   const MixtureKurtosis kurtosis(residuals);
   parallelFor(m_Tiles.size(), [&](std::size_t i) {
-    m_Tiles[i].shared = SharedLightOfTile(residuals, i);
+    m_Tiles[i].shared = SumDistantCovariance(residuals, i);
     m_Tiles[i].kurtosis = KurtosisOfTile(residuals, i, kurtosis);
     m_Tiles[i].lags = lags.OfTile(i);
   });
@@ -179,10 +179,10 @@ CorrelationSums::CoefficientOf(const TileSums & sums, const CommonNoise & common
 }
 
 Eigen::VectorXd
-CorrelationSums::SharedInBins(const TileSums & sums, const Lags & lags) const
+CorrelationSums::CovarianceInBins(const TileSums & sums, const Lags & lags) const
 {
   const CommonNoise common = FindCommonNoise(sums.shared);
-  Eigen::VectorXd   shared = Eigen::VectorXd::Zero(NoiseResiduals::LightBins);
+  Eigen::VectorXd   shared = Eigen::VectorXd::Zero(NoiseResiduals::IntensityBins);
   for (const std::size_t k : lags)
   {
     const int     frames = m_Lags[k].t;
@@ -197,10 +197,10 @@ CorrelationSums::SharedInBins(const TileSums & sums, const Lags & lags) const
 }
 
 Eigen::VectorXd
-CorrelationSums::ErrorsInBins(const Lags & lags) const
+CorrelationSums::StandardErrorsInBins(const Lags & lags) const
 {
   const JackknifeEstimate shared =
-    Jackknife(m_Tiles, [&](const TileSums & sums) { return this->SharedInBins(sums, lags); });
+    Jackknife(m_Tiles, [&](const TileSums & sums) { return this->CovarianceInBins(sums, lags); });
   return shared.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
 }
 
@@ -223,7 +223,7 @@ CorrelationSums::Autocovariance(const TileSums & sums, const Eigen::MatrixXd & m
     const PairSums own = this->WithoutUnequalFrames(same, 0);
     found /= 1.0 - Ratio(same.covariance - own.covariance, same.pairs);
   }
-  return mixing.fullPivLu().solve(Eigen::VectorXd(m_Residuals.GetFreedom() * found));
+  return mixing.fullPivLu().solve(Eigen::VectorXd(m_Residuals.GetDof() * found));
 }
 
 } // namespace sensornoise

@@ -25,7 +25,7 @@ namespace sensornoise
 struct TileSums
 {
   std::vector<LagSums> lags;
-  SharedLight          shared;
+  DistantCovariance    shared;
   KurtosisSums         kurtosis;
 
   SensorNoise_EXPORT TileSums &
@@ -106,16 +106,16 @@ public:
   /** Returns the covariance of a pixel with its neighbours at the given and the opposite lags, summed and relative to
    * the variance, in each intensity bin [1]. */
   Eigen::VectorXd
-  SharedInBins(const TileSums & sums, const Lags & lags) const;
-  /** Returns the shapes to which the covariances are compared; \a unfilteredDn2 as in ShapesOfShared [DN^2]. */
-  ShapesOfShared
+  CovarianceInBins(const TileSums & sums, const Lags & lags) const;
+  /** Returns the shapes to which the covariances are compared; \a unfilteredDn2 as in CovarianceShapes [DN^2]. */
+  CovarianceShapes
   ShapesOf(const TileSums & sums, double unfilteredDn2) const
   {
-    return { sums.lags[0], m_Residuals.GetLeastLight(), unfilteredDn2 };
+    return { sums.lags[0], m_Residuals.GetLeastSignal(), unfilteredDn2 };
   }
-  /** Returns the standard errors of SharedInBins() for all tiles together. */
+  /** Returns the standard errors of CovarianceInBins() for all tiles together. */
   Eigen::VectorXd
-  ErrorsInBins(const Lags & lags) const;
+  StandardErrorsInBins(const Lags & lags) const;
   /** Returns the temporal autocovariances at the zero lag and at the temporal lags, relative to the typical variance
    * [1]. \a mixing is the matrix of TemporalMixing(). */
   Eigen::VectorXd

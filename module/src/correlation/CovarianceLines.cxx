@@ -17,7 +17,7 @@ namespace
 Eigen::Vector2d
 FitLineOf(const LagSums & sums)
 {
-  constexpr auto  bins = static_cast<Eigen::Index>(NoiseResiduals::LightBins);
+  constexpr auto  bins = static_cast<Eigen::Index>(NoiseResiduals::IntensityBins);
   Eigen::MatrixXd design = Eigen::MatrixXd::Zero(bins, 2);
   Eigen::VectorXd values = Eigen::VectorXd::Zero(bins);
   for (Eigen::Index b = 0; b < bins; ++b)

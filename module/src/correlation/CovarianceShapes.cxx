@@ -11,7 +11,7 @@ namespace sensornoise
 namespace
 {
 Eigen::Index
-ColumnOf(ShapeOfShared shape)
+ColumnOf(CovarianceShape shape)
 {
   return static_cast<Eigen::Index>(shape);
 }
@@ -22,17 +22,17 @@ double
 VarianceAt(double lightDn, const Eigen::MatrixXd & shapes)
 {
   Eigen::MatrixXd line(shapes.rows(), 2);
-  line << shapes.col(ColumnOf(ShapeOfShared::Light)), shapes.col(ColumnOf(ShapeOfShared::Constant));
-  const Eigen::VectorXd variance = shapes.col(ColumnOf(ShapeOfShared::Variance));
+  line << shapes.col(ColumnOf(CovarianceShape::Light)), shapes.col(ColumnOf(CovarianceShape::Constant));
+  const Eigen::VectorXd variance = shapes.col(ColumnOf(CovarianceShape::Variance));
   const Eigen::VectorXd fit = line.completeOrthogonalDecomposition().solve(variance);
   const double          inverse = line.col(1).maxCoeff();
   return inverse > 0.0 ? std::clamp(fit(0) * lightDn + fit(1), 0.0, 1.0 / inverse) : 0.0;
 }
-constexpr auto FirstPart = static_cast<std::size_t>(ShapeOfShared::FirstPart);
+constexpr auto FirstPart = static_cast<std::size_t>(CovarianceShape::FirstPart);
 } // namespace
 
-ShapesOfShared::ShapesOfShared(const LagSums & own, double leastLightDn, double unfilteredDn2)
-  : m_InBins(Eigen::MatrixXd::Zero(NoiseResiduals::LightBins, NumberOfShapes))
+CovarianceShapes::CovarianceShapes(const LagSums & own, double leastSignalDn, double unfilteredDn2)
+  : m_InBins(Eigen::MatrixXd::Zero(NoiseResiduals::IntensityBins, NumberOfShapes))
 {
   for (std::size_t b = 0; b < own.bins.size(); ++b)
   {
@@ -44,29 +44,29 @@ ShapesOfShared::ShapesOfShared(const LagSums & own, double leastLightDn, double 
       m_InBins.row(row) /= bin.pairs;
     }
   }
-  m_DarkDn2 = VarianceAt(leastLightDn, m_InBins);
+  m_DarkDn2 = VarianceAt(leastSignalDn, m_InBins);
   for (std::size_t k = FirstPart; k < NumberOfShapes; ++k)
   {
     m_InBins.col(static_cast<Eigen::Index>(k)) =
-      m_InBins.col(ColumnOf(ShapeOfShared::Variance)) -
-      this->PartAfterFilter(k) * m_InBins.col(ColumnOf(ShapeOfShared::Constant));
+      m_InBins.col(ColumnOf(CovarianceShape::Variance)) -
+      this->PartAfterFilter(k) * m_InBins.col(ColumnOf(CovarianceShape::Constant));
   }
 }
 
 double
-ShapesOfShared::PartAfterFilter(std::size_t shape) const
+CovarianceShapes::PartAfterFilter(std::size_t shape) const
 {
   return m_DarkDn2 * static_cast<double>(shape + 1 - FirstPart) / static_cast<double>(PartsAfterFilter);
 }
 
-SharedShape
-ShapesOfShared::UnitOf(std::size_t shape) const
+WeightedShape
+CovarianceShapes::UnitOf(std::size_t shape) const
 {
-  SharedShape unit;
-  const bool  isPart = shape >= FirstPart;
-  unit.ofVariance = isPart || shape == static_cast<std::size_t>(ShapeOfShared::Variance) ? 1.0 : 0.0;
-  unit.ofLight = shape == static_cast<std::size_t>(ShapeOfShared::Light) ? 1.0 : 0.0;
-  unit.ofSquare = shape == static_cast<std::size_t>(ShapeOfShared::Square) ? 1.0 : 0.0;
+  WeightedShape unit;
+  const bool    isPart = shape >= FirstPart;
+  unit.ofVariance = isPart || shape == static_cast<std::size_t>(CovarianceShape::Variance) ? 1.0 : 0.0;
+  unit.ofLight = shape == static_cast<std::size_t>(CovarianceShape::Light) ? 1.0 : 0.0;
+  unit.ofSquare = shape == static_cast<std::size_t>(CovarianceShape::Square) ? 1.0 : 0.0;
   unit.constantDn2 = isPart ? -this->PartAfterFilter(shape) : 0.0;
   return unit;
 }

@@ -14,15 +14,15 @@
 namespace sensornoise
 {
 
-/** \class ShapesOfShared
+/** \class CovarianceShapes
  * \brief Predicted dependence of the noise covariance on the signal, for each shape.
  *
- * \a own are the sums of the zero lag. \a leastLightDn is the least possible signal, 0 where black is known [DN].
+ * \a own are the sums of the zero lag. \a leastSignalDn is the least possible signal, 0 where black is known [DN].
  * \a unfilteredDn2 is the variance that no filter has changed, of quantization and line noise [DN^2]. */
-class SensorNoise_EXPORT ShapesOfShared
+class SensorNoise_EXPORT CovarianceShapes
 {
 public:
-  ShapesOfShared(const LagSums & own, double leastLightDn, double unfilteredDn2);
+  CovarianceShapes(const LagSums & own, double leastSignalDn, double unfilteredDn2);
 
   /** Returns the covariance that a coefficient of 1 of each shape makes, relative to the variance: bins x shapes. */
   const Eigen::MatrixXd &
@@ -31,7 +31,7 @@ public:
     return m_InBins;
   }
   /** Returns a shape by its index, without coefficient and probability. */
-  SharedShape
+  WeightedShape
   UnitOf(std::size_t shape) const;
 
 private:

@@ -120,7 +120,7 @@ CellProduct(const CellSums & cells)
 template <std::size_t VSide>
 struct LineProducts
 {
-  std::array<std::array<double, VSide>, SharedLight::Lines> sums{};
+  std::array<std::array<double, VSide>, DistantCovariance::Lines> sums{};
 
   void
   Add(const LineSums<VSide> & lines)
@@ -130,7 +130,7 @@ struct LineProducts
     {
       last[y] = lines[2][y] + lines[3][y];
     }
-    for (std::size_t d = 0; d < SharedLight::Lines; ++d)
+    for (std::size_t d = 0; d < DistantCovariance::Lines; ++d)
     {
       for (std::size_t y = 0; y < VSide - d; ++y)
       {
@@ -163,9 +163,9 @@ struct SegmentProducts
   }
   /** Adds the products, times \a factor, to one member of every DistantSums of \a light. */
   void
-  AddTo(SharedLight & light, double DistantSums::* member, double factor) const
+  AddTo(DistantCovariance & light, double DistantSums::* member, double factor) const
   {
-    for (std::size_t d = 0; d < SharedLight::Lines; ++d)
+    for (std::size_t d = 0; d < DistantCovariance::Lines; ++d)
     {
       light.rows[d].*member += factor * rows.Total(d);
       light.columns[d].*member += factor * columns.Total(d);
@@ -175,15 +175,15 @@ struct SegmentProducts
 };
 
 template <std::size_t VSide>
-SharedLight
+DistantCovariance
 SumTile(const NoiseResiduals & residuals, std::size_t i)
 {
   constexpr std::size_t size = VSide * VSide;
   const std::size_t     frames = residuals.GetTiles().frames;
   const float *         w = residuals.WeightOf(i);
   const float *         z = residuals.LightOf(i);
-  const double          factor = 1.0 / residuals.GetFreedom();
-  SharedLight           light;
+  const double          factor = 1.0 / residuals.GetDof();
+  DistantCovariance     light;
   const auto            addOnce = [&light](double DistantSums::* member, auto valueOf) {
     SegmentSums<VSide>     sums{};
     SegmentProducts<VSide> products;
@@ -193,8 +193,8 @@ SumTile(const NoiseResiduals & residuals, std::size_t i)
   };
   addOnce(&DistantSums::constant, [=](std::size_t p) { return w[p]; });
   addOnce(&DistantSums::light, [=](std::size_t p) { return static_cast<double>(w[p]) * z[p]; });
-  addOnce(&DistantSums::lightSquare, [=](std::size_t p) { return static_cast<double>(w[p]) * z[p] * z[p]; });
-  WithWideVectors([&] {
+  addOnce(&DistantSums::signalSquare, [=](std::size_t p) { return static_cast<double>(w[p]) * z[p] * z[p]; });
+  CallWithAvx2([&] {
     SegmentSums<VSide>     sums{};
     SegmentProducts<VSide> products;
     double                 ofLight = 0.0;
@@ -207,12 +207,12 @@ SumTile(const NoiseResiduals & residuals, std::size_t i)
       ofLight += CellProduct(sums.cells);
     }
     products.AddTo(light, &DistantSums::covariance, factor);
-    light.far.lightCovariance += factor * ofLight;
+    light.far.signalCovariance += factor * ofLight;
   });
   if (residuals.GetLinesTakenOff())
   {
     const bool areRows = *residuals.GetLinesTakenOff() == LineAxis::Rows;
-    for (const float * const share : residuals.LineSharesOf(i)) // restores what the regression removed
+    for (const float * const share : residuals.LineProjectionsOf(i)) // restores what the regression removed
     {
       SegmentSums<VSide>  sums{};
       LineProducts<VSide> products;
@@ -231,13 +231,13 @@ DistantSums::operator+=(const DistantSums & other)
   covariance += other.covariance;
   constant += other.constant;
   light += other.light;
-  lightCovariance += other.lightCovariance;
-  lightSquare += other.lightSquare;
+  signalCovariance += other.signalCovariance;
+  signalSquare += other.signalSquare;
   return *this;
 }
 
-SharedLight &
-SharedLight::operator+=(const SharedLight & other)
+DistantCovariance &
+DistantCovariance::operator+=(const DistantCovariance & other)
 {
   for (std::size_t d = 0; d < Lines; ++d)
   {
@@ -248,8 +248,8 @@ SharedLight::operator+=(const SharedLight & other)
   return *this;
 }
 
-SharedLight
-SharedLightOfTile(const NoiseResiduals & residuals, std::size_t i)
+DistantCovariance
+SumDistantCovariance(const NoiseResiduals & residuals, std::size_t i)
 {
   return residuals.GetTiles().side == SampleTiles::Side ? SumTile<SampleTiles::Side>(residuals, i)
                                                         : SumTile<SampleTiles::SmallSide>(residuals, i);

@@ -17,23 +17,23 @@ namespace sensornoise
  * signals z and covariance y. A prime marks the second pixel. */
 struct DistantSums
 {
-  double covariance{ 0.0 };      ///< sum of w w' y
-  double constant{ 0.0 };        ///< sum of w w'
-  double light{ 0.0 };           ///< sum of w z w' z'
-  double lightCovariance{ 0.0 }; ///< sum of w z w' z' y
-  double lightSquare{ 0.0 };     ///< sum of w z^2 w' z'^2
+  double covariance{ 0.0 };       ///< sum of w w' y
+  double constant{ 0.0 };         ///< sum of w w'
+  double light{ 0.0 };            ///< sum of w z w' z'
+  double signalCovariance{ 0.0 }; ///< sum of w z w' z' y
+  double signalSquare{ 0.0 };     ///< sum of w z^2 w' z'^2
 
   DistantSums &
   operator+=(const DistantSums & other);
 };
 
-/** \struct SharedLight
+/** \struct DistantCovariance
  * \brief Noise covariance of pixels far apart in a tile: noise of whole rows and columns, and illumination that the
  * temporal components left.
  *
  * Neither decreases with the distance, as the covariance of neighbours does. The noise of rows and columns does not
  * depend on the signal. The covariance by residual illumination grows with the squared signal. */
-struct SharedLight
+struct DistantCovariance
 {
   /** Number of distances between rows, or between columns, at which the covariance of lines is evaluated, from 0
    * [pixels]. */
@@ -43,13 +43,13 @@ struct SharedLight
   std::array<DistantSums, Lines> columns; ///< pixels this many columns apart, and far apart along the columns
   DistantSums                    far;     ///< pixels far apart along both axes
 
-  SharedLight &
-  operator+=(const SharedLight & other);
+  DistantCovariance &
+  operator+=(const DistantCovariance & other);
 };
 
 /** Returns the sums of tile \a i. */
-SensorNoise_EXPORT SharedLight
-SharedLightOfTile(const NoiseResiduals & residuals, std::size_t i);
+SensorNoise_EXPORT DistantCovariance
+SumDistantCovariance(const NoiseResiduals & residuals, std::size_t i);
 
 } // namespace sensornoise
 

@@ -42,7 +42,7 @@ struct PlaceSums
     return std::sqrt(square * neighbours);
   }
 };
-using PlaceBins = std::array<PlaceSums, NoiseResiduals::LightBins>;
+using PlaceBins = std::array<PlaceSums, NoiseResiduals::IntensityBins>;
 
 void
 AddBins(const PlaceBins & bins, PlaceBins & sum)

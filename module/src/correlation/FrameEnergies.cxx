@@ -53,16 +53,16 @@ FrameEnergies::FrameEnergies(const NoiseResiduals &            residuals,
   }
   const auto rows = static_cast<Eigen::Index>(filled.size());
   m_SquaresDn2.resize(rows, frames);
-  m_LightDn.resize(rows);
+  m_SignalDn.resize(rows);
   m_Pixels.resize(rows);
   for (Eigen::Index row = 0; row < rows; ++row)
   {
     const Eigen::Index tile = filled[static_cast<std::size_t>(row)];
     m_SquaresDn2.row(row) = squares.col(tile).transpose();
-    m_LightDn(row) = light(tile);
+    m_SignalDn(row) = light(tile);
     m_Pixels(row) = pixels(tile);
   }
-  this->FillLeftShare();
+  this->FillRemainingFraction();
 }
 
 FrameEnergies::FrameEnergies(Eigen::MatrixXd squaresDn2,
@@ -70,17 +70,17 @@ FrameEnergies::FrameEnergies(Eigen::MatrixXd squaresDn2,
                              Eigen::VectorXd pixels,
                              Eigen::MatrixXd basis)
   : m_SquaresDn2(std::move(squaresDn2))
-  , m_LightDn(std::move(lightDn))
+  , m_SignalDn(std::move(lightDn))
   , m_Pixels(std::move(pixels))
   , m_Basis(std::move(basis))
 {
-  this->FillLeftShare();
+  this->FillRemainingFraction();
 }
 
 void
-FrameEnergies::FillLeftShare()
+FrameEnergies::FillRemainingFraction()
 {
-  m_LeftShare = 1.0 - m_Basis.rowwise().squaredNorm().array();
+  m_RemainingFraction = 1.0 - m_Basis.rowwise().squaredNorm().array();
 }
 
 Eigen::VectorXd
@@ -89,7 +89,7 @@ FrameEnergies::ExpectedSquares(const Eigen::VectorXd & variances) const
   // Row t of (Q Q') o (Q Q') times V is q_t' (Q' V Q) q_t.
   const Eigen::MatrixXd inner = m_Basis.transpose() * variances.asDiagonal() * m_Basis;
   const Eigen::VectorXd shared = (m_Basis * inner).cwiseProduct(m_Basis).rowwise().sum();
-  return (2.0 * m_LeftShare.array() - 1.0) * variances.array() + shared.array();
+  return (2.0 * m_RemainingFraction.array() - 1.0) * variances.array() + shared.array();
 }
 
 } // namespace sensornoise

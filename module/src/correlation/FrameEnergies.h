@@ -57,7 +57,7 @@ public:
   const Eigen::VectorXd &
   LightDn() const
   {
-    return m_LightDn;
+    return m_SignalDn;
   }
   /** Returns the number of pixels in each tile. */
   const Eigen::VectorXd &
@@ -71,20 +71,20 @@ public:
   /** Returns the fraction 1 - h_t of the noise variance that remains in the residuals of each frame, for noise that is
    * the same in all frames [1]. */
   const Eigen::VectorXd &
-  LeftShare() const
+  RemainingFraction() const
   {
-    return m_LeftShare;
+    return m_RemainingFraction;
   }
 
 private:
   void
-  FillLeftShare();
+  FillRemainingFraction();
 
   Eigen::MatrixXd m_SquaresDn2;
-  Eigen::VectorXd m_LightDn;
+  Eigen::VectorXd m_SignalDn;
   Eigen::VectorXd m_Pixels;
   Eigen::MatrixXd m_Basis;
-  Eigen::VectorXd m_LeftShare;
+  Eigen::VectorXd m_RemainingFraction;
 };
 
 } // namespace sensornoise

@@ -137,7 +137,7 @@ FrameSample::Restore(std::istream & in)
 }
 
 double
-FrameSample::RepeatedShare(const std::vector<std::uint8_t> & mask, double stepDn) const
+FrameSample::RepeatedFraction(const std::vector<std::uint8_t> & mask, double stepDn) const
 {
   const auto step = static_cast<int>(std::max(1.0, std::round(stepDn)));
   if (m_Codes.empty())
@@ -207,7 +207,7 @@ FrameSample::FillNoise(std::size_t i, const std::vector<double> & mean, NoiseSam
     factors[p] = std::isfinite(own) ? 1.0 : 0.0;
     ofTile[p] = std::isfinite(own) ? own : 0.0;
   }
-  WithWideVectors([&] {
+  CallWithAvx2([&] {
     for (std::size_t t = 0; t < m_Tiles.frames; ++t)
     {
       const std::uint16_t * const codes = m_Codes.data() + m_Tiles.PlaceOf(i, t);

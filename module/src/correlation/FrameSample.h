@@ -86,7 +86,7 @@ public:
    * zeros is at most the squared number of differences of one \a stepDn [DN], over the number of differences of two.
    * Estimator.md, 3.12. */
   double
-  RepeatedShare(const std::vector<std::uint8_t> & mask, double stepDn) const;
+  RepeatedFraction(const std::vector<std::uint8_t> & mask, double stepDn) const;
 
   /** Returns the values above \a mean, the mean of every pixel [DN]. The sample hands over its memory and is empty
    * afterwards. */

@@ -81,7 +81,7 @@ MakeTerms(const RowOfPixels &         here,
           const float *               products,
           const std::vector<double> & shares,
           double                      ofRow,
-          double                      inverseFreedom)
+          double                      inverseDof)
 {
   PairTerms terms{};
   for (std::size_t k = 0; k < shares.size(); ++k)
@@ -91,7 +91,7 @@ MakeTerms(const RowOfPixels &         here,
     const double inverse = share * root;
     const double z = 0.5 * (static_cast<double>(here.light[k]) + there.light[k]);
     terms.pairs[k] = root > 0.0 ? share : 0.0;
-    terms.covariance[k] = inverseFreedom * products[k] * inverse;
+    terms.covariance[k] = inverseDof * products[k] * inverse;
     terms.constant[k] = inverse;
     terms.light[k] = z * inverse;
     terms.square[k] = z * z * inverse;
@@ -121,16 +121,16 @@ AddProductsOfFrames(const float * here, const float * there, std::size_t size, s
 /** Restores the covariance that the regression along lines removed: adds it to the products of a tile's pixels with the
  * pixels \a shift places behind them. */
 void
-AddShareOfLines(const NoiseResiduals & residuals, std::size_t tile, int shift, std::vector<float> & products)
+RestoreLineCovariance(const NoiseResiduals & residuals, std::size_t tile, int shift, std::vector<float> & products)
 {
-  const auto freedom = static_cast<float>(residuals.GetFreedom());
+  const auto dof = static_cast<float>(residuals.GetDof());
   const auto first = static_cast<std::size_t>(std::max(0, -shift));
   const auto last = products.size() - static_cast<std::size_t>(std::max(0, shift));
-  for (const float * const share : residuals.LineSharesOf(tile))
+  for (const float * const share : residuals.LineProjectionsOf(tile))
   {
     for (std::size_t p = first; p < last; ++p)
     {
-      products[p] += freedom * share[p] * share[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(p) + shift)];
+      products[p] += dof * share[p] * share[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(p) + shift)];
     }
   }
 }
@@ -143,7 +143,7 @@ SumProducts(const NoiseResiduals & residuals, std::size_t tile, const std::vecto
   const std::size_t               size = tiles.Pixels();
   constexpr std::size_t           together = 4; // frames: the sums are loaded and stored a quarter as often
   std::vector<std::vector<float>> products(lags.size(), std::vector<float>(size, 0.0F));
-  WithWideVectors([&] {
+  CallWithAvx2([&] {
     // All lags of a few frames, which stay in the first-level cache, precede the next frames.
     for (std::size_t first = 0; first < tiles.frames; first += together)
     {
@@ -174,7 +174,7 @@ SumProducts(const NoiseResiduals & residuals, std::size_t tile, const std::vecto
       *axis == LineAxis::Rows ? std::pair(lags[k].x, lags[k].y) : std::pair(lags[k].y, lags[k].x);
     if (along != 0 && across == 0 && lags[k].t == 0)
     {
-      AddShareOfLines(
+      RestoreLineCovariance(
         residuals, tile, along * (*axis == LineAxis::Rows ? 1 : static_cast<int>(tiles.side)), products[k]);
     }
   }
@@ -201,11 +201,11 @@ LagSummation::OfTile(std::size_t tile) const
   const float *                         light = m_Residuals.LightOf(tile);
   const float *                         weight = m_Residuals.WeightOf(tile);
   const std::uint8_t *                  bin = m_Residuals.BinOf(tile);
-  const double                          inverseFreedom = 1.0 / m_Residuals.GetFreedom();
+  const double                          inverseDof = 1.0 / m_Residuals.GetDof();
   std::vector<double>                   roots(side * side);
   std::transform(weight, weight + side * side, roots.begin(), [](double w) { return std::sqrt(w); });
   std::vector<LagSums> sums(m_Lags.size());
-  WithWideVectors([&] {
+  CallWithAvx2([&] {
     for (std::size_t k = 0; k < m_Lags.size(); ++k)
     {
       const PlaceWeights & weights = m_Weights[k];
@@ -223,7 +223,7 @@ LagSummation::OfTile(std::size_t tile) const
                                           products[k].data() + p,
                                           weights.columns,
                                           weights.rows[y],
-                                          inverseFreedom);
+                                          inverseDof);
         for (std::size_t i = 0; i < weights.columns.size(); ++i)
         {
           terms.AddTo((i % 2 == 0 ? sums[k] : odd).bins[bin[p + i]], i);

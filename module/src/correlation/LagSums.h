@@ -38,7 +38,7 @@ struct PairSums
 /** Sums of one lag in each intensity bin. */
 struct LagSums
 {
-  std::array<PairSums, NoiseResiduals::LightBins> bins;
+  std::array<PairSums, NoiseResiduals::IntensityBins> bins;
 
   LagSums &
   operator+=(const LagSums & other);

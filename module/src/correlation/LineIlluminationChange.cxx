@@ -23,7 +23,7 @@ constexpr std::size_t Blocks = 24;
 
 /** Products of sums over two segments of a line, where y is a residual, w = 1 / V, and z the signal. The covariance of
  * two pixels is a constant plus a coefficient times the product of their signals. */
-struct LineLightProducts
+struct LineIlluminationProducts
 {
   double noise{ 0.0 };      ///< products of sums of w y
   double constant{ 0.0 };   ///< products of sums of w: the constant's own normal equation
@@ -31,8 +31,8 @@ struct LineLightProducts
   double lightNoise{ 0.0 }; ///< products of sums of w z y
   double square{ 0.0 };     ///< products of sums of w z^2: the coefficient's own normal equation
 
-  LineLightProducts &
-  operator+=(const LineLightProducts & other)
+  LineIlluminationProducts &
+  operator+=(const LineIlluminationProducts & other)
   {
     noise += other.noise;
     constant += other.constant;
@@ -101,7 +101,7 @@ PixelsOfLine(const NoiseResiduals & residuals, const std::vector<std::size_t> & 
   return pixels;
 }
 
-LineLightProducts
+LineIlluminationProducts
 ProductsOfLine(const NoiseResiduals & residuals, const std::vector<PixelOfLine> & pixels)
 {
   const std::size_t   parts = pixels.empty() ? 0 : pixels.back().part + 1;
@@ -114,7 +114,7 @@ ProductsOfLine(const NoiseResiduals & residuals, const std::vector<PixelOfLine> 
     mixed[pixel.part] += pixel.w * pixel.z;
     square[pixel.part] += pixel.w * pixel.z * pixel.z;
   }
-  LineLightProducts products;
+  LineIlluminationProducts products;
   products.constant = ProductOfParts(constant);
   products.mixed = ProductOfParts(mixed);
   products.square = ProductOfParts(square);
@@ -131,34 +131,34 @@ ProductsOfLine(const NoiseResiduals & residuals, const std::vector<PixelOfLine> 
       noise[pixel.part] += weighed;
       lightNoise[pixel.part] += weighed * pixel.z;
     }
-    products.noise += ProductOfParts(noise) / residuals.GetFreedom();
-    products.lightNoise += ProductOfParts(lightNoise) / residuals.GetFreedom();
+    products.noise += ProductOfParts(noise) / residuals.GetDof();
+    products.lightNoise += ProductOfParts(lightNoise) / residuals.GetDof();
   }
   return products;
 }
 } // namespace
 
 MeasuredNumber
-FindLineLight(const NoiseResiduals & residuals, LineAxis axis, const ParallelFor & parallelFor)
+EstimateLineIlluminationChange(const NoiseResiduals & residuals, LineAxis axis, const ParallelFor & parallelFor)
 {
   // Every n-th line is used: they cover the whole frame, and are enough.
   const SampleTiles & tiles = residuals.GetTiles();
   const auto          groups = TilesInLine(tiles, axis);
   const std::size_t   lines = groups.size() * tiles.side;
   const std::size_t   step =
-    (tiles.origins.size() + InCorrelation.mostTilesOfLineLight - 1) / InCorrelation.mostTilesOfLineLight;
-  std::vector<LineLightProducts> ofLines(lines > 0 ? (lines + step - 1) / step : 0);
+    (tiles.origins.size() + InCorrelation.mostTilesOfLineIllumination - 1) / InCorrelation.mostTilesOfLineIllumination;
+  std::vector<LineIlluminationProducts> ofLines(lines > 0 ? (lines + step - 1) / step : 0);
   parallelFor(ofLines.size(), [&](std::size_t i) {
     const std::size_t line = i * step;
     ofLines[i] = ProductsOfLine(residuals, PixelsOfLine(residuals, groups[line / tiles.side], axis, line % tiles.side));
   });
-  std::vector<LineLightProducts> blocks(std::min(Blocks, ofLines.size()));
+  std::vector<LineIlluminationProducts> blocks(std::min(Blocks, ofLines.size()));
   for (std::size_t i = 0; i < ofLines.size(); ++i)
   {
     blocks[i * blocks.size() / ofLines.size()] += ofLines[i];
   }
   const JackknifeEstimate estimate =
-    Jackknife(blocks, [](const LineLightProducts & sum) { return Eigen::VectorXd::Constant(1, sum.OfLight()); });
+    Jackknife(blocks, [](const LineIlluminationProducts & sum) { return Eigen::VectorXd::Constant(1, sum.OfLight()); });
   const MeasuredNumber square{ estimate.value(0), estimate.StandardError(0) };
   return std::isfinite(square.value) && std::isfinite(square.standardError)
            ? square

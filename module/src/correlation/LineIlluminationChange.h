@@ -19,7 +19,7 @@ namespace sensornoise
  * the signal, which distinguishes both. Returns 0 with an infinite error where the signals do not differ enough.
  * Estimator.md, 3.12. */
 SensorNoise_EXPORT MeasuredNumber
-FindLineLight(const NoiseResiduals & residuals, LineAxis axis, const ParallelFor & parallelFor);
+EstimateLineIlluminationChange(const NoiseResiduals & residuals, LineAxis axis, const ParallelFor & parallelFor);
 
 } // namespace sensornoise
 

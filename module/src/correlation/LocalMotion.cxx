@@ -64,7 +64,7 @@ SumsOf(const NoiseResiduals & residuals, std::size_t tile)
   const Eigen::ArrayX2d  slopes = SlopesOf(residuals, tile);
   const float * const    weight = residuals.WeightOf(tile);
   const std::size_t      side = residuals.GetTiles().side;
-  const double           inverseFreedom = 1.0 / residuals.GetFreedom();
+  const double           inverseDof = 1.0 / residuals.GetDof();
   SlopeSums              sums;
   sums.roughness = slopes.square().sum();
   sums.pixels = static_cast<double>((slopes.square().rowwise().sum() > 0.0).count());
@@ -83,7 +83,7 @@ SumsOf(const NoiseResiduals & residuals, std::size_t tile)
         if (root > 0.0)
         {
           x.push_back((slopes.row(static_cast<Eigen::Index>(p)) * slopes.row(static_cast<Eigen::Index>(q))).sum());
-          y.push_back(inverseFreedom * static_cast<double>(products[k][p]) * root);
+          y.push_back(inverseDof * static_cast<double>(products[k][p]) * root);
         }
       }
     }

@@ -47,7 +47,7 @@ MixtureKurtosis::MixtureKurtosis(const NoiseResiduals & residuals)
   m_Gain = frames.GetGain();
   m_OffsetDn = frames.GetOffsetDn();
   const Eigen::MatrixXd & basis = residuals.GetBasis();
-  m_Mean = frames.Autocovariance(basis, 0)(0) / residuals.GetFreedom();
+  m_Mean = frames.Autocovariance(basis, 0)(0) / residuals.GetDof();
   const Eigen::MatrixXd projection = Eigen::MatrixXd::Identity(basis.rows(), basis.rows()) - basis * basis.transpose();
   constexpr auto        size = static_cast<Eigen::Index>(Points);
   Eigen::MatrixXd       powers(size, size);

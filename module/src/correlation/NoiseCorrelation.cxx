@@ -33,10 +33,11 @@ constexpr int AllRings = 16;
 /** Returns the variance of line noise with its complete error. The jackknife does not include the scatter of the lines
  * themselves, as tiles side by side have the same \a lines. */
 MeasuredNumber
-LineVariance(const MeasuredNumber & ofTiles, double lines, double freedom)
+LineVariance(const MeasuredNumber & ofTiles, double lines, double dof)
 {
-  const double chance = ofTiles.value * std::sqrt(2.0 / std::max(1.0, lines * freedom));
-  return { ofTiles.value, std::hypot(ofTiles.standardError, chance, InCorrelation.lostToSeries * ofTiles.value) };
+  const double chance = ofTiles.value * std::sqrt(2.0 / std::max(1.0, lines * dof));
+  return { ofTiles.value,
+           std::hypot(ofTiles.standardError, chance, InCorrelation.fractionLostToComponents * ofTiles.value) };
 }
 
 /** Returns the numbers of rows and of columns of the frame that the tiles cover. */
@@ -75,7 +76,7 @@ FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
       total += 2.0 * sums.CoefficientOf(tiles, common, k);
     }
     figures.push_back(total);
-    const Eigen::VectorXd inBins = sums.SharedInBins(tiles, within);
+    const Eigen::VectorXd inBins = sums.CovarianceInBins(tiles, within);
     figures.insert(figures.end(), inBins.data(), inBins.data() + inBins.size());
     for (const std::size_t k : space)
     {
@@ -96,8 +97,8 @@ FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
   };
   const NoiseResiduals & residuals = sums.GetResiduals();
   const auto [rows, columns] = LinesOf(residuals.GetTiles());
-  found.rowsDn2 = LineVariance(next(), rows, residuals.GetFreedom());
-  found.columnsDn2 = LineVariance(next(), columns, residuals.GetFreedom());
+  found.rowsDn2 = LineVariance(next(), rows, residuals.GetDof());
+  found.columnsDn2 = LineVariance(next(), columns, residuals.GetDof());
   std::generate(found.kurtosis.begin(), found.kurtosis.end(), next);
   found.spaceFactor = next();
   for (MeasuredNumber & factor : found.spaceFactorOfBins)
@@ -121,7 +122,7 @@ FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
  * scatter depends on the correlation of the frames. For normal noise of the covariance S = P R P, E[sum r^4] = 3 sum_t
  * S_tt^2 and E[(sum r^2)^2] = (tr S)^2 + 2 tr S^2. */
 void
-AllowForSharedFrames(const Eigen::MatrixXd & basis, NoiseCorrelation & found)
+CorrectKurtosisForTemporalCorrelation(const Eigen::MatrixXd & basis, NoiseCorrelation & found)
 {
   const Eigen::Index frames = basis.rows();
   Eigen::MatrixXd    shared = Eigen::MatrixXd::Identity(frames, frames);
@@ -153,7 +154,7 @@ IsLinear(const CorrelationSums & sums, const NoiseCorrelation & found)
   for (const PairSums & bin : all.lags[0].bins)
   {
     const double inverse = bin.pairs > 0.0 ? bin.constant / bin.pairs : 0.0;
-    square += inverse * inverse / static_cast<double>(NoiseResiduals::LightBins);
+    square += inverse * inverse / static_cast<double>(NoiseResiduals::IntensityBins);
   }
   MeasuredNumber own = found.kurtosis[0];
   own.value += 1.2 * sums.GetCodesDn2() * sums.GetCodesDn2() * square;
@@ -225,13 +226,13 @@ NoiseCorrelation::HasLocalMotion() const
 double
 NoiseCorrelation::ProbabilityOfLateNoise() const
 {
-  const auto half = shapes.begin() + static_cast<std::size_t>(ShapeOfShared::FirstPart) + PartsAfterFilter / 2 - 1;
+  const auto half = shapes.begin() + static_cast<std::size_t>(CovarianceShape::FirstPart) + PartsAfterFilter / 2 - 1;
   return std::accumulate(
-    half, shapes.end(), 0.0, [](double sum, const SharedShape & shape) { return sum + shape.probability; });
+    half, shapes.end(), 0.0, [](double sum, const WeightedShape & shape) { return sum + shape.probability; });
 }
 
 double
-SharedSquares(const std::vector<LagCoefficient> & lags)
+VarianceInflation(const std::vector<LagCoefficient> & lags)
 {
   double sum = 1.0;
   for (const LagCoefficient & lag : lags)
@@ -245,7 +246,7 @@ SharedSquares(const std::vector<LagCoefficient> & lags)
 NoiseCorrelation
 MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const ParallelFor & parallelFor)
 {
-  if (!residuals.HasEnoughPixels() || residuals.GetFreedom() < InCorrelation.leastFreedom)
+  if (!residuals.HasEnoughPixels() || residuals.GetDof() < InCorrelation.leastDof)
   {
     return {};
   }
@@ -253,8 +254,8 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   NoiseCorrelation found;
   found.kind = NoiseKind::White;
   FindCoefficients(sums, found);
-  const bool inTime = SharesInTime(found.time);
-  const bool inSpace = SharesInSpace(sums, found.space);
+  const bool inTime = IsCorrelatedInTime(found.time);
+  const bool inSpace = IsCorrelatedInSpace(sums, found.space);
   if (inTime)
   {
     SumOverTime(sums, found);
@@ -270,7 +271,7 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   }
   if (inTime)
   {
-    AllowForSharedFrames(residuals.GetBasis(), found);
+    CorrectKurtosisForTemporalCorrelation(residuals.GetBasis(), found);
   }
   if (!IsLinear(sums, found))
   {

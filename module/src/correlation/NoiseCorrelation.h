@@ -55,10 +55,10 @@ struct CovarianceLine
 /** Returns the variance inflation of a mean of sample variances over an area [1]: the sum of the squared coefficients
  * over all lags, including 0, without their statistical scatter. \a lags are one half of the lags other than 0. */
 SensorNoise_EXPORT double
-SharedSquares(const std::vector<LagCoefficient> & lags);
+VarianceInflation(const std::vector<LagCoefficient> & lags);
 
 /** Dependence of the spatial noise covariance on the signal. */
-enum class ShapeOfShared : std::uint8_t
+enum class CovarianceShape : std::uint8_t
 {
   Variance, ///< as the variance without quantization noise: a filter after the read-out
   Light,    ///< proportional to the signal: charge coupling
@@ -68,14 +68,14 @@ enum class ShapeOfShared : std::uint8_t
 };
 /** Number of fractions of the variance at zero signal that may have been added after the filter, besides none. */
 inline constexpr std::size_t PartsAfterFilter = 16;
-inline constexpr std::size_t NumberOfShapes = static_cast<std::size_t>(ShapeOfShared::FirstPart) + PartsAfterFilter;
+inline constexpr std::size_t NumberOfShapes = static_cast<std::size_t>(CovarianceShape::FirstPart) + PartsAfterFilter;
 
 /** Noise covariance as a function of the signal z, summed over all neighbours: coefficient times ofVariance (V - q) +
  * ofLight z + ofSquare z^2 + constantDn2. V is the variance and q the variance of the quantization noise [DN^2]. A
  * constant covariance does not change the variance before the filter; all four factors are 0 for it. */
-struct SharedShape
+struct WeightedShape
 {
-  MeasuredNumber coefficient;        ///< [1]; of ShapeOfShared::Light [DN], of ShapeOfShared::Constant [DN^2]
+  MeasuredNumber coefficient;        ///< [1]; of CovarianceShape::Light [DN], of CovarianceShape::Constant [DN^2]
   double         probability{ 0.0 }; ///< probability of this shape among all shapes [1]
   double         ofVariance{ 0.0 };
   double         ofLight{ 0.0 };
@@ -100,18 +100,18 @@ struct SensorNoise_EXPORT NoiseCorrelation
   /** Excess kurtosis of each kind of series, see KurtosisSums [1]. */
   std::array<MeasuredNumber, KurtosisSums::Kinds> kurtosis;
 
-  /** Possible dependences of the spatial covariance on the signal, by ShapeOfShared. */
-  std::array<SharedShape, NumberOfShapes> shapes;
+  /** Possible dependences of the spatial covariance on the signal, by CovarianceShape. */
+  std::array<WeightedShape, NumberOfShapes> shapes;
   /** Sum of the covariances over all temporal lags, relative to the variance [1]. */
   MeasuredNumber timeFactor{ 1.0, 0.0 };
   /** Largest total covariance of the lags beyond reach, relative to the variance [1]. */
   double beyondReach{ 0.0 };
   /** Fraction of values that repeat the value in the frame before, beyond statistical scatter, if this makes the class
    * NotLinear; else 0 [1]. */
-  double repeatedShare{ 0.0 };
+  double repeatedFraction{ 0.0 };
   /** Whether the spatial covariance grows with the squared signal and reaches further than coupled charge: the
    * illumination changes from place to place. The class is then NotLinear. */
-  bool isOfIllumination{ false };
+  bool isByIllumination{ false };
   /** See FindLocalMotion(); measured only where the noise is spatially correlated. */
   MeasuredNumber localMotion;
   /** Position-dependent correlation; only for enlarged frames. */
@@ -120,8 +120,8 @@ struct SensorNoise_EXPORT NoiseCorrelation
   int reach{ 1 };
   /** Sum of the coefficients over all spatial lags within reach, including the zero lag [1]: the factor from the
    * variance to the total covariance, whatever its shape along the signal. Of all pixels, and of each intensity bin. */
-  MeasuredNumber                                        spaceFactor{ 1.0, 0.0 };
-  std::array<MeasuredNumber, NoiseResiduals::LightBins> spaceFactorOfBins{};
+  MeasuredNumber                                            spaceFactor{ 1.0, 0.0 };
+  std::array<MeasuredNumber, NoiseResiduals::IntensityBins> spaceFactorOfBins{};
   /** Returns the noise variance of whole rows and columns together, where each is significant [DN^2]. */
   MeasuredNumber
   LineNoise() const;
@@ -134,20 +134,20 @@ struct SensorNoise_EXPORT NoiseCorrelation
   double
   ProbabilityOfLateNoise() const;
 
-  const SharedShape &
-  Shape(ShapeOfShared shape) const
+  const WeightedShape &
+  Shape(CovarianceShape shape) const
   {
     return shapes[static_cast<std::size_t>(shape)];
   }
-  SharedShape &
-  Shape(ShapeOfShared shape)
+  WeightedShape &
+  Shape(CovarianceShape shape)
   {
     return shapes[static_cast<std::size_t>(shape)];
   }
 
   /** Returns whether the total covariance over lags has to replace the variance. */
   bool
-  IsShared() const
+  IsCorrelated() const
   {
     return kind != NoiseKind::White && kind != NoiseKind::NotMeasured && kind != NoiseKind::NotLinear;
   }

@@ -58,7 +58,7 @@ SumPowers(const NoiseResiduals & residuals, std::size_t i, PowerSums & sums)
   constexpr std::size_t together = 4;              // frames: the sums are loaded and stored a quarter as often
   const std::size_t     frames = residuals.GetTiles().frames;
   std::vector<float>    values(together * padded, 0.0F);
-  WithWideVectors([&] {
+  CallWithAvx2([&] {
     PowerSums own{}; // no pointer can point into it, so that the loop over pixels is vectorized
     for (std::size_t first = 0; first < frames; first += together)
     {
@@ -136,9 +136,9 @@ KurtosisSums::operator+=(const KurtosisSums & other)
 double
 NormalKurtosis(const NoiseResiduals & residuals)
 {
-  const double         freedom = residuals.GetFreedom();
+  const double         dof = residuals.GetDof();
   const Eigen::ArrayXd kept = 1.0 - residuals.GetBasis().array().square().rowwise().sum();
-  return 3.0 * kept.square().sum() / (freedom * (freedom + 2.0));
+  return 3.0 * kept.square().sum() / (dof * (dof + 2.0));
 }
 
 KurtosisSums
@@ -147,7 +147,7 @@ KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKur
   const std::size_t side = residuals.GetTiles().side;
   const float *     weight = residuals.WeightOf(i);
   const float *     light = residuals.LightOf(i);
-  const auto        least = InCorrelation.leastNoise * static_cast<float>(residuals.GetFreedom());
+  const auto        least = InCorrelation.leastNoise * static_cast<float>(residuals.GetDof());
   const TakenRuns   taken(weight, side);
   PowerSums         powers{};
   side == SampleTiles::Side ? SumPowers<SampleTiles::Side>(residuals, i, powers)

@@ -43,7 +43,7 @@ NoiseResiduals::RegressLines(LineAxis                         axis,
   const double square = (w * z.square()).sum();
   z -= (w * z).sum() / weight;
   const double spread = (w * z.square()).sum();
-  const bool   hasSlope = spread > InCorrelation.leastSpreadOfLine * square;
+  const bool   hasSlope = spread > InCorrelation.leastVarianceOfLine * square;
   // Regressors that are orthonormal with the weights: the constant, and the signal.
   const double         constant = 1.0 / std::sqrt(weight);
   const Eigen::ArrayXd slope = hasSlope ? Eigen::ArrayXd(z / std::sqrt(spread)) : Eigen::ArrayXd::Zero(z.size());
@@ -54,8 +54,8 @@ NoiseResiduals::RegressLines(LineAxis                         axis,
     const bool   counts = rest > InCorrelation.leastLeftOfLine;
     const double scale = counts ? 1.0 / std::sqrt(rest) : 0.0;
     left[placeOf(k)] = counts ? static_cast<float>(rest) : 0.0F;
-    m_LineShares[0][placeOf(k)] = static_cast<float>(scale * constant);
-    m_LineShares[1][placeOf(k)] = static_cast<float>(scale * slope(i));
+    m_LineProjections[0][placeOf(k)] = static_cast<float>(scale * constant);
+    m_LineProjections[1][placeOf(k)] = static_cast<float>(scale * slope(i));
   }
   Eigen::ArrayXd values(w.size());
   for (std::size_t t = 0; t < this->GetTiles().frames; ++t)
@@ -81,7 +81,7 @@ NoiseResiduals::TakeOffLines(LineAxis axis, const std::vector<std::uint8_t> & ta
   const std::vector<std::vector<std::size_t>> groups = TilesInLine(tiles, axis);
   m_LinesTakenOff = axis;
   std::vector<float> left(m_Light.size());
-  for (std::vector<float> & shares : m_LineShares)
+  for (std::vector<float> & shares : m_LineProjections)
   {
     shares.assign(m_Light.size(), 0.0F);
   }

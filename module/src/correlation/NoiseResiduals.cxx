@@ -68,7 +68,7 @@ void
 AddWeighed(const float * rows, const Weights & weights, std::size_t count, std::size_t size, float * sum)
 {
   static_assert(Together == 4);
-  WithWideVectors([=, &weights] {
+  CallWithAvx2([=, &weights] {
     switch (count)
     {
       case 1:
@@ -233,7 +233,7 @@ void
 NoiseResiduals::SumSquares(std::size_t i)
 {
   const std::size_t size = this->GetTiles().Pixels();
-  WithWideVectors([this, i, size] {
+  CallWithAvx2([this, i, size] {
     std::array<float, SampleTiles::Side * SampleTiles::Side> sums{}; // no pointer can point into them
     for (std::size_t t = 0; t < this->GetTiles().frames; ++t)
     {
@@ -252,10 +252,10 @@ NoiseResiduals::Weigh(const std::vector<std::uint8_t> & take)
 {
   m_Weight.assign(take.size(), 0.0F);
   m_Bin.assign(take.size(), 0);
-  const std::vector<std::uint32_t> order = PixelsByLight(m_Light, take);
+  const std::vector<std::uint32_t> order = SortPixelsBySignal(m_Light, take);
   m_Pixels = order.size();
   const auto darkest = static_cast<std::size_t>(InCommon.darkestQuantile * static_cast<double>(m_Pixels));
-  m_DarkestLight = m_Pixels > 0 ? m_Light[order[darkest]] : 0.0;
+  m_DarkestSignal = m_Pixels > 0 ? m_Light[order[darkest]] : 0.0;
   const std::size_t bins =
     std::clamp<std::size_t>(order.size() / InCorrelation.leastPixelsOfBin, 1, InCorrelation.noiseBins);
   NoiseCurve curve;
@@ -271,14 +271,14 @@ NoiseResiduals::Weigh(const std::vector<std::uint8_t> & take)
       sum += m_Variance[order[k]];
     }
     const auto count = static_cast<double>(std::max<std::size_t>(1, last - first));
-    curve.Add(light / count, sum / count / std::max(1.0, this->GetFreedom()));
+    curve.Add(light / count, sum / count / std::max(1.0, this->GetDof()));
   }
   for (std::size_t rank = 0; rank < order.size(); ++rank)
   {
     const std::uint32_t pixel = order[rank];
     const double        typical = curve.AtNext(m_Light[pixel]);
     m_Weight[pixel] = typical > 0.0 ? static_cast<float>(1.0 / typical) : 0.0F;
-    m_Bin[pixel] = static_cast<std::uint8_t>(rank * LightBins / order.size());
+    m_Bin[pixel] = static_cast<std::uint8_t>(rank * IntensityBins / order.size());
   }
 }
 

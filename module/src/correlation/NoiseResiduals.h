@@ -33,9 +33,9 @@ struct SampledPixels
  * level if it is near \a blackDn, a lower bound of the offset, else \a blackDn itself. Covariances in proportion to
  * the variance are then proportional to the signal above a level below the true offset. */
 inline double
-ZeroOfLight(double darkestDn, double brightestDn, double blackDn)
+ZeroOfSignal(double darkestDn, double brightestDn, double blackDn)
 {
-  return darkestDn - blackDn < InCorrelation.darkShare * (brightestDn - blackDn) ? darkestDn : blackDn;
+  return darkestDn - blackDn < InCorrelation.darkFraction * (brightestDn - blackDn) ? darkestDn : blackDn;
 }
 
 /** \class NoiseResiduals
@@ -49,7 +49,7 @@ class SensorNoise_EXPORT NoiseResiduals
 public:
   /** Number of intensity bins of equal count in which covariances are summed. Four bins distinguish a constant, a line
    * and a parabola. */
-  static constexpr std::size_t LightBins = 4;
+  static constexpr std::size_t IntensityBins = 4;
 
   /** Projects \a series, frames x series, out of every pixel. The series are of all frames or of the frames of the
    * sample. Takes the sample's memory. */
@@ -130,7 +130,7 @@ public:
     return m_Variance.data() + i * this->GetTiles().Pixels();
   }
   /** Returns the axis along which TakeOffLines() was called, if it was. White noise then has the covariance -(a a' + b
-   * b') between the residuals of two pixels of a line in a frame. Here a and b are the values of LineSharesOf() at
+   * b') between the residuals of two pixels of a line in a frame. Here a and b are the values of LineProjectionsOf() at
    * both pixels [DN]. */
   const std::optional<LineAxis> &
   GetLinesTakenOff() const
@@ -139,10 +139,10 @@ public:
   }
   /** Returns the values a and b of the pixels of tile \a i, see GetLinesTakenOff() [DN]. */
   std::array<const float *, 2>
-  LineSharesOf(std::size_t i) const
+  LineProjectionsOf(std::size_t i) const
   {
     const std::size_t first = i * this->GetTiles().Pixels();
-    return { m_LineShares[0].data() + first, m_LineShares[1].data() + first };
+    return { m_LineProjections[0].data() + first, m_LineProjections[1].data() + first };
   }
   /** Returns the intensity bins of the pixels of tile \a i. */
   const std::uint8_t *
@@ -158,7 +158,7 @@ public:
   }
   /** Returns the degrees of freedom, tr P. */
   double
-  GetFreedom() const
+  GetDof() const
   {
     return static_cast<double>(m_Basis.rows() - m_Basis.cols());
   }
@@ -170,9 +170,9 @@ public:
   }
   /** Returns a lower bound of the signal [DN]: 0 where black is known, else the signal of the darkest pixels. */
   double
-  GetLeastLight() const
+  GetLeastSignal() const
   {
-    return m_IsBlackKnown ? 0.0 : m_DarkestLight;
+    return m_IsBlackKnown ? 0.0 : m_DarkestSignal;
   }
   /** Returns the number of pixels that are used. */
   std::size_t
@@ -210,11 +210,11 @@ private:
   std::size_t               m_Pixels{ 0 };
   double                    m_BlackDn{ 0.0 };
   bool                      m_IsBlackKnown{ true };
-  double                    m_DarkestLight{ 0.0 };
+  double                    m_DarkestSignal{ 0.0 };
   UnequalFrames             m_Unequal;
   std::optional<LineAxis>   m_LinesTakenOff;
-  /** LineSharesOf() for all tiles; empty: no lines were subtracted. */
-  std::array<std::vector<float>, 2> m_LineShares;
+  /** LineProjectionsOf() for all tiles; empty: no lines were subtracted. */
+  std::array<std::vector<float>, 2> m_LineProjections;
 };
 
 } // namespace sensornoise

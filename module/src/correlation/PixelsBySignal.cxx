@@ -57,7 +57,7 @@ SortByDigit(unsigned int shift, std::vector<PixelKey> & pixels, std::vector<Pixe
 } // namespace
 
 std::vector<std::uint32_t>
-PixelsByLight(const std::vector<float> & light, const std::vector<std::uint8_t> & take)
+SortPixelsBySignal(const std::vector<float> & light, const std::vector<std::uint8_t> & take)
 {
   std::vector<PixelKey> pixels;
   pixels.reserve(light.size());

@@ -14,7 +14,7 @@ namespace sensornoise
 /** Returns the pixels whose \a take is not 0 in the order of their signal \a light, which must be finite. Pixels of
  * equal signal are in the order of their index. */
 SensorNoise_EXPORT std::vector<std::uint32_t>
-PixelsByLight(const std::vector<float> & light, const std::vector<std::uint8_t> & take);
+SortPixelsBySignal(const std::vector<float> & light, const std::vector<std::uint8_t> & take);
 
 } // namespace sensornoise
 

@@ -74,8 +74,8 @@ double
 Chi2OfLine(const Eigen::MatrixXd & shapes, const Eigen::VectorXd & variance, const Eigen::VectorXd & errors)
 {
   Eigen::MatrixXd design(variance.size(), 2);
-  design.col(0) = shapes.col(static_cast<Eigen::Index>(ShapeOfShared::Light));
-  design.col(1) = shapes.col(static_cast<Eigen::Index>(ShapeOfShared::Constant));
+  design.col(0) = shapes.col(static_cast<Eigen::Index>(CovarianceShape::Light));
+  design.col(1) = shapes.col(static_cast<Eigen::Index>(CovarianceShape::Constant));
   const Eigen::VectorXd weights = errors.unaryExpr([](double error) { return error > 0.0 ? 1.0 / error : 0.0; });
   const Eigen::MatrixXd weighted = weights.asDiagonal() * design;
   const Eigen::VectorXd values = weights.cwiseProduct(variance);
@@ -85,19 +85,19 @@ Chi2OfLine(const Eigen::MatrixXd & shapes, const Eigen::VectorXd & variance, con
 /** Returns the chi-square of the sum of variance and neighbours' covariance about a line of the signal, for each shape.
  * The brighter-fatter effect curves the variance of a pixel, but not the total covariance over all neighbours. */
 Eigen::VectorXd
-Chi2OfSums(const CorrelationSums & sums, const TileSums & all, const Eigen::VectorXd & coefficients)
+Chi2OfTotalVariance(const CorrelationSums & sums, const TileSums & all, const Eigen::VectorXd & coefficients)
 {
   const CorrelationSums::Lags itself{ 0 };
   const Eigen::MatrixXd       shapes = sums.ShapesOf(all, sums.GetCodesDn2()).InBins();
-  const Eigen::VectorXd       own = 0.5 * sums.SharedInBins(all, itself);
-  const Eigen::VectorXd       errors = 0.5 * sums.ErrorsInBins(itself);
+  const Eigen::VectorXd       own = 0.5 * sums.CovarianceInBins(all, itself);
+  const Eigen::VectorXd       errors = 0.5 * sums.StandardErrorsInBins(itself);
   const double                straight = Chi2OfLine(shapes, own, errors);
   Eigen::VectorXd             chi2 = Eigen::VectorXd::Constant(NumberOfShapes, straight);
-  const auto                  square = static_cast<Eigen::Index>(ShapeOfShared::Square);
+  const auto                  square = static_cast<Eigen::Index>(CovarianceShape::Square);
   const double                left = Chi2OfLine(shapes, own + coefficients(square) * shapes.col(square), errors);
   chi2(square) =
-    left < InCorrelation.largestShareOfBend * straight ? left : straight; // else the response is non-linear
-  return chi2.cwiseMin(chi2.minCoeff() + InCorrelation.mostEvidenceOfBend);
+    left < InCorrelation.largestFractionOfCurvature * straight ? left : straight; // else the response is non-linear
+  return chi2.cwiseMin(chi2.minCoeff() + InCorrelation.mostEvidenceOfCurvature);
 }
 
 /** Returns the coefficients of all shapes, and then their chi-squares. \a unfilteredDn2 is the variance of quantization
@@ -105,11 +105,11 @@ Chi2OfSums(const CorrelationSums & sums, const TileSums & all, const Eigen::Vect
 JackknifeEstimate
 FitAllShapes(const CorrelationSums & sums, const CorrelationSums::Lags & lags, double unfilteredDn2)
 {
-  const Eigen::VectorXd errors = sums.ErrorsInBins(lags);
+  const Eigen::VectorXd errors = sums.StandardErrorsInBins(lags);
   return Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
-    const ShapesOfShared predicted = sums.ShapesOf(tiles, unfilteredDn2);
-    const auto           shapes = FitShapes(predicted.InBins(), sums.SharedInBins(tiles, lags), errors);
-    Eigen::VectorXd      figures(2 * NumberOfShapes);
+    const CovarianceShapes predicted = sums.ShapesOf(tiles, unfilteredDn2);
+    const auto             shapes = FitShapes(predicted.InBins(), sums.CovarianceInBins(tiles, lags), errors);
+    Eigen::VectorXd        figures(2 * NumberOfShapes);
     for (std::size_t k = 0; k < NumberOfShapes; ++k)
     {
       figures(static_cast<Eigen::Index>(k)) = shapes[k].coefficient;
@@ -123,16 +123,16 @@ FitAllShapes(const CorrelationSums & sums, const CorrelationSums::Lags & lags, d
  * null: the shape is impossible. Charge coupling is weak and short. Stronger filters may lie before the read-out, or
  * between two parts of its noise. */
 std::optional<double>
-EvidenceFor(ShapeOfShared shape, bool mayBeCharge)
+RequiredEvidence(CovarianceShape shape, bool mayBeCharge)
 {
   switch (shape)
   {
-    case ShapeOfShared::Variance:
+    case CovarianceShape::Variance:
       return 0.0;
-    case ShapeOfShared::Light:
-    case ShapeOfShared::Square:
+    case CovarianceShape::Light:
+    case CovarianceShape::Square:
       return mayBeCharge ? std::optional(0.0) : std::nullopt;
-    case ShapeOfShared::Constant:
+    case CovarianceShape::Constant:
       return InCorrelation.evidenceOfConstant;
     default:
       return mayBeCharge ? std::nullopt : std::optional(InCorrelation.evidenceOfPart);
@@ -147,7 +147,7 @@ ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge)
   double                             sum = 0.0;
   for (std::size_t k = 0; k < NumberOfShapes; ++k)
   {
-    if (const auto evidence = EvidenceFor(static_cast<ShapeOfShared>(k), mayBeCharge))
+    if (const auto evidence = RequiredEvidence(static_cast<CovarianceShape>(k), mayBeCharge))
     {
       probabilities[k] = std::exp(-0.5 * (chi2(static_cast<Eigen::Index>(k)) + *evidence - chi2.minCoeff()));
       sum += probabilities[k];
@@ -163,9 +163,9 @@ ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge)
 /** Returns whether the squared signal describes the spatial covariance better than all other shapes, by
  * InCommon.strongEvidence in chi-square. */
 bool
-IsOfSquare(const Eigen::VectorXd & coefficients, Eigen::VectorXd chi2)
+IsProportionalToSquare(const Eigen::VectorXd & coefficients, Eigen::VectorXd chi2)
 {
-  const auto   square = static_cast<Eigen::Index>(ShapeOfShared::Square);
+  const auto   square = static_cast<Eigen::Index>(CovarianceShape::Square);
   const double own = chi2(square);
   chi2(square) = std::numeric_limits<double>::infinity();
   return coefficients(square) > 0.0 && own + InCommon.strongEvidence < chi2.minCoeff();
@@ -174,7 +174,7 @@ IsOfSquare(const Eigen::VectorXd & coefficients, Eigen::VectorXd chi2)
 /** Returns whether the variance is curved as by the brighter-fatter effect, and the covariance of the nearest
  * neighbours makes it linear. Either one alone may be statistical scatter, or a non-linear response. */
 bool
-StraightensVariance(const CorrelationSums & sums, const Eigen::VectorXd & errors, const MeasuredNumber & effect)
+LinearizesVariance(const CorrelationSums & sums, const Eigen::VectorXd & errors, const MeasuredNumber & effect)
 {
   if (effect.value < InCorrelation.leastEffect || !effect.Exceeds(0.0, Significance.hint))
   {
@@ -182,25 +182,25 @@ StraightensVariance(const CorrelationSums & sums, const Eigen::VectorXd & errors
   }
   const TileSums        all = sums.Total();
   const Eigen::MatrixXd shapes = sums.ShapesOf(all, sums.GetCodesDn2()).InBins();
-  const auto            fits = FitShapes(shapes, sums.SharedInBins(all, sums.Nearest()), errors);
+  const auto            fits = FitShapes(shapes, sums.CovarianceInBins(all, sums.Nearest()), errors);
   Eigen::VectorXd       coefficients(NumberOfShapes);
   std::transform(
     fits.begin(), fits.end(), coefficients.data(), [](const FittedShape & fit) { return fit.coefficient; });
-  const Eigen::VectorXd chi2 = Chi2OfSums(sums, all, coefficients);
-  return chi2(static_cast<Eigen::Index>(ShapeOfShared::Variance)) -
-           chi2(static_cast<Eigen::Index>(ShapeOfShared::Square)) >
+  const Eigen::VectorXd chi2 = Chi2OfTotalVariance(sums, all, coefficients);
+  return chi2(static_cast<Eigen::Index>(CovarianceShape::Variance)) -
+           chi2(static_cast<Eigen::Index>(CovarianceShape::Square)) >
          Significance.oneTest * Significance.oneTest;
 }
 } // namespace
 
 bool
-SharesInSpace(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients)
+IsCorrelatedInSpace(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients)
 {
   const CorrelationSums::Lags nearest = sums.Nearest();
-  const Eigen::VectorXd       errors = sums.ErrorsInBins(nearest);
+  const Eigen::VectorXd       errors = sums.StandardErrorsInBins(nearest);
   const JackknifeEstimate     atTheTop = Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
     const Eigen::MatrixXd shapes = sums.ShapesOf(tiles, sums.GetCodesDn2()).InBins();
-    const auto            fits = FitShapes(shapes, sums.SharedInBins(tiles, nearest), errors);
+    const auto            fits = FitShapes(shapes, sums.CovarianceInBins(tiles, nearest), errors);
     Eigen::Vector3d       effects;
     for (Eigen::Index k = 0; k < effects.size(); ++k) // all shapes but the constant
     {
@@ -215,7 +215,7 @@ SharesInSpace(const CorrelationSums & sums, const std::vector<LagCoefficient> & 
       return true;
     }
   }
-  if (StraightensVariance(sums, errors, NumberAt(atTheTop, static_cast<std::size_t>(ShapeOfShared::Square))))
+  if (LinearizesVariance(sums, errors, NumberAt(atTheTop, static_cast<std::size_t>(CovarianceShape::Square))))
   {
     return true;
   }
@@ -246,9 +246,9 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
   const CorrelationSums::Lags lags = sums.Ring(1, found.reach);
   const JackknifeEstimate     fits = FitAllShapes(sums, lags, sums.GetCodesDn2() + found.LineNoise().value);
   const Eigen::VectorXd       chi2 = fits.value.tail(NumberOfShapes);
-  const Eigen::VectorXd       withBend = chi2 + Chi2OfSums(sums, all, fits.value.head(NumberOfShapes));
+  const Eigen::VectorXd       withBend = chi2 + Chi2OfTotalVariance(sums, all, fits.value.head(NumberOfShapes));
   const auto                  probabilities = ProbabilitiesOf(withBend, mayBeCharge);
-  const ShapesOfShared        predicted = sums.ShapesOf(all, sums.GetCodesDn2() + found.LineNoise().value);
+  const CovarianceShapes      predicted = sums.ShapesOf(all, sums.GetCodesDn2() + found.LineNoise().value);
   for (std::size_t k = 0; k < NumberOfShapes; ++k)
   {
     found.shapes[k] = predicted.UnitOf(k);
@@ -257,15 +257,14 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
   }
   // The negative covariance of a sharpening filter is proportional to the variance, and the same everywhere. The
   // covariance by rounding of blocks is neither.
-  const double constant = probabilities[static_cast<std::size_t>(ShapeOfShared::Constant)];
-  const auto & shared = found.Shape(ShapeOfShared::Variance).coefficient;
+  const double constant = probabilities[static_cast<std::size_t>(CovarianceShape::Constant)];
+  const auto & shared = found.Shape(CovarianceShape::Variance).coefficient;
   const bool   isUnlikeFilter =
     constant > InCorrelation.roundingProbability || chi2.minCoeff() > InCorrelation.largestChi2;
-  const bool isRounding =
-    (shared.value < -Significance.hint * shared.standardError && isUnlikeFilter) ||
-    (shared.value < 0.0 && SpreadOfPhases(sums.SumPhases()) > InCorrelation.largestSpreadOfPhases);
-  found.isOfIllumination = !mayBeCharge && IsOfSquare(fits.value.head(NumberOfShapes), chi2);
-  if (isRounding || found.isOfIllumination)
+  const bool isRounding = (shared.value < -Significance.hint * shared.standardError && isUnlikeFilter) ||
+                          (shared.value < 0.0 && RmsOfPhases(sums.SumPhases()) > InCorrelation.largestRmsOfPhases);
+  found.isByIllumination = !mayBeCharge && IsProportionalToSquare(fits.value.head(NumberOfShapes), chi2);
+  if (isRounding || found.isByIllumination)
   {
     found.kind = NoiseKind::NotLinear;
   }
@@ -273,12 +272,12 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
   {
     const bool isNear =
       !SumOfCoefficients(sums, sums.Ring(2, found.reach)).Exceeds(InCorrelation.smallRing, Significance.oneTest);
-    const auto probabilityOf = [&](ShapeOfShared shape) { return found.Shape(shape).probability; };
+    const auto probabilityOf = [&](CovarianceShape shape) { return found.Shape(shape).probability; };
     const bool isCharge =
-      mayBeCharge && (isNear || probabilityOf(ShapeOfShared::Light) > probabilityOf(ShapeOfShared::Variance));
-    found.kind = probabilityOf(ShapeOfShared::Square) > 0.5 ? NoiseKind::BrighterFatter
-                 : isCharge                                 ? NoiseKind::Crosstalk
-                                                            : NoiseKind::Filtered;
+      mayBeCharge && (isNear || probabilityOf(CovarianceShape::Light) > probabilityOf(CovarianceShape::Variance));
+    found.kind = probabilityOf(CovarianceShape::Square) > 0.5 ? NoiseKind::BrighterFatter
+                 : isCharge                                   ? NoiseKind::Crosstalk
+                                                              : NoiseKind::Filtered;
   }
 }
 

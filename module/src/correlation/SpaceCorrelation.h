@@ -14,7 +14,7 @@ namespace sensornoise
  * exceed InCorrelation.leastEffect, or one of \a coefficients exceeds InCorrelation.leastCoefficient, both
  * significantly. Covariances that grow with the signal are tested in the brightest bin. */
 SensorNoise_EXPORT bool
-SharesInSpace(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients);
+IsCorrelatedInSpace(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients);
 
 /** Sums the noise covariance over all spatial lags within reach. The reach grows until the next ring is small or not
  * significant. Fits the dependence on the signal, and sets the noise class unless it is Temporal. */

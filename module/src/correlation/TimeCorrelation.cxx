@@ -15,7 +15,7 @@ namespace sensornoise
 {
 
 bool
-SharesInTime(const std::vector<LagCoefficient> & coefficients)
+IsCorrelatedInTime(const std::vector<LagCoefficient> & coefficients)
 {
   return std::any_of(coefficients.begin(), coefficients.end(), [](const LagCoefficient & lag) {
     return lag.coefficient.Exceeds(InCorrelation.leastTimeCoefficient, Significance.severalTests);

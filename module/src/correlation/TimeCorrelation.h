@@ -12,7 +12,7 @@ namespace sensornoise
 
 /** Returns whether one of the temporal \a coefficients significantly exceeds InCorrelation.leastTimeCoefficient. */
 SensorNoise_EXPORT bool
-SharesInTime(const std::vector<LagCoefficient> & coefficients);
+IsCorrelatedInTime(const std::vector<LagCoefficient> & coefficients);
 
 /** Sums the noise covariance over temporal lags, until the last two are small, and sets the noise class to Temporal.
  * More lags than needed increase the error: after the projection of a short burst, distant lags are hardly

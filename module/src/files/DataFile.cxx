@@ -92,7 +92,7 @@ RequireInflates(const std::string & file,
   if (!inflater.IsWhole())
   {
     throw FileError(file,
-                    "damaged: its compressed pixels" + InDataFile(file, place) + " give " + inflater.WhatCame() +
+                    "damaged: its compressed pixels" + InDataFile(file, place) + " give " + inflater.ReceivedBytes() +
                       ", expected " + std::to_string(expected) + " bytes and the end of the stream");
   }
   RequireNothingLeft(file, place, found - inflater.UsedBytes());

@@ -78,7 +78,7 @@ Inflater::IsWhole() const
 }
 
 std::string
-Inflater::WhatCame() const
+Inflater::ReceivedBytes() const
 {
   if (m_Found > m_Expected)
   {

@@ -54,7 +54,7 @@ public:
 
   /** What came, in words: "280 bytes and then an error (incorrect data check)". */
   std::string
-  WhatCame() const;
+  ReceivedBytes() const;
 
 private:
   struct Stream;

@@ -197,7 +197,7 @@ private:
     }
     if (!m_Inflater->IsWhole() || m_Inflater->UsedBytes() != m_PixelBytes)
     {
-      Refuse("damaged: its compressed pixels give " + m_Inflater->WhatCame() + " after " +
+      Refuse("damaged: its compressed pixels give " + m_Inflater->ReceivedBytes() + " after " +
              std::to_string(m_Inflater->UsedBytes()) + " of " + std::to_string(m_PixelBytes) + " bytes, expected " +
              std::to_string(m_Rows->Bytes()) + " bytes and the end of the stream with the last");
     }

@@ -44,7 +44,7 @@ CheckDeflatedStrip(const std::string & page,
   {
     RefuseStrip(page,
                 strip,
-                "gives " + inflater.WhatCame() + ", expected " + std::to_string(expected) +
+                "gives " + inflater.ReceivedBytes() + ", expected " + std::to_string(expected) +
                   " bytes and the end of the stream");
   }
 }

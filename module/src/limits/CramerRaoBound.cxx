@@ -78,7 +78,7 @@ public:
   /** Returns the root mean square over the frames of the standard error of a frame's number minus the mean over the
    * frames. \a series is 0 for gamma, 1 for alpha, 2 for beta. */
   double
-  SdOfFrame(Eigen::Index series) const
+  StandardErrorOfFrame(Eigen::Index series) const
   {
     const Eigen::Index first = CramerRaoInformation::FirstSeries + series * m_Frames;
     const auto         ofSeries = m_Covariance.block(first, first, m_Frames, m_Frames);
@@ -89,7 +89,7 @@ public:
 
   /** Returns the standard error of \a spread, the standard deviation of the \a values of a series. */
   double
-  SdOfSpread(Eigen::Index series, const std::vector<double> & values, double spread) const
+  StandardErrorOfSd(Eigen::Index series, const std::vector<double> & values, double spread) const
   {
     const Eigen::Map<const Eigen::ArrayXd> v(values.data(), m_Frames);
     Eigen::VectorXd                        gradient = Eigen::VectorXd::Zero(m_Covariance.rows());
@@ -141,12 +141,12 @@ ComputeCramerRaoBound(const CramerRaoInput & input, const ParallelFor & parallel
   limit.offset = errors.Sd(errors.Gradient(0.0, 0.0, 1.0));
   limit.readNoise =
     camera.readNoiseDn > 0.0 ? errors.Sd(readVariance) / (2.0 * camera.readNoiseDn) : PrecisionLimit::None;
-  limit.flickerOfFrame = errors.SdOfFrame(0);
-  limit.vibrationXOfFrame = errors.SdOfFrame(1);
-  limit.vibrationYOfFrame = errors.SdOfFrame(2);
-  limit.flickerSd = errors.SdOfSpread(0, truth.normalisedFlicker, truth.realisedFlickerSd);
-  limit.vibrationSdX = errors.SdOfSpread(1, truth.series.alpha, truth.realisedVibrationSdXPixels);
-  limit.vibrationSdY = errors.SdOfSpread(2, truth.series.beta, truth.realisedVibrationSdYPixels);
+  limit.flickerOfFrame = errors.StandardErrorOfFrame(0);
+  limit.vibrationXOfFrame = errors.StandardErrorOfFrame(1);
+  limit.vibrationYOfFrame = errors.StandardErrorOfFrame(2);
+  limit.flickerSd = errors.StandardErrorOfSd(0, truth.normalisedFlicker, truth.realisedFlickerSd);
+  limit.vibrationSdX = errors.StandardErrorOfSd(1, truth.series.alpha, truth.realisedVibrationSdXPixels);
+  limit.vibrationSdY = errors.StandardErrorOfSd(2, truth.series.beta, truth.realisedVibrationSdYPixels);
   return limit;
 }
 

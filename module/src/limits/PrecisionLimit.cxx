@@ -81,7 +81,7 @@ SumPrecision(const PrecisionInput & input)
 /** Sums over the pixels used of the squared deviations of the levels from m, and of the fluxes from a constant flux. */
 struct DeviationSums
 {
-  double levelSpread{ 0.0 };    ///< sum (ubar - m)^2 / V^2
+  double levelDeviation{ 0.0 }; ///< sum (ubar - m)^2 / V^2
   double contrast{ 0.0 };       ///< A0 - A1^2/A2 = sum (1 - q A1/A2)^2 / V, without cancellation
   double levelMagnitude{ 0.0 }; ///< sum ubar^2 / V^2
 };
@@ -95,7 +95,7 @@ SumDeviations(const PrecisionInput & input, double centreDn, double fluxRatio)
     const double deviation = (input.mean[p] - centreDn) / variance;
     const double level = input.mean[p] / variance;
     const double residual = 1.0 - flux * fluxRatio;
-    sums.levelSpread += deviation * deviation;
+    sums.levelDeviation += deviation * deviation;
     sums.levelMagnitude += level * level;
     sums.contrast += residual * residual / variance;
   });
@@ -128,9 +128,9 @@ ComputePrecisionLimit(const PrecisionInput & input)
   // A scene of one level leaves rounding errors of 1e-32 here.
   constexpr double rounding = 1e-20;
   const double     degreesOfFreedom = static_cast<double>(input.frames - 1);
-  if (deviations.levelSpread > rounding * deviations.levelMagnitude)
+  if (deviations.levelDeviation > rounding * deviations.levelMagnitude)
   {
-    const double gainVariance = 2.0 / (degreesOfFreedom * deviations.levelSpread);
+    const double gainVariance = 2.0 / (degreesOfFreedom * deviations.levelDeviation);
     limit.gain = std::sqrt(gainVariance);
     limit.intercept = std::sqrt(2.0 / (degreesOfFreedom * sums.w0) + centreDn * centreDn * gainVariance);
     limit.gainInterceptCorrelation = -centreDn * limit.gain / limit.intercept;

@@ -79,7 +79,7 @@ FindQuantisationStep(const std::vector<std::int32_t> & codes, bool & regular)
     onGrid = std::max(onGrid, remainder.second);
   }
   regular = static_cast<double>(codes.size() - onGrid) <=
-            InMoments.largestOffGridShare * static_cast<double>(codes.size()) + InMoments.offGridCodes;
+            InMoments.largestOffGridFraction * static_cast<double>(codes.size()) + InMoments.offGridCodes;
   return step;
 }
 
@@ -197,7 +197,7 @@ FindEndOfCodes(const CodeHistogram & extremes, bool isHigh, double step)
   {
     const auto pixels = static_cast<double>(extremes.Count(codes[i]));
     const bool isApart = std::abs(codes[i] - codes[i - 1]) > InMoments.levelsOutsidePileUp * stride;
-    if (isApart && beyond <= InMoments.largestStrayShare * pixels && CodePilesUp(extremes, codes[i], inwards))
+    if (isApart && beyond <= InMoments.largestStrayFraction * pixels && CodePilesUp(extremes, codes[i], inwards))
     {
       end = codes[i];
     }
@@ -230,11 +230,11 @@ EndPilesUp(const Extremes & extremes, bool isHigh, double step, const CodeSteps 
   const double          depth = isHigh ? extremes.depths.high : extremes.depths.low;
   if (steps.IsCompanded())
   {
-    return CanTellPileUp(extremes.typicalVarianceDn2, steps.StepAt(end), depth) &&
+    return IsPileUpEvidence(extremes.typicalVarianceDn2, steps.StepAt(end), depth) &&
            CompandedPileUp(histogram, extremes.codes, end, isHigh);
   }
   const auto stride = static_cast<std::int32_t>(step);
-  return CanTellPileUp(extremes.typicalVarianceDn2, step, depth) &&
+  return IsPileUpEvidence(extremes.typicalVarianceDn2, step, depth) &&
          CodePilesUp(histogram, end, isHigh ? -stride : stride);
 }
 

@@ -72,7 +72,7 @@ FindEndOfCodes(const CodeHistogram & extremes, bool isHigh, double step);
  * Given values take precedence. The bit depth is the smallest of 8, 10, 12, 14 and 16 that holds the codes. A clip
  * level is a pile-up of the extremes, else the end of the DN range. Many sensors saturate below this end, for example
  * at 3,400 of 4,095, or never fall to 0. \a typicalVarianceDn2 is the median temporal variance of the pixels that vary
- * [DN^2]. Where a pile-up is not evidence of clipping, see CanTellPileUp(), the end of the DN range is used.
+ * [DN^2]. Where a pile-up is not evidence of clipping, see IsPileUpEvidence(), the end of the DN range is used.
  *
  * Throws std::invalid_argument if the stack holds no pixel, or a level above the bit depth. */
 SensorNoise_EXPORT CodeRange

@@ -35,7 +35,7 @@ struct MomentsConstants
   double largestPileUpDepth{ 2.5 };
   /** Largest number of stray pixels (stuck or hot ones) beyond a pile-up, relative to the pixels of the pile-up [1].
    * Chosen by design: a sensor whose pixels pass a level more often does not clip there. */
-  double largestStrayShare{ 0.1 };
+  double largestStrayFraction{ 0.1 };
   /** Least number of empty levels between a pile-up and the pixels beyond it, from which these pixels are stray
    * [levels]. Chosen by design: the tail of a noise has no gap of this width. */
   int levelsOutsidePileUp{ 4 };
@@ -59,7 +59,7 @@ struct MomentsConstants
   ///@{
   /** Codes off the grid up to which codes are regular: a fraction of all codes [1], plus a number of codes. Chosen
    * empirically. */
-  double largestOffGridShare{ 0.02 };
+  double largestOffGridFraction{ 0.02 };
   double offGridCodes{ 2.0 };
   /** Least number of levels of floating-point data that must lie on a grid: by chance one grid in 10^21 holds so many.
    */
@@ -97,8 +97,8 @@ struct MomentsConstants
   /** Largest fraction of pixels that may reach a clip level [1]: the first in any case, or the fraction that follows
    * from one clipped sample in a thousand and the number of frames. A clipped sample moves the mean by 0.003 standard
    * deviations. */
-  double largestClippedShare{ 0.01 };
-  double leastShareOfSamples{ 0.999 };
+  double largestClippedFraction{ 0.01 };
+  double leastUnclippedFraction{ 0.999 };
   /** Least number of usable pixels from which an offset is measured. Chosen empirically. */
   std::size_t fewestDarkPixels{ 30 };
   /** A pixel that holds one code in all frames is stuck if the probability of this is lower [1]. Chosen empirically: of
@@ -109,7 +109,7 @@ struct MomentsConstants
   double levelReach{ 3.0 };
   /** Least degrees of freedom and number of pixels for the median read noise. Chosen empirically: with fewer frames the
    * deconvolution is biased by more than 1 %. */
-  double      leastFreedomOfMedian{ 5.0 };
+  double      leastDofOfMedian{ 5.0 };
   std::size_t fewestPixelsOfMedian{ 100 };
   ///@}
 
@@ -142,7 +142,7 @@ struct MomentsConstants
   /** Fraction of the variance over the cells that the mean frame does not explain, from which the scene changes [1].
    * Chosen empirically: a block that crosses a third of the frame makes 0.06; another axis than time makes 0.33 or
    * more in all scenes tried. */
-  double sceneChangeShare{ 0.15 };
+  double sceneChangeFraction{ 0.15 };
   /** Square root of the unexplained variance, relative to the mean level, from which the scene changes [1]. Chosen
    * empirically: a rolling shutter under a lamp that flickers by 5 % makes 5 % of a flat field. */
   double sceneChangeOfTheLevel{ 0.1 };
@@ -152,13 +152,13 @@ struct MomentsConstants
    * Estimator.md, 3.1. */
   ///@{
   /** Largest fraction of frames that may be left out [1]: beyond it, it is not clear which frames are the burst. */
-  double largestLeftOutShare{ 0.2 };
+  double largestLeftOutFraction{ 0.2 };
   /** Largest fraction of frames in one group that have about the level of the rest and another noise [1]. Three frames
    * of five differ from two equal groups by more than chance, so that the majority is clear. */
   double largestOtherGroup{ 0.4 };
   /** Fraction of the cells of a frame that are uniform or hold no finite value, from which the frame is no picture with
    * noise [1]. Chosen empirically: half. */
-  double largestEmptyShare{ 0.5 };
+  double largestEmptyFraction{ 0.5 };
   /** Fraction of the cells, with the largest deviations, that the test of a frame ignores [1]: a hot pixel, a cosmic
    * ray, a bird. Chosen empirically. */
   double fewCells{ 0.05 };
@@ -203,7 +203,7 @@ struct MomentsConstants
    * relative to it [1]. Chosen empirically: nearly all cells of a flat field are included. In a scene their signals
    * differ by 6 % rms, which changes the curvature of the mean level by 0.4 %. */
   double brightCellsQuantile{ 0.95 };
-  double brightCellsShare{ 0.8 };
+  double brightCellsFraction{ 0.8 };
   /** Largest ratio of the signals of the pixels in uniform cells to their centre [1], and least number of cells for a
    * level. Chosen empirically: the signals then differ by 10 % rms at most, which changes the curvature of the mean
    * level by 1 %. Textured scenes have 4 of these cells near their brightest places. */

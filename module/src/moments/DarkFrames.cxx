@@ -57,7 +57,7 @@ SurveyPixels(TemporalMaps<TPixel> &            ofStack,
 {
   constexpr double  nan = std::numeric_limits<double>::quiet_NaN();
   const std::size_t pixels = ofStack.GetNumberOfPixels();
-  const double      freedom = static_cast<double>(frames) - 1.0;
+  const double      dof = static_cast<double>(frames) - 1.0;
   DarkSurvey        survey;
   DarkMaps &        maps = survey.maps;
   maps.frames = frames;
@@ -72,9 +72,9 @@ SurveyPixels(TemporalMaps<TPixel> &            ofStack,
     survey.clipped += !isMasked && maps.usable[p] == 0 && std::isfinite(maps.offsetDn[p]) ? 1 : 0;
     maps.usable[p] = isMasked ? 0 : maps.usable[p];
     survey.usable += maps.usable[p];
-    const double squares = freedom * maps.varianceDn2[p];
+    const double squares = dof * maps.varianceDn2[p];
     maps.varianceDn2[p] =
-      maps.usable[p] != 0 && frames > 1 ? drift.SquaresWithoutDrift(p, squares, maps.offsetDn[p]) / freedom : nan;
+      maps.usable[p] != 0 && frames > 1 ? drift.SquaresWithoutDrift(p, squares, maps.offsetDn[p]) / dof : nan;
     maps.offsetDn[p] = maps.usable[p] != 0 ? maps.offsetDn[p] : nan;
   }
   return survey;
@@ -88,11 +88,12 @@ RequireDarkLevel(const DarkSurvey & survey)
   const auto   frames = static_cast<double>(survey.maps.frames);
   const auto   clipped = static_cast<double>(survey.clipped);
   const double clippedFraction = clipped / (clipped + static_cast<double>(survey.usable));
-  if (clippedFraction > std::max(InMoments.largestClippedShare, 1.0 - std::pow(InMoments.leastShareOfSamples, frames)))
+  if (clippedFraction >
+      std::max(InMoments.largestClippedFraction, 1.0 - std::pow(InMoments.leastUnclippedFraction, frames)))
   {
     const CodeRange & range = survey.codes;
     const auto        levelText = [](const std::optional<double> & level) { return level ? Text(*level) : "none"; };
-    throw std::invalid_argument(PercentApart(clippedFraction, InMoments.largestClippedShare) +
+    throw std::invalid_argument(PercentApart(clippedFraction, InMoments.largestClippedFraction) +
                                 " of the pixels of the dark frames reach a clip level, " + levelText(range.clipLowDn) +
                                 " or " + levelText(range.clipHighDn) +
                                 " DN; expected at most 1 %: their black level is cut off, or they are not dark. Raise "
@@ -135,8 +136,8 @@ template <typename TPixel>
 std::size_t
 ExcludeDefective(DarkMaps & maps, const TemporalMaps<TPixel> & ofStack)
 {
-  const double freedom = static_cast<double>(maps.frames) - 1.0;
-  const double share = MedianShareOfVariance(freedom);
+  const double dof = static_cast<double>(maps.frames) - 1.0;
+  const double share = MedianToMeanOfVariance(dof);
   // A variance below the quantization noise is not significant.
   const double medianDn2 =
     std::max(QuantileOf(UsableValues(maps.varianceDn2, maps.usable), 0.5), share * maps.stepDn * maps.stepDn / 12.0);
@@ -144,7 +145,7 @@ ExcludeDefective(DarkMaps & maps, const TemporalMaps<TPixel> & ofStack)
   {
     return 0; // nothing to compare with
   }
-  const double limitDn2 = DefectiveVarianceDn2(medianDn2, freedom);
+  const double limitDn2 = DefectiveVarianceDn2(medianDn2, dof);
   const double typicalDn = std::sqrt(medianDn2 / share);
   const bool   mustChange =
     ChanceOfOneCode(typicalDn, maps.stepDn, static_cast<double>(maps.frames)) < InMoments.chanceOfStuck;

@@ -12,9 +12,9 @@ namespace sensornoise
 /** Returns the ratio of the median of the variances of pixels with the same noise to their expectation [1].
  * \param freedom degrees of freedom of a variance, above 0 */
 inline double
-MedianShareOfVariance(double freedom)
+MedianToMeanOfVariance(double dof)
 {
-  return ChiSquareQuantile(0.5, freedom) / freedom;
+  return ChiSquareQuantile(0.5, dof) / dof;
 }
 
 /** Returns the variance above which a pixel is defective [DN^2].
@@ -27,10 +27,10 @@ MedianShareOfVariance(double freedom)
  * \param medianDn2 median of the variances of the pixels [DN^2]
  * \param freedom degrees of freedom of a variance, above 0 */
 inline double
-DefectiveVarianceDn2(double medianDn2, double freedom)
+DefectiveVarianceDn2(double medianDn2, double dof)
 {
-  const double typicalDn2 = medianDn2 / MedianShareOfVariance(freedom);
-  return InMoments.defectiveNoiseFactor * InMoments.defectiveNoiseFactor * typicalDn2 * (1.0 + 2.0 / freedom);
+  const double typicalDn2 = medianDn2 / MedianToMeanOfVariance(dof);
+  return InMoments.defectiveNoiseFactor * InMoments.defectiveNoiseFactor * typicalDn2 * (1.0 + 2.0 / dof);
 }
 
 } // namespace sensornoise

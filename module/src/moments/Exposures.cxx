@@ -78,7 +78,7 @@ FindBrightCells(const FrameThumbnails &           thumbnails,
   const bool canUseWhole =
     whole.size() >= InMoments.fewestEvenCells && BrightSignal(whole) >= InMoments.leastReachOfCells * BrightSignal(all);
   const std::vector<CellSignal> & candidates = canUseWhole ? whole : all;
-  const double                    least = InMoments.brightCellsShare * BrightSignal(candidates);
+  const double                    least = InMoments.brightCellsFraction * BrightSignal(candidates);
   std::vector<std::size_t>        cells;
   for (const CellSignal & each : candidates)
   {

@@ -18,7 +18,7 @@ bool
 PilesUp(const OutermostLevels & levels, std::optional<double> stepDn, double typicalVarianceDn2, double depth)
 {
   const double step = stepDn.value_or(levels.Step());
-  return CanTellPileUp(typicalVarianceDn2, step, depth) && IsPileUp(levels.Pixels(), levels.MostInside(step));
+  return IsPileUpEvidence(typicalVarianceDn2, step, depth) && IsPileUp(levels.Pixels(), levels.MostInside(step));
 }
 
 /** Returns "given", "pile-up" or "none". */

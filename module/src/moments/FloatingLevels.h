@@ -20,8 +20,8 @@ namespace sensornoise
  * levels one step apart. The division by a flat field spreads a clip level over many values; then it cannot be found
  * and must be given.
  *
- * \a typicalVarianceDn2 is the median temporal variance of the pixels that vary [DN^2], see CanTellPileUp(). \a minima
- * or \a maxima may be empty if they are known to have no pile-up. */
+ * \a typicalVarianceDn2 is the median temporal variance of the pixels that vary [DN^2], see IsPileUpEvidence(). \a
+ * minima or \a maxima may be empty if they are known to have no pile-up. */
 SensorNoise_EXPORT CodeRange
 FindLevels(const OutermostLevels & minima,
            const OutermostLevels & maxima,

@@ -129,7 +129,7 @@ SumRun(const TPixel * from, const std::uint8_t * mask, std::size_t count)
 bool
 SceneChange::IsLarge() const
 {
-  return share > InMoments.sceneChangeShare && ofTheLevel > InMoments.sceneChangeOfTheLevel;
+  return share > InMoments.sceneChangeFraction && ofTheLevel > InMoments.sceneChangeOfTheLevel;
 }
 
 FrameThumbnails::FrameThumbnails(const FrameGeometry &             geometry,
@@ -159,7 +159,7 @@ FrameThumbnails::FrameThumbnails(const FrameGeometry &             geometry,
   }
   m_Means.resize(m_Cells * frames, 0.0);
   m_Noise.resize(frames, 0.0);
-  m_EvenShares.resize(frames, 0.0);
+  m_UniformFractions.resize(frames, 0.0);
 }
 
 double
@@ -220,7 +220,7 @@ FrameThumbnails::AddFrames(const TPixel *      frames,
       }
     }
     m_Noise[first + k] = seen > 0.0 ? noise / seen : 0.0;
-    m_EvenShares[first + k] = seen > 0.0 ? even / seen : 0.0;
+    m_UniformFractions[first + k] = seen > 0.0 ? even / seen : 0.0;
   });
 }
 
@@ -229,7 +229,7 @@ FrameThumbnails::Save(std::ostream & out) const
 {
   WriteNumbers(out, m_Means);
   WriteNumbers(out, m_Noise);
-  WriteNumbers(out, m_EvenShares);
+  WriteNumbers(out, m_UniformFractions);
 }
 
 FrameThumbnails
@@ -238,7 +238,7 @@ FrameThumbnails::ReadOther(std::istream & in) const
   FrameThumbnails other = *this;
   ReadNumbers(in, other.m_Means);
   ReadNumbers(in, other.m_Noise);
-  ReadNumbers(in, other.m_EvenShares);
+  ReadNumbers(in, other.m_UniformFractions);
   return other;
 }
 
@@ -247,8 +247,11 @@ FrameThumbnails::Merge(const FrameThumbnails & other)
 {
   std::transform(m_Means.begin(), m_Means.end(), other.m_Means.begin(), m_Means.begin(), std::plus<double>());
   std::transform(m_Noise.begin(), m_Noise.end(), other.m_Noise.begin(), m_Noise.begin(), std::plus<double>());
-  std::transform(
-    m_EvenShares.begin(), m_EvenShares.end(), other.m_EvenShares.begin(), m_EvenShares.begin(), std::plus<double>());
+  std::transform(m_UniformFractions.begin(),
+                 m_UniformFractions.end(),
+                 other.m_UniformFractions.begin(),
+                 m_UniformFractions.begin(),
+                 std::plus<double>());
 }
 
 FrameThumbnails::MeanFrame

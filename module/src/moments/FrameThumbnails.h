@@ -113,9 +113,9 @@ public:
   }
   /** Fraction of the cells of frame \a t in which no two neighbours differ [1]. */
   double
-  EvenShareOf(std::size_t t) const
+  UniformFractionOf(std::size_t t) const
   {
-    return m_EvenShares[t];
+    return m_UniformFractions[t];
   }
 
 private:
@@ -145,7 +145,7 @@ private:
   std::vector<std::uint8_t> m_Mask;
   std::vector<double>       m_Means; // means of the cells, frame by frame [DN]; NaN: no finite pixel
   std::vector<double>       m_Noise; // variance of these means by noise and texture, mean over the cells [DN^2]
-  std::vector<double>       m_EvenShares;
+  std::vector<double>       m_UniformFractions;
 };
 
 } // namespace sensornoise

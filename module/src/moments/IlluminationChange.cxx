@@ -73,14 +73,14 @@ ComputeIlluminationChange(const std::vector<double> &              mean,
     return 0.0;
   }
   // The differences from the mean frame have the mean 0 over all frames.
-  const auto freedom = static_cast<double>(frames.size() - 1);
+  const auto dof = static_cast<double>(frames.size() - 1);
   const bool hasContrast = Quantile(errors, 0.5) < InMoments.largestSlopeError * InMoments.strongIlluminationChange;
   if (hasContrast)
   {
-    return std::sqrt(slopes / freedom);
+    return std::sqrt(slopes / dof);
   }
   const double strong = InMoments.strongChangeOfFlat * noiseDn2;
-  return strong > 0.0 ? InMoments.strongIlluminationChange * std::sqrt(levels / freedom / strong) : 0.0;
+  return strong > 0.0 ? InMoments.strongIlluminationChange * std::sqrt(levels / dof / strong) : 0.0;
 }
 
 } // namespace sensornoise

@@ -148,7 +148,7 @@ IntegerMoments<TPixel>::AddBlock(const TPixel *      firstFrame,
                                  std::size_t         begin,
                                  std::size_t         size)
 {
-  WithWideVectors([&] {
+  CallWithAvx2([&] {
     detail::BlockSums block;
     std::copy_n(m_Minimum.begin() + begin, size, block.minimum);
     std::copy_n(m_Maximum.begin() + begin, size, block.maximum);
@@ -200,7 +200,7 @@ TemporalMaps<TPixel>
 IntegerMoments<TPixel>::TakeMaps(const ParallelFor & parallelFor)
 {
   ForBlocks(m_Sum.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
-    WithWideVectors([&] {
+    CallWithAvx2([&] {
       for (std::size_t p = begin; p < end; ++p)
       {
         const double mean = this->GetMean(p);

@@ -53,7 +53,7 @@ MakeLogBinning(std::vector<double> variances, double cellDn2)
 }
 
 std::vector<LogBins>
-ChiSquareKernel(double freedom, const LogBinning & binning)
+ChiSquareKernel(double dof, const LogBinning & binning)
 {
   std::vector<LogBins>  kernel(NumberOfLogBins);
   constexpr std::size_t edges = 2 * NumberOfLogBins;
@@ -62,7 +62,7 @@ ChiSquareKernel(double freedom, const LogBinning & binning)
   for (std::size_t k = 0; k < edges; ++k)
   {
     const double bins = static_cast<double>(k) - NumberOfLogBins + 0.5;
-    below[k] = ChiSquareCdf(freedom * std::exp(bins * binning.width), freedom);
+    below[k] = ChiSquareCdf(dof * std::exp(bins * binning.width), dof);
   }
   for (std::size_t j = 0; j < NumberOfLogBins; ++j)
   {

@@ -46,7 +46,7 @@ MakeLogBinning(std::vector<double> variances, double cellDn2);
 /** Returns the probability of each bin of the measured variances, for each bin of the true variances. The first index
  * is the true one. */
 SensorNoise_EXPORT std::vector<LogBins>
-ChiSquareKernel(double freedom, const LogBinning & binning);
+ChiSquareKernel(double dof, const LogBinning & binning);
 
 /** \class LogDeconvolution
  * \brief Iterations of Richardson and Lucy, which begin with the measured distribution.

@@ -33,11 +33,11 @@ struct LogMedian
 /** Estimates the median of the true variances.
  * \param stepDn quantization step [DN] */
 LogMedian
-MedianOfTrueVariances(const std::vector<double> & variances, double freedom, double stepDn)
+MedianOfTrueVariances(const std::vector<double> & variances, double dof, double stepDn)
 {
   // The sum of the squares of T integers is even where their sum is even. The sums of squared deviations of pixels with
   // the same mean are therefore 2 step^2 apart. Each is spread over this distance, for a smooth distribution.
-  const double                        cellDn2 = stepDn * stepDn / freedom;
+  const double                        cellDn2 = stepDn * stepDn / dof;
   const LogBinning                    binning = MakeLogBinning(variances, cellDn2);
   std::array<LogBins, NumberOfGroups> groups{};
   LogBins                             all{};
@@ -46,7 +46,7 @@ MedianOfTrueVariances(const std::vector<double> & variances, double freedom, dou
     const double begin = std::max(0.0, variances[i] - cellDn2);
     binning.Add(begin, variances[i] + cellDn2, groups[i % NumberOfGroups], all);
   }
-  const std::vector<LogBins> kernel = ChiSquareKernel(freedom, binning);
+  const std::vector<LogBins> kernel = ChiSquareKernel(dof, binning);
   LogDeconvolution           whole(all, kernel);
   // Chosen for 6 to 100 frames: fewer iterations are biased by 1 %, more follow the noise of the counts.
   constexpr int iterations = 30;
@@ -81,9 +81,9 @@ MedianOfTrueVariances(const std::vector<double> & variances, double freedom, dou
 } // namespace
 
 std::optional<MedianReadNoise>
-MedianReadNoiseOf(const std::vector<double> & variancesDn2, double freedom, double stepDn)
+MedianReadNoiseOf(const std::vector<double> & variancesDn2, double dof, double stepDn)
 {
-  if (freedom < InMoments.leastFreedomOfMedian || variancesDn2.size() < InMoments.fewestPixelsOfMedian)
+  if (dof < InMoments.leastDofOfMedian || variancesDn2.size() < InMoments.fewestPixelsOfMedian)
   {
     return std::nullopt;
   }
@@ -93,7 +93,7 @@ MedianReadNoiseOf(const std::vector<double> & variancesDn2, double freedom, doub
   {
     return std::nullopt;
   }
-  const LogMedian median = MedianOfTrueVariances(variancesDn2, freedom, stepDn);
+  const LogMedian median = MedianOfTrueVariances(variancesDn2, dof, stepDn);
   const double    trueDn2 = std::exp(median.value);
   if (!(trueDn2 > leastDn2))
   {

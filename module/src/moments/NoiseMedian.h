@@ -31,7 +31,7 @@ namespace sensornoise
  * \return null: fewer than 5 degrees of freedom or 100 pixels, or a median so small that rounding hides it (below half
  * a step) */
 SensorNoise_EXPORT std::optional<MedianReadNoise>
-MedianReadNoiseOf(const std::vector<double> & variancesDn2, double freedom, double stepDn);
+MedianReadNoiseOf(const std::vector<double> & variancesDn2, double dof, double stepDn);
 
 } // namespace sensornoise
 

@@ -67,7 +67,7 @@ OutermostLevels::LeaveOutStray(double stepDn)
     const auto pixels = static_cast<double>(level->second);
     const bool isApart = level != m_Counts.begin() &&
                          std::prev(level)->first - level->first > (InMoments.levelsOutsidePileUp + 0.5) * stepDn;
-    if (isApart && beyond <= InMoments.largestStrayShare * pixels &&
+    if (isApart && beyond <= InMoments.largestStrayFraction * pixels &&
         IsPileUp(level->second, this->MostInside(level, stepDn)))
     {
       m_Counts.erase(m_Counts.begin(), level);

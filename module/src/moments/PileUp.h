@@ -38,7 +38,7 @@ struct ExtremeDepths
  * because then every level piles up. Nor is it if \a depth, see ExtremeDepths, is 2.5 or more. \a typicalVarianceDn2
  * is the median variance of the pixels that vary [DN^2], \a stepDn the spacing of the levels [DN]. */
 inline bool
-CanTellPileUp(double typicalVarianceDn2, double stepDn, double depth)
+IsPileUpEvidence(double typicalVarianceDn2, double stepDn, double depth)
 {
   return typicalVarianceDn2 >= InCommon.hiddenVariance * stepDn * stepDn && depth < InMoments.largestPileUpDepth;
 }

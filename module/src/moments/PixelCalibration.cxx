@@ -36,10 +36,10 @@ IntervalFactors
 IntervalFactorsOf(const DarkMaps & dark)
 {
   const auto   frames = static_cast<double>(dark.frames);
-  const double freedom = frames - 1.0;
-  return { StudentQuantile(0.975, freedom),
-           freedom / ChiSquareUpperQuantile(0.025, freedom),
-           freedom / ChiSquareQuantile(0.025, freedom),
+  const double dof = frames - 1.0;
+  return { StudentQuantile(0.975, dof),
+           dof / ChiSquareUpperQuantile(0.025, dof),
+           dof / ChiSquareQuantile(0.025, dof),
            frames,
            dark.stepDn };
 }

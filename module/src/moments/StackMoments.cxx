@@ -39,7 +39,7 @@ SumOfPixels(const TPixel * pixels, std::size_t count)
   {
     static_assert(FingerprintBlockBytes <= 32768 && sizeof(TPixel) <= 2);
     std::int32_t sum = 0;
-    WithWideVectors([&] {
+    CallWithAvx2([&] {
       for (std::size_t i = 0; i < count; ++i)
       {
         sum += pixels[i];

@@ -114,7 +114,7 @@ StackPasses<TPixel>::AddToMoments(const std::vector<StackPasses *> & planes,
 
 template <typename TPixel>
 void
-StackPasses<TPixel>::StartMomentsAgain()
+StackPasses<TPixel>::RestartMoments()
 {
   m_Moments = StackMoments<TPixel>(m_Geometry.Pixels(), m_Frames, m_ParallelFor);
 }
@@ -126,7 +126,7 @@ StackPasses<TPixel>::ForgetSums()
   m_InPass.Forget();
   if (m_IsOfMoments)
   {
-    this->StartMomentsAgain();
+    this->RestartMoments();
     m_Thumbnails = this->IsFirstPass() ? FrameThumbnails(m_Geometry, m_Frames, m_UserMask) : m_Thumbnails;
   }
   else if (this->HasSums())
@@ -199,7 +199,7 @@ StackPasses<TPixel>::EndPass()
     if (!m_LeftOut->empty())
     {
       m_Distinct = m_Distinct.Without(NumbersOf(*m_LeftOut));
-      this->StartMomentsAgain();
+      this->RestartMoments();
       return;
     }
   }
@@ -209,7 +209,9 @@ StackPasses<TPixel>::EndPass()
 
 template <typename TPixel>
 bool
-StackPasses<TPixel>::StartAgainWithout(const std::vector<std::size_t> & places, FrameFault fault, double largestShare)
+StackPasses<TPixel>::RestartWithoutFrames(const std::vector<std::size_t> & places,
+                                          FrameFault                       fault,
+                                          double                           largestShare)
 {
   const std::vector<std::size_t> counted = m_Distinct.Counted();
   std::vector<LeftOutFrame>      found;
@@ -224,7 +226,7 @@ StackPasses<TPixel>::StartAgainWithout(const std::vector<std::size_t> & places, 
   m_LeftOut = all;
   m_Distinct = m_Distinct.Without(NumbersOf(found));
   m_IsOfMoments = true;
-  this->StartMomentsAgain();
+  this->RestartMoments();
   return true;
 }
 

@@ -211,9 +211,9 @@ protected:
    * \param largestShare largest fraction of the frames that may be left out in all [1], see JoinUnlikeFrames()
    * \return false, without any change, if there are none or too many of them */
   bool
-  StartAgainWithout(const std::vector<std::size_t> & places,
-                    FrameFault                       fault,
-                    double                           largestShare = InMoments.largestLeftOutShare);
+  RestartWithoutFrames(const std::vector<std::size_t> & places,
+                       FrameFault                       fault,
+                       double                           largestShare = InMoments.largestLeftOutFraction);
 
   /** Returns whether the current pass sums moments. */
   bool
@@ -268,7 +268,7 @@ private:
 
   /** Makes the next pass sum the moments of the frames that are not left out. */
   void
-  StartMomentsAgain();
+  RestartMoments();
 
   /** Returns a fingerprint of all data, apart from the frames, on which the sums of the current pass depend. */
   std::uint64_t

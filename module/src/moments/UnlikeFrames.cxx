@@ -36,7 +36,7 @@ FiniteCells(const FrameThumbnails & thumbnails, const Indices & cells, const Ind
 
 /** Returns the cells that have finite pixels in more than half of the frames. */
 Indices
-CellsThatTell(const FrameThumbnails & thumbnails)
+FindUsableCells(const FrameThumbnails & thumbnails)
 {
   Indices cells;
   for (std::size_t cell = 0; cell < thumbnails.NumberOfCells(); ++cell)
@@ -75,7 +75,7 @@ AreFew(const Faults & faults, std::size_t frames, double share)
 
 /** Returns the frames in ascending order; an empty list if they are too many of \a frames. */
 std::vector<LeftOutFrame>
-AsList(const Faults & faults, std::size_t frames, double share = InMoments.largestLeftOutShare)
+AsList(const Faults & faults, std::size_t frames, double share = InMoments.largestLeftOutFraction)
 {
   std::vector<LeftOutFrame> leftOut;
   if (AreFew(faults, frames, share))
@@ -92,22 +92,22 @@ AsList(const Faults & faults, std::size_t frames, double share = InMoments.large
 Faults
 FindEmptyFrames(const FrameThumbnails & thumbnails, const Indices & cells)
 {
-  std::vector<double> evenShares;
+  std::vector<double> uniformFractions;
   for (std::size_t t = 0; t < thumbnails.NumberOfFrames(); ++t)
   {
-    evenShares.push_back(thumbnails.EvenShareOf(t));
+    uniformFractions.push_back(thumbnails.UniformFractionOf(t));
   }
-  const bool areOthersEven = QuantileOf(evenShares, 0.5) > InMoments.largestEmptyShare;
+  const bool areOthersEven = QuantileOf(uniformFractions, 0.5) > InMoments.largestEmptyFraction;
   Faults     faults;
   for (std::size_t t = 0; t < thumbnails.NumberOfFrames(); ++t)
   {
     const auto lost = std::count_if(
       cells.begin(), cells.end(), [&](std::size_t cell) { return !std::isfinite(thumbnails.MeanOf(t, cell)); });
-    if (static_cast<double>(lost) > InMoments.largestEmptyShare * static_cast<double>(cells.size()))
+    if (static_cast<double>(lost) > InMoments.largestEmptyFraction * static_cast<double>(cells.size()))
     {
       faults.emplace(t, FrameFault::NotFinite);
     }
-    else if (!areOthersEven && evenShares[t] > InMoments.largestEmptyShare)
+    else if (!areOthersEven && uniformFractions[t] > InMoments.largestEmptyFraction)
     {
       faults.emplace(t, FrameFault::NoNoise);
     }
@@ -198,7 +198,7 @@ FindOtherShapes(const FrameThumbnails & thumbnails, const Indices & cells, const
   for (int round = 0; round < InMoments.roundsOfUnlikeFrames; ++round)
   {
     // Mean of the frames that are most alike: as many frames as may be left out are excluded.
-    const double edge = QuantileOf(unlike, 1.0 - InMoments.largestLeftOutShare);
+    const double edge = QuantileOf(unlike, 1.0 - InMoments.largestLeftOutFraction);
     Indices      alike;
     for (std::size_t k = 0; k < kept.size(); ++k)
     {
@@ -263,13 +263,13 @@ std::vector<LeftOutFrame>
 FindUnlikeFrames(const FrameThumbnails & thumbnails)
 {
   const std::size_t frames = thumbnails.NumberOfFrames();
-  const Indices     cells = CellsThatTell(thumbnails);
+  const Indices     cells = FindUsableCells(thumbnails);
   if (frames <= MinimumFrames || cells.size() < InMoments.fewestThumbnailCells)
   {
     return {};
   }
   Faults faults = FindEmptyFrames(thumbnails, cells);
-  if (AreFew(faults, frames, InMoments.largestLeftOutShare))
+  if (AreFew(faults, frames, InMoments.largestLeftOutFraction))
   {
     const Indices kept = FramesWithout(faults, frames);
     const Indices finite = FiniteCells(thumbnails, cells, kept);

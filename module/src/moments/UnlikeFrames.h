@@ -31,7 +31,7 @@ FindUnlikeFrames(const FrameThumbnails & thumbnails);
 SensorNoise_EXPORT std::vector<LeftOutFrame>
 JoinUnlikeFrames(const std::vector<std::vector<LeftOutFrame>> & ofParts,
                  std::size_t                                    frames,
-                 double                                         largestShare = InMoments.largestLeftOutShare);
+                 double                                         largestShare = InMoments.largestLeftOutFraction);
 
 /** Returns the numbers of the frames. */
 SensorNoise_EXPORT std::vector<std::size_t>

@@ -61,7 +61,7 @@ public:
   void
   AddFrames(const TPixel * frames, std::size_t count)
   {
-    if (this->AreBlueRowsPending() && count == this->GetHas().size())
+    if (this->IsPassOfRedRows() && count == this->GetHas().size())
     {
       this->EndPlanes(RedRows, BayerPlanes.size()); // ends the second pass, so that no sums are needed
       m_Last = BayerPlanes.size();
@@ -162,7 +162,7 @@ public:
       }
     }
     this->EndPlanes(m_First, m_Last);
-    if (this->AreBlueRowsPending() && this->AreDone(RedRows))
+    if (this->IsPassOfRedRows() && this->AreDone(RedRows))
     {
       m_First = RedRows;
       m_Last = BayerPlanes.size();
@@ -200,7 +200,7 @@ public:
     }
     std::vector<T> map = m_Geometry.Join(ofPlanes, missing, m_ParallelFor);
     ofPlanes = {};
-    GiveBackFreedMemory(); // memory of the maps that were taken
+    ReleaseFreedMemory(); // memory of the maps that were taken
     return map;
   }
 
@@ -233,7 +233,7 @@ private:
 
   /** Returns whether the third pass is the pass of the red rows. */
   bool
-  AreBlueRowsPending() const
+  IsPassOfRedRows() const
   {
     return m_Last == RedRows;
   }
@@ -256,7 +256,7 @@ private:
     {
       m_Methods[k].ReleaseFrameSums();
     }
-    GiveBackFreedMemory();
+    ReleaseFreedMemory();
   }
 
   /** Ends the current pass for the planes first <= k < last at the same time: much of the remaining work is single sums
@@ -270,7 +270,7 @@ private:
         m_Methods[k].EndPass();
       }
     });
-    GiveBackFreedMemory(); // maps of planes are so small that the system's allocator keeps them when they are freed
+    ReleaseFreedMemory(); // maps of planes are so small that the system's allocator keeps them when they are freed
   }
 
   ParallelFor             m_ParallelFor;

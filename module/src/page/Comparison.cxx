@@ -125,9 +125,9 @@ MeanOf(const std::vector<Quantity> & values)
     const double errors = (*quantity.value - common.mean) / *quantity.standardError;
     common.chiSquare += errors * errors;
   }
-  const auto freedom = static_cast<double>(values.size() - 1);
-  common.probability = ChiSquareUpper(common.chiSquare, freedom);
-  common.excess = std::sqrt(std::max(0.0, (common.chiSquare - freedom) / (weights - squares / weights)));
+  const auto dof = static_cast<double>(values.size() - 1);
+  common.probability = ChiSquareUpper(common.chiSquare, dof);
+  common.excess = std::sqrt(std::max(0.0, (common.chiSquare - dof) / (weights - squares / weights)));
   return common;
 }
 

@@ -34,9 +34,9 @@ public:
   };
   /** Returns the limits for the degrees of freedom in the table that are nearest to \a freedom. */
   const Limits &
-  Of(double freedom) const
+  Of(double dof) const
   {
-    const auto k = static_cast<std::size_t>(std::max(1.0, freedom + 0.5));
+    const auto k = static_cast<std::size_t>(std::max(1.0, dof + 0.5));
     return m_Limits[std::min(m_Limits.size() - 1, k - std::min(k, m_First))];
   }
 

@@ -19,7 +19,7 @@ namespace sensornoise
 
 namespace
 {
-constexpr std::size_t LevelsOfRest = 513;
+constexpr std::size_t RemainderLevels = 513;
 
 /** Returns the quantization noise of a pixel of the mean \a levelDn and the standard deviation \a sdDn [DN^2]: the
  * expectation over a normal distribution, by the five-point Gauss-Hermite rule. */
@@ -36,10 +36,10 @@ MeanVarianceAt(const CodeSteps & steps, double levelDn, double sdDn)
   return sum;
 }
 
-/** Splits the excess into a line and a remainder. Before, restsDn2 holds the whole excess. The line is fitted to the
- * usable pixels with the weights of the variance fit. */
+/** Splits the excess into a line and a remainder. Before, remaindersDn2 holds the whole excess. The line is fitted to
+ * the usable pixels with the weights of the variance fit. */
 void
-PartOffLine(CodeNoise & noise, const ReferenceFrame & frame, const ProvisionalModel & model)
+PartOffLine(CodeNoise & noise, const ReferenceFrame & frame, const InitialNoiseModel & model)
 {
   double weight = 0.0, x = 0.0, xx = 0.0, v = 0.0, xv = 0.0;
   for (const std::size_t p : SamplePixels(frame.usable))
@@ -47,7 +47,7 @@ PartOffLine(CodeNoise & noise, const ReferenceFrame & frame, const ProvisionalMo
     const double level = frame.neighbourMean[p] - model.centreDn;
     const double expected = model.NoiseVariance(frame.neighbourMean[p]);
     const double w = 1.0 / (expected * expected);
-    const double value = noise.RestAt(frame.neighbourMean[p]);
+    const double value = noise.RemainderAt(frame.neighbourMean[p]);
     weight += w;
     x += w * level;
     xx += w * level * level;
@@ -59,9 +59,9 @@ PartOffLine(CodeNoise & noise, const ReferenceFrame & frame, const ProvisionalMo
   {
     noise.slopeDn = (weight * xv - x * v) / determinant;
     noise.interceptDn2 = (v - noise.slopeDn * x) / weight - noise.slopeDn * model.centreDn;
-    for (std::size_t i = 0; i < noise.restsDn2.size(); ++i)
+    for (std::size_t i = 0; i < noise.remaindersDn2.size(); ++i)
     {
-      noise.restsDn2[i] -=
+      noise.remaindersDn2[i] -=
         noise.interceptDn2 + noise.slopeDn * (noise.lowestDn + static_cast<double>(i) * noise.spacingDn);
     }
   }
@@ -69,10 +69,10 @@ PartOffLine(CodeNoise & noise, const ReferenceFrame & frame, const ProvisionalMo
 } // namespace
 
 CodeNoise
-MakeCodeNoise(const CodeRange & codes, const ReferenceFrame & frame, const ProvisionalModel & model, double darkStepDn)
+MakeCodeNoise(const CodeRange & codes, const ReferenceFrame & frame, const InitialNoiseModel & model, double darkStepDn)
 {
   CodeNoise noise;
-  noise.inTheDarkDn2 = codes.quantisationStepDn * codes.quantisationStepDn / 12.0;
+  noise.darkVarianceDn2 = codes.quantisationStepDn * codes.quantisationStepDn / 12.0;
   double brightestDn = -1.0;
   bool   isFirst = true;
   for (std::size_t p = 0; p < frame.usable.size() && codes.steps.IsCompanded(); ++p)
@@ -88,16 +88,17 @@ MakeCodeNoise(const CodeRange & codes, const ReferenceFrame & frame, const Provi
   {
     return noise;
   }
-  noise.inTheDarkDn2 = darkStepDn > 0.0 ? darkStepDn * darkStepDn / 12.0 : codes.steps.GetTable().front().varianceDn2;
+  noise.darkVarianceDn2 =
+    darkStepDn > 0.0 ? darkStepDn * darkStepDn / 12.0 : codes.steps.GetTable().front().varianceDn2;
   const double darkNoiseDn = std::sqrt(model.NoiseVariance(model.darkestDn));
   noise.darkErrorDn2 =
     InPixels.errorOfRounding * codes.steps.GetUnitDn() * std::sqrt(darkNoiseDn * codes.steps.StepAt(model.darkestDn));
-  noise.spacingDn = (brightestDn - noise.lowestDn) / static_cast<double>(LevelsOfRest - 1);
-  for (std::size_t i = 0; i < LevelsOfRest; ++i)
+  noise.spacingDn = (brightestDn - noise.lowestDn) / static_cast<double>(RemainderLevels - 1);
+  for (std::size_t i = 0; i < RemainderLevels; ++i)
   {
     const double level = noise.lowestDn + static_cast<double>(i) * noise.spacingDn;
     const double sd = std::sqrt(model.NoiseVariance(level));
-    noise.restsDn2.push_back(MeanVarianceAt(codes.steps, level, sd) - noise.inTheDarkDn2);
+    noise.remaindersDn2.push_back(MeanVarianceAt(codes.steps, level, sd) - noise.darkVarianceDn2);
   }
   PartOffLine(noise, frame, model);
   return noise;
@@ -115,9 +116,10 @@ CodeNoise::ErrorOfLine(double pivotDn) const
 }
 
 void
-TakeOffLine(StaticVariance & variance, const CodeNoise & noise)
+SubtractLine(StaticVariance & variance, const CodeNoise & noise)
 {
-  for (VarianceLine * line : { &variance.line, &variance.fromLight, &variance.curve.line, &variance.ofOwnLevels.line })
+  for (VarianceLine * line :
+       { &variance.line, &variance.instrumentalLine, &variance.curve.line, &variance.ofOwnLevels.line })
   {
     line->gain -= noise.slopeDn;
     line->intercept -= noise.interceptDn2;

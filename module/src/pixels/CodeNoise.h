@@ -28,15 +28,15 @@ struct StaticVariance;
 struct SensorNoise_EXPORT CodeNoise
 {
   /** Quantization noise in the dark, which stays in the intercept [DN^2]. */
-  double inTheDarkDn2{ 0.0 };
+  double darkVarianceDn2{ 0.0 };
   double slopeDn{ 0.0 };      ///< slope of the line [DN]
   double interceptDn2{ 0.0 }; ///< intercept of the line [DN^2]
 
   double              lowestDn{ 0.0 };  ///< level of the first remainder [DN]
   double              spacingDn{ 1.0 }; ///< distance of the levels of two successive remainders [DN]
-  std::vector<double> restsDn2;         ///< remainders at equally spaced levels [DN^2]; empty: none
+  std::vector<double> remaindersDn2;    ///< remainders at equally spaced levels [DN^2]; empty: none
 
-  double darkErrorDn2{ 0.0 }; ///< standard error of inTheDarkDn2 [DN^2]
+  double darkErrorDn2{ 0.0 }; ///< standard error of darkVarianceDn2 [DN^2]
 
   /** Returns the covariance of gain and intercept that the uncertainty of this noise adds: InPixels.errorOfCodeNoise of
    * the slope, and darkErrorDn2. \a pivotDn is the level at which an error of the slope leaves the line unchanged [DN].
@@ -47,17 +47,17 @@ struct SensorNoise_EXPORT CodeNoise
   /** Returns the remainder at a level, linear between two levels and constant beyond the first and the last one
    * [DN^2]. */
   double
-  RestAt(double levelDn) const
+  RemainderAt(double levelDn) const
   {
-    if (restsDn2.empty())
+    if (remaindersDn2.empty())
     {
       return 0.0;
     }
-    const double      last = static_cast<double>(restsDn2.size()) - 1.0;
+    const double      last = static_cast<double>(remaindersDn2.size()) - 1.0;
     const double      at = std::clamp((levelDn - lowestDn) / spacingDn, 0.0, last);
-    const std::size_t low = std::min(static_cast<std::size_t>(at), restsDn2.size() - 2);
+    const std::size_t low = std::min(static_cast<std::size_t>(at), remaindersDn2.size() - 2);
     const double      share = at - static_cast<double>(low);
-    return restsDn2[low] + share * (restsDn2[low + 1] - restsDn2[low]);
+    return remaindersDn2[low] + share * (remaindersDn2[low + 1] - remaindersDn2[low]);
   }
 };
 
@@ -65,11 +65,14 @@ struct SensorNoise_EXPORT CodeNoise
  * over time are taken to be normally distributed, with the variance of \a model. \a darkStepDn is the quantization step
  * in the dark as measured in dark frames [DN]; 0: not measured, the first step of \a codes is used. */
 SensorNoise_EXPORT CodeNoise
-MakeCodeNoise(const CodeRange & codes, const ReferenceFrame & frame, const ProvisionalModel & model, double darkStepDn);
+MakeCodeNoise(const CodeRange &         codes,
+              const ReferenceFrame &    frame,
+              const InitialNoiseModel & model,
+              double                    darkStepDn);
 
 /** Subtracts the line of \a noise from all fitted lines, adds its covariance to theirs, and stores \a noise. */
 SensorNoise_EXPORT void
-TakeOffLine(StaticVariance & variance, const CodeNoise & noise);
+SubtractLine(StaticVariance & variance, const CodeNoise & noise);
 
 } // namespace sensornoise
 

@@ -26,7 +26,7 @@ struct PixelsConstants
   /** Smallest loss of degrees of freedom by a change of the illumination that is allowed for, as a fraction [1]. Chosen
    * empirically: below, standard errors are too small by at most half of this fraction. A flicker of 10 % rms has this
    * loss. */
-  double leastLossOfFreedom{ 0.01 };
+  double leastLossOfDof{ 0.01 };
   /** Fraction of the roughness classes, the flattest ones, that the first line is fitted to [1]. Chosen empirically. */
   double flatShare{ 0.6 };
   ///@}
@@ -35,20 +35,20 @@ struct PixelsConstants
   ///@{
   /** Half width of a neighbourhood [pixel]. Chosen empirically: the mean of 225 variances of 100 frames is known to
    * 1 %. */
-  std::size_t misfitRadius{ 7 };
+  std::size_t neighbourhoodRadius{ 7 };
   /** Excess of a neighbourhood's mean variance over the line above which it is rejected [1], and the fraction of its
    * pixels that must count for this test [1]. Chosen empirically. */
-  double leastMisfit{ 0.04 };
-  double leastCountedShare{ 0.3 };
+  double leastNeighbourhoodExcess{ 0.04 };
+  double leastCountedFraction{ 0.3 };
   /** Fraction of the frame's pixels in rejected neighbourhoods below which the line is not fitted again without them
    * [1]. Chosen empirically: so few pixels do not change the line. */
-  double fewMisfits{ 1e-3 };
+  double fewRejected{ 1e-3 };
   /** A roughness class is rejected if its mean variance exceeds the mean of the flat classes by this fraction [1], or
    * if its fraction of outliers exceeds their fraction by this number [1]. Chosen empirically. */
   double leastClassExcess{ 0.0015 };
   double leastClassOutliers{ 0.01 };
   /** The flattest class that can be rejected. Chosen empirically: the classes below it are the reference. */
-  std::size_t firstJudgedClass{ 4 };
+  std::size_t firstTestedClass{ 4 };
   ///@}
 
   /** \name The first line */
@@ -59,32 +59,32 @@ struct PixelsConstants
   std::size_t leastPixelsOfLevel{ 50 };
   /** Fraction of the bright pixels that must be near a line through dark and bright pixels [1]. Chosen empirically: in
    * most scenes edges move. */
-  double leastNearLine{ 0.75 };
+  double leastFractionNearLine{ 0.75 };
   ///@}
 
   /** \name The rejection model */
   ///@{
   /** Side of a tile [pixel], and the pixels of a tile that must count. Chosen empirically: the mean of a tile is known
    * to 2 %, and its pixels are of about one level. */
-  static constexpr std::size_t judgingSquareSide{ 16 }; // a constant expression: the size of arrays
-  double                       leastSquarePixels{ 64.0 };
+  static constexpr std::size_t rejectionTileSide{ 16 }; // a constant expression: the size of arrays
+  double                       leastPixelsOfRejectionTile{ 64.0 };
   /** Number of tiles that suffice. Of twice as many or more every second tile is used, of three times as many every
    * third, and so on. Chosen empirically: the medians at 16 levels are known to 0.2 %. Half and twice this number
    * change no gain of 1024 x 1024 pixels by more than 0.05 of its error. */
-  std::size_t enoughJudgingSquares{ 1024 };
+  std::size_t enoughRejectionTiles{ 1024 };
   /** Largest number of levels, and smallest number of tiles at each level. Chosen empirically. */
-  std::size_t mostJudgingLevels{ 16 };
-  std::size_t squaresPerLevel{ 8 };
+  std::size_t mostRejectionLevels{ 16 };
+  std::size_t tilesPerLevel{ 8 };
   /** Deviation from the line beyond chance above which it counts [1]. Chosen empirically: neighbourhoods are rejected
    * from 4 % on, and half of this deviation is within the noise of frames of 128 x 128 pixels. */
-  double leastDeparture{ 0.01 };
+  double leastDeviation{ 0.01 };
   /** The darkest tiles, one in this number, give the dispersion of the noise from pixel to pixel. Chosen
    * empirically. */
-  std::size_t darkSquaresOneIn{ 5 };
+  std::size_t darkTilesOneIn{ 5 };
   /** Variance that the offset pattern (DSNU) adds to the line's value, relative to the square of this value at the
    * darkest level. Up to this limit pixels are tested at their own level, above it at their neighbours' level [1].
    * Chosen empirically: at the limit a ratio of variances is biased by 2 %. */
-  double largestOwnOffset{ 0.02 };
+  double largestDsnuEffect{ 0.02 };
   ///@}
 
   /** \name The variance line */
@@ -113,12 +113,12 @@ struct PixelsConstants
   double largestFeedback{ 0.9 };
   /** The fewest frames that together carry this fraction of the illumination are named as the reason of a failed
    * estimate [1]. Chosen empirically. */
-  double shareOfFewFrames{ 0.9 };
+  double fractionOfFewFrames{ 0.9 };
   /** Largest number of times that the line is fitted and its gain corrected, and the relative change of the gain that
    * ends the iteration [1]. Chosen empirically: the solution is exact but for weights and outliers, which change once
    * or twice. */
-  int    settlingRounds{ 4 };
-  double settledChange{ 1e-4 };
+  int    fixedPointRounds{ 4 };
+  double fixedPointChange{ 1e-4 };
   /** Determinant of a line's normal equations, relative to the product of their diagonal, up to which all levels are
    * equal but for rounding [1]. */
   double leastDeterminant{ 1e-12 };
@@ -127,7 +127,7 @@ struct PixelsConstants
   double reachTail{ 1e-5 };
   /** Dispersion of the pixels' noise variances, relative to their sampling variance, below which the weights neglect it
    * [1]. Chosen empirically: at the limit equal weights cost 0.3 % of the precision. */
-  double leastNoiseSpread{ 0.1 };
+  double leastNoiseDispersion{ 0.1 };
   /** Largest error by fixed-pattern noise that is neglected, in standard errors [1]. Chosen empirically: it adds 3 % to
    * the error. */
   double negligiblePattern{ 0.25 };
@@ -155,14 +155,14 @@ struct PatternConstants
    * measure a pattern of columns, but a small frame may have no large flat tile. Chosen empirically: with a side of 8
    * in large frames, the flattest tiles are those whose few columns are alike by chance. */
   static constexpr std::size_t squareSide{ 16 }; // a constant expression: the size of arrays
-  std::size_t                  smallSquareSide{ 8 };
+  std::size_t                  smallTileSide{ 8 };
   std::size_t                  largeFramePixels{ 16384 };
   /** Smallest number of pixels of either half of a tile. Chosen empirically. */
   double leastHalfPixels{ 24.0 };
   /** Fraction of the tiles that count as the flattest [1], and their smallest number. Chosen empirically: with half and
    * twice this fraction, the results for natural scenes change by a third. */
-  double      flattestShare{ 0.05 };
-  std::size_t fewestSquares{ 4 };
+  double      flattestFraction{ 0.05 };
+  std::size_t fewestPatternTiles{ 4 };
   /** Largest standard deviation of the fixed-pattern noise of real sensors: of gain or efficiency (PRNU), relative to
    * the mean [1], and of offset (DSNU), in units of the noise at the level of the flattest tiles [1]. Larger
    * differences, in a scene without flat areas, are signal. Chosen empirically, three times and twice the values of
@@ -173,10 +173,10 @@ struct PatternConstants
    * chance [1]. Chosen empirically: with 256 columns the ratio scatters by 0.1. */
   double leastLikeness{ 1.5 };
 
-  /** Limits for tiles with local illumination. leastLeakPixels, leastTilePixels: the pixels that a tile needs for a
+  /** Limits for tiles with local illumination. leastLeakagePixels, leastTilePixels: the pixels that a tile needs for a
    * line, to estimate the leakage of motion and the offset. leastTileContrast: the variance of its levels, relative to
    * the noise of their means, that the offset needs [1]. Chosen empirically. */
-  double leastLeakPixels{ 20.0 };
+  double leastLeakagePixels{ 20.0 };
   double leastTilePixels{ 12.0 };
   double leastTileContrast{ 30.0 };
   /** Limits for local illumination to be a drift of the offset: side of a tile [pixel], largest chi-square of the tiles

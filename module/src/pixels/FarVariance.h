@@ -19,9 +19,9 @@ struct FarLimits
   double high; ///< upper limit [1]
 
   /** Computes the limits for \a freedom degrees of freedom, above 0. */
-  explicit FarLimits(double freedom)
+  explicit FarLimits(double dof)
   {
-    const double s = 2.0 / (9.0 * freedom);
+    const double s = 2.0 / (9.0 * dof);
     const double far = Significance.manyTests * std::sqrt(s);
     const double above = 1.0 - s + far;
     const double below = 1.0 - s - far;

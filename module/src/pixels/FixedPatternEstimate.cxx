@@ -25,7 +25,7 @@ namespace
 constexpr double DifferenceVariance = 1.125;
 
 /** Sums over the differences from their diagonal means of every second pixel of a tile, as on a chequerboard. */
-struct HalfSquare
+struct HalfTile
 {
   double pixels{ 0.0 };  // number of pixels
   double level{ 0.0 };   // sum of the levels; after MakeSquares() their mean [DN]
@@ -47,7 +47,7 @@ struct HalfSquare
 
 struct Square
 {
-  HalfSquare
+  HalfTile
     half[2]; // one selects tiles, the other measures them: a value selected for being small is small by chance, too
 
   /** Returns an upper limit of the pattern's variance, by the half that selects [DN^2]. */
@@ -92,12 +92,12 @@ struct PatternRow
 };
 
 void
-SumPatternSquare(const ReferenceFrame & frame,
-                 const VarianceData &   data,
-                 std::size_t            left,
-                 std::size_t            top,
-                 std::size_t            side,
-                 Square &               square)
+SumPatternTile(const ReferenceFrame & frame,
+               const VarianceData &   data,
+               std::size_t            left,
+               std::size_t            top,
+               std::size_t            side,
+               Square &               square)
 {
   const auto frames = static_cast<double>(frame.frames);
   const auto before = [side](std::size_t first, std::size_t size) {
@@ -115,7 +115,7 @@ SumPatternSquare(const ReferenceFrame & frame,
       {
         // Diagonal neighbours are in the same half, so the halves have no pixel in common.
         const std::size_t p = y * frame.geometry.width + x;
-        HalfSquare &      half = square.half[(x + y) % 2];
+        HalfTile &        half = square.half[(x + y) % 2];
         half.pixels += 1.0;
         half.level += frame.mean[p];
         half.squares += row.square[x - begin];
@@ -123,7 +123,7 @@ SumPatternSquare(const ReferenceFrame & frame,
       }
     }
   }
-  for (HalfSquare & half : square.half)
+  for (HalfTile & half : square.half)
   {
     half.level /= std::max(1.0, half.pixels);
   }
@@ -133,15 +133,15 @@ std::vector<Square>
 MakeSquares(const ReferenceFrame & frame, const VarianceData & data, const ParallelFor & parallelFor)
 {
   const std::size_t side =
-    frame.geometry.Pixels() < InPattern.largeFramePixels ? InPattern.smallSquareSide : InPattern.squareSide;
+    frame.geometry.Pixels() < InPattern.largeFramePixels ? InPattern.smallTileSide : InPattern.squareSide;
   const std::size_t   across = (frame.geometry.width + side - 1) / side;
   const std::size_t   down = (frame.geometry.height + side - 1) / side;
   std::vector<Square> squares(across * down);
   parallelFor(down, [&](std::size_t row) {
-    WithWideVectors([&] {
+    CallWithAvx2([&] {
       for (std::size_t column = 0; column < across; ++column)
       {
-        SumPatternSquare(frame, data, column * side, row * side, side, squares[row * across + column]);
+        SumPatternTile(frame, data, column * side, row * side, side, squares[row * across + column]);
       }
     });
   });
@@ -158,7 +158,7 @@ MakeSquares(const ReferenceFrame & frame, const VarianceData & data, const Paral
 /** Returns the \a count tiles of the smallest \a value, in rising order. */
 template <typename TValue>
 std::vector<const Square *>
-SmallestSquares(const std::vector<Square> & squares, std::size_t count, TValue value)
+SmallestTiles(const std::vector<Square> & squares, std::size_t count, TValue value)
 {
   std::vector<std::pair<double, const Square *>> sorted(squares.size());
   std::transform(squares.begin(), squares.end(), sorted.begin(), [&](const Square & square) {
@@ -188,42 +188,42 @@ UpperMean(const std::vector<const Square *> & squares, TValue value, TError erro
 }
 } // namespace
 
-LevelPattern
-MeasureLevelPattern(const ReferenceFrame & frame,
-                    const VarianceData &   data,
-                    const VarianceLine &   line,
-                    double                 blackDn,
-                    const ParallelFor &    parallelFor)
+FixedPatternEstimate
+EstimateFixedPattern(const ReferenceFrame & frame,
+                     const VarianceData &   data,
+                     const VarianceLine &   line,
+                     double                 blackDn,
+                     const ParallelFor &    parallelFor)
 {
   const double              noiseDn2 = line.At(line.pivotDn) / static_cast<double>(frame.frames);
   const double              fluxDn = line.pivotDn - blackDn;
-  LevelPattern              pattern;
+  FixedPatternEstimate      pattern;
   const std::vector<Square> squares = MakeSquares(frame, data, parallelFor);
-  pattern.lightDn2 = std::max(0.0, line.spreadDn2 / line.weightSum - noiseDn2);
-  if (squares.empty() || !(pattern.lightDn2 > 0.0))
+  pattern.levelVarianceDn2 = std::max(0.0, line.spreadDn2 / line.weightSum - noiseDn2);
+  if (squares.empty() || !(pattern.levelVarianceDn2 > 0.0))
   {
-    pattern.gainShare = pattern.offsetShare = std::numeric_limits<double>::infinity();
+    pattern.gainFraction = pattern.offsetFraction = std::numeric_limits<double>::infinity();
     return pattern;
   }
   const auto count =
     std::min(squares.size(),
-             std::max(InPattern.fewestSquares,
-                      static_cast<std::size_t>(InPattern.flattestShare * static_cast<double>(squares.size()))));
+             std::max(InPattern.fewestPatternTiles,
+                      static_cast<std::size_t>(InPattern.flattestFraction * static_cast<double>(squares.size()))));
   // Each half measures once, so that a mirrored frame has the same pattern.
   double gainSquare = 0.0;
   double offsetSquareDn2 = 0.0;
   for (const std::size_t chooser : { 0, 1 })
   {
-    const auto   measured = [&](const Square & square) -> const HalfSquare & { return square.half[1 - chooser]; };
+    const auto   measured = [&](const Square & square) -> const HalfTile & { return square.half[1 - chooser]; };
     const auto   fluxOf = [&](const Square & square) { return std::max(1e-6, measured(square).level - blackDn); };
     const auto   relative = [&](const Square & square) { return square.RelativeRoughness(chooser, blackDn); };
     const auto   roughness = [&](const Square & square) { return square.Roughness(chooser); };
     const double gain = UpperMean(
-      SmallestSquares(squares, count, relative),
+      SmallestTiles(squares, count, relative),
       [&](const Square & square) { return measured(square).Pattern() / (fluxOf(square) * fluxOf(square)); },
       [&](const Square & square) { return measured(square).Error() / (fluxOf(square) * fluxOf(square)); });
     gainSquare += 0.5 * std::min(gain, InPattern.largestGain * InPattern.largestGain);
-    const auto   smoothest = SmallestSquares(squares, count, roughness);
+    const auto   smoothest = SmallestTiles(squares, count, roughness);
     const double offsetDn2 = UpperMean(
       smoothest,
       [&](const Square & square) { return measured(square).Pattern(); },
@@ -232,8 +232,8 @@ MeasureLevelPattern(const ReferenceFrame & frame,
       InPattern.largestOffset * InPattern.largestOffset * line.At(measured(*smoothest.front()).level);
     offsetSquareDn2 += 0.5 * std::min(offsetDn2, largestDn2);
   }
-  pattern.gainShare = gainSquare * (fluxDn * fluxDn + pattern.lightDn2) / pattern.lightDn2;
-  pattern.offsetShare = offsetSquareDn2 / pattern.lightDn2;
+  pattern.gainFraction = gainSquare * (fluxDn * fluxDn + pattern.levelVarianceDn2) / pattern.levelVarianceDn2;
+  pattern.offsetFraction = offsetSquareDn2 / pattern.levelVarianceDn2;
   return pattern;
 }
 

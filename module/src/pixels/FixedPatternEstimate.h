@@ -26,24 +26,24 @@ struct VarianceLine;
  * variance that is pattern therefore changes the slope by -s to +s of the gain. Patterns are measured where the scene
  * is flattest: elsewhere the differences from pixel to pixel are signal. A pattern that differs between the halves of a
  * sensor, or that repeats over long distances, is not identifiable. */
-struct LevelPattern
+struct FixedPatternEstimate
 {
-  double lightDn2{ 0.0 }; ///< weighted variance of the levels without the noise of their means [DN^2]
-  /** Largest fraction of lightDn2 by a pattern of gain or efficiency, its error included [1]. */
-  double gainShare{ 0.0 };
-  double offsetShare{ 0.0 }; ///< largest fraction of lightDn2 by a pattern of offset, its error included [1]
+  double levelVarianceDn2{ 0.0 }; ///< weighted variance of the levels without the noise of their means [DN^2]
+  /** Largest fraction of levelVarianceDn2 by a pattern of gain or efficiency, its error included [1]. */
+  double gainFraction{ 0.0 };
+  double offsetFraction{ 0.0 }; ///< largest fraction of levelVarianceDn2 by a pattern of offset, its error included [1]
 
   /** Returns the largest variance of the pixels' offsets [DN^2]. */
   double
   OffsetVarianceDn2() const
   {
-    return lightDn2 > 0.0 ? offsetShare * lightDn2 : 0.0;
+    return levelVarianceDn2 > 0.0 ? offsetFraction * levelVarianceDn2 : 0.0;
   }
   /** Returns the largest relative bias of the slope [1]. */
   double
-  LargestShare() const
+  LargestFraction() const
   {
-    return gainShare > offsetShare ? gainShare : offsetShare;
+    return gainFraction > offsetFraction ? gainFraction : offsetFraction;
   }
 };
 
@@ -75,12 +75,12 @@ HasDiagonals(const std::uint8_t * usable, std::size_t width, std::size_t p)
 /** Measures the pattern of the pixels of \a data, whose variance follows \a line. The gain pattern is relative to the
  * level above \a blackDn, the dark offset or a level that it is not below [DN]. The fractions are infinite if no tile
  * can be used or all levels are equal. */
-SensorNoise_EXPORT LevelPattern
-MeasureLevelPattern(const ReferenceFrame & frame,
-                    const VarianceData &   data,
-                    const VarianceLine &   line,
-                    double                 blackDn,
-                    const ParallelFor &    parallelFor);
+SensorNoise_EXPORT FixedPatternEstimate
+EstimateFixedPattern(const ReferenceFrame & frame,
+                     const VarianceData &   data,
+                     const VarianceLine &   line,
+                     double                 blackDn,
+                     const ParallelFor &    parallelFor);
 
 } // namespace sensornoise
 

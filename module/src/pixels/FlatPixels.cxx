@@ -81,7 +81,7 @@ EndOf(const std::vector<std::size_t> & counts)
 
 /** Returns for each bin the median roughness class of its pixels. */
 std::vector<std::size_t>
-MedianClasses(const ProjectedVariance & projected, const std::vector<std::uint8_t> & usable, const LevelBins & bins)
+FindMedianClasses(const ProjectedVariance & projected, const std::vector<std::uint8_t> & usable, const LevelBins & bins)
 {
   std::vector<std::vector<std::size_t>> counts(InPixels.levelBins,
                                                std::vector<std::size_t>(ProjectedVariance::Classes, 0));
@@ -178,7 +178,7 @@ FindBrighterPixels(const ProjectedVariance &         projected,
   {
     return std::nullopt;
   }
-  const std::vector<std::size_t> medians = MedianClasses(projected, usable, bins);
+  const std::vector<std::size_t> medians = FindMedianClasses(projected, usable, bins);
   BrighterPixels                 found;
   found.mask = flat;
   found.beyond.resize(flat.size());
@@ -197,7 +197,7 @@ FindBrighterPixels(const ProjectedVariance &         projected,
 }
 
 bool
-FollowsLine(const ProjectedVariance & projected, const std::vector<std::uint8_t> & mask, const VarianceLine & line)
+AgreesWithLine(const ProjectedVariance & projected, const std::vector<std::uint8_t> & mask, const VarianceLine & line)
 {
   const VarianceData data = projected.GetData(mask);
   double             pixels = 0.0;
@@ -207,12 +207,12 @@ FollowsLine(const ProjectedVariance & projected, const std::vector<std::uint8_t>
     if (mask[p] != 0)
     {
       const double expected = line.At(data.mean[p]);
-      const double limit = Significance.oneTest * std::sqrt(line.SamplingVariance(data.freedom[p], expected));
+      const double limit = Significance.oneTest * std::sqrt(line.SamplingVariance(data.dof[p], expected));
       pixels += 1.0;
       near += std::abs(data.variance[p] - expected) < limit ? 1.0 : 0.0;
     }
   }
-  return near > InPixels.leastNearLine * pixels;
+  return near > InPixels.leastFractionNearLine * pixels;
 }
 
 } // namespace sensornoise

@@ -48,7 +48,7 @@ FindBrighterPixels(const ProjectedVariance &         projected,
 /** Returns whether the variance of most pixels of \a mask agrees with \a line within sampling noise. The variance of a
  * signal lies on one line with the variance of the dark pixels; the variance by motion does not. */
 SensorNoise_EXPORT bool
-FollowsLine(const ProjectedVariance & projected, const std::vector<std::uint8_t> & mask, const VarianceLine & line);
+AgreesWithLine(const ProjectedVariance & projected, const std::vector<std::uint8_t> & mask, const VarianceLine & line);
 
 } // namespace sensornoise
 

@@ -11,7 +11,7 @@
 namespace sensornoise
 {
 
-/** \class FrameFreedom
+/** \class FrameDof
  * \brief Effective degrees of freedom of a pixel's variance if the noise differs from frame to frame.
  *
  * With the illumination factor 1 + gamma_t the variance of frame t is proportional to V_t = 1 + b gamma_t; b is the
@@ -26,21 +26,21 @@ namespace sensornoise
  *     f(b) = 2 V^2 / Var[estimate] = n^2 / (n + 2 B b + E b^2).
  *
  * GainFeedback allows for the error of the gain itself. Estimator.md, 3.5. */
-class SensorNoise_EXPORT FrameFreedom
+class SensorNoise_EXPORT FrameDof
 {
 public:
   /** Frames of equal noise. */
-  FrameFreedom() = default;
+  FrameDof() = default;
   /** \a basis is orthonormal and orthogonal to the constant, frames x components. \a gamma has one number per frame;
    * numbers below -1 would be a negative illumination and count as -1. */
-  FrameFreedom(const Eigen::MatrixXd & basis, const std::vector<double> & gamma);
+  FrameDof(const Eigen::MatrixXd & basis, const std::vector<double> & gamma);
 
   /** Returns f(b) / n, at most 1. \a shotFraction is b, clamped to [0, 1]. */
   double
-  FractionAt(double shotFraction) const;
+  DofFractionAt(double shotFraction) const;
 
   /** Returns whether all frames may be treated alike: pixels with shot noise alone lose less than
-   * InPixels.leastLossOfFreedom of their degrees of freedom, and the mean variance of the residuals, 1 + b B / n, is
+   * InPixels.leastLossOfDof of their degrees of freedom, and the mean variance of the residuals, 1 + b B / n, is
    * within InPixels.leastFeedback of 1. */
   bool
   IsEqual() const
@@ -49,9 +49,9 @@ public:
   }
 
 private:
-  double m_Freedom{ 1.0 }; // n
-  double m_Linear{ 0.0 };  // B
-  double m_Square{ 0.0 };  // E
+  double m_Dof{ 1.0 };    // n
+  double m_Linear{ 0.0 }; // B
+  double m_Square{ 0.0 }; // E
   bool   m_IsEqual{ true };
 };
 

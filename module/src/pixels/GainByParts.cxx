@@ -212,7 +212,7 @@ FindBest(const std::vector<TileExcess> & tiles, Divided divided)
     return std::nullopt;
   }
   PartGains  gains = GainsOf(*chosen, tiles);
-  const bool isTold = gains.Differ() || gains.DifferInTheDark();
+  const bool isTold = gains.Differ() || gains.DarkVariancesDiffer();
   return isTold ? std::optional<PartGains>(std::move(gains)) : std::nullopt;
 }
 
@@ -239,7 +239,7 @@ PartGains::Differ() const
 }
 
 bool
-PartGains::DifferInTheDark() const
+PartGains::DarkVariancesDiffer() const
 {
   return darkSize > InCommon.leastDarkDifference && darkZ > Significance.severalTests;
 }
@@ -247,7 +247,7 @@ PartGains::DifferInTheDark() const
 bool
 PartGains::DifferMuch() const
 {
-  return ((this->Differ() && size > InParts.largeDifference) || this->DifferInTheDark()) &&
+  return ((this->Differ() && size > InParts.largeDifference) || this->DarkVariancesDiffer()) &&
          scale < InParts.largestScatter;
 }
 

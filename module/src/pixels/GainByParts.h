@@ -46,7 +46,7 @@ struct SensorNoise_EXPORT PartGains
   /** Returns whether the variances without signal, and so the read noise, differ by more than
    * InCommon.leastDarkDifference, and beyond chance. */
   bool
-  DifferInTheDark() const;
+  DarkVariancesDiffer() const;
   /** Returns whether the parts differ so much that the rejection of pixels and the line have to allow for it. */
   bool
   DifferMuch() const;

@@ -35,15 +35,15 @@ GainFeedback::GainFeedback(const ProjectedVariance &         projected,
   const ReferenceFrame & frame = projected.GetFrame();
   const float * const    skew = projected.GetSkew().data();
   const float * const    divisor = projected.GetDivisor().data();
-  const float * const    freedom = projected.GetFreedom().data();
+  const float * const    dof = projected.GetDof().data();
   const auto   s = SumBlocks<Sums>(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
     for (std::size_t p = begin; p < end; ++p)
     {
       if (mask[p] != 0)
       {
         const double expected = line.At(frame.neighbourMean[p]);
-        const double half = 0.5 * static_cast<double>(freedom[p]);
-        const double w = half / (expected * expected + half * line.noiseSpreadDn4);
+        const double half = 0.5 * static_cast<double>(dof[p]);
+        const double w = half / (expected * expected + half * line.noiseDispersionDn4);
         const double x = frame.mean[p] - line.pivotDn;
         const double k = static_cast<double>(skew[p]) / static_cast<double>(divisor[p]);
         sums[W] += w;
@@ -69,7 +69,7 @@ GainFeedback::IsLarge() const
 }
 
 VarianceLine
-GainFeedback::Settle(const VarianceLine & fitted, double gainPutIn) const
+GainFeedback::SolveFixedPoint(const VarianceLine & fitted, double gainPutIn) const
 {
   VarianceLine settled = fitted;
   if (!this->IsLarge() || !fitted.isDetermined)

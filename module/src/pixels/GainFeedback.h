@@ -57,7 +57,7 @@ public:
    * gain cannot be determined: it stays, and its standard error becomes larger than any gain that these levels
    * allow. */
   VarianceLine
-  Settle(const VarianceLine & fitted, double gainPutIn) const;
+  SolveFixedPoint(const VarianceLine & fitted, double gainPutIn) const;
 
 private:
   double m_OfGain{ 0.0 };

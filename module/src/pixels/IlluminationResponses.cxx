@@ -27,7 +27,7 @@ constexpr std::size_t Side = 8; // of a tile [pixel]
 class Bands
 {
 public:
-  explicit Bands(const PixelLight & data)
+  explicit Bands(const IlluminationResponses & data)
     : m_Data(data)
     , m_Frame(data.frame)
     , m_Light(data.factors)
@@ -80,9 +80,9 @@ public:
   }
 
 private:
-  const PixelLight &     m_Data;
-  const ReferenceFrame & m_Frame;
-  std::size_t            m_Light;
+  const IlluminationResponses & m_Data;
+  const ReferenceFrame &        m_Frame;
+  std::size_t                   m_Light;
 };
 
 /** Sums over a tile of the weight w times powers of I, the mean minus the centre. */
@@ -126,7 +126,7 @@ ProductsOfBand(const Bands & bands, std::size_t band)
     const TileWeights &  s = weights[bands.TileOf(p)];
     const TileProducts * own = products.data() + bands.TileOf(p) * variables;
     const double         determinant = s.w * s.wII - s.wI * s.wI;
-    if (s.pixels > InPattern.leastLeakPixels && determinant > 1e-9 * s.w * s.wII)
+    if (s.pixels > InPattern.leastLeakagePixels && determinant > 1e-9 * s.w * s.wII)
     {
       for (std::size_t k = 0; k < variables; ++k)
       {
@@ -143,7 +143,7 @@ ProductsOfBand(const Bands & bands, std::size_t band)
 
 /** Returns kappa, with a row for each derivative and a column for each illumination component. */
 Eigen::MatrixXd
-FindLeak(const Bands & bands, const ParallelFor & parallelFor)
+EstimateLeakage(const Bands & bands, const ParallelFor & parallelFor)
 {
   std::vector<Eigen::MatrixXd> parts(bands.Size());
   parallelFor(bands.Size(), [&](std::size_t band) { parts[band] = ProductsOfBand(bands, band); });
@@ -163,10 +163,10 @@ FindLeak(const Bands & bands, const ParallelFor & parallelFor)
 } // namespace
 
 std::vector<std::vector<double>>
-ResponsesWithoutMotion(const PixelLight & data, const ParallelFor & parallelFor)
+RemoveMotionLeakage(const IlluminationResponses & data, const ParallelFor & parallelFor)
 {
   const Bands                      bands(data);
-  const Eigen::MatrixXd            leak = FindLeak(bands, parallelFor);
+  const Eigen::MatrixXd            leak = EstimateLeakage(bands, parallelFor);
   std::vector<std::vector<double>> responses(bands.Light(), std::vector<double>(data.mask.size(), 0.0));
   parallelFor(bands.Size(), [&](std::size_t band) {
     bands.ForPixels(band, [&](std::size_t p, double, double, const std::vector<double> & z) {

@@ -18,7 +18,7 @@ struct ReferenceFrame;
 struct VarianceLine;
 
 /** The projected stack and the quantities needed to analyse the illumination pixel by pixel. */
-struct PixelLight
+struct IlluminationResponses
 {
   const ReferenceFrame &            frame;
   const PixelCoordinates &          coordinates;
@@ -51,7 +51,7 @@ struct Tiles
  * local illumination does not bias it. Even derivatives resemble the mean locally, so their leakage would shift the
  * offset. */
 SensorNoise_EXPORT std::vector<std::vector<double>>
-ResponsesWithoutMotion(const PixelLight & data, const ParallelFor & parallelFor);
+RemoveMotionLeakage(const IlluminationResponses & data, const ParallelFor & parallelFor);
 
 } // namespace sensornoise
 

@@ -17,7 +17,7 @@ namespace sensornoise
 {
 
 VarianceLine
-FitLightLine(const VarianceFit & fit, const VarianceData & data, const ReferenceFrame & frame)
+FitInstrumental(const VarianceFit & fit, const VarianceData & data, const ReferenceFrame & frame)
 {
   // Sums of the weight times x and v, the mean and the variance above the line at its pivot, and z, the mean of the
   // diagonal neighbours.

@@ -22,7 +22,7 @@ LocalFlicker::Sd(double offset) const
 }
 
 LocalFlicker
-SumLocalFlicker(const PixelLight & data)
+SumLocalFlicker(const IlluminationResponses & data)
 {
   const ReferenceFrame & frame = data.frame;
   const std::size_t      light = data.factors;

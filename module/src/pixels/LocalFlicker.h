@@ -8,7 +8,7 @@
 namespace sensornoise
 {
 
-struct PixelLight;
+struct IlluminationResponses;
 
 /** Sums that give the standard deviation over time of local illumination for any offset. */
 struct SensorNoise_EXPORT LocalFlicker
@@ -28,7 +28,7 @@ struct SensorNoise_EXPORT LocalFlicker
 
 /** Computes the sums over the pixels of the mask. */
 SensorNoise_EXPORT LocalFlicker
-SumLocalFlicker(const PixelLight & data);
+SumLocalFlicker(const IlluminationResponses & data);
 
 } // namespace sensornoise
 

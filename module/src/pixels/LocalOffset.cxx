@@ -121,7 +121,7 @@ SumErrors(const std::vector<TileSums> & tiles, double zero)
 }
 
 std::optional<LocalOffset>
-FitTiles(const std::vector<TileSums> & tiles, const PixelLight & data)
+FitTiles(const std::vector<TileSums> & tiles, const IlluminationResponses & data)
 {
   const double start = data.darkestDn - data.centreDn;
   LocalOffset  result;
@@ -150,7 +150,7 @@ FitTiles(const std::vector<TileSums> & tiles, const PixelLight & data)
 /** Returns the sums of the tiles that determine a line: those with enough pixels whose levels differ by more than their
  * noise. */
 std::vector<TileSums>
-SumTiles(const PixelLight &                       data,
+SumTiles(const IlluminationResponses &            data,
          const std::vector<std::vector<double>> & responses,
          std::size_t                              tileHeight,
          std::size_t                              tileWidth)
@@ -200,10 +200,10 @@ SumTiles(const PixelLight &                       data,
 } // namespace
 
 std::optional<LocalOffset>
-FindLocalOffset(const PixelLight & data, const ParallelFor & parallelFor)
+FindLocalOffset(const IlluminationResponses & data, const ParallelFor & parallelFor)
 {
   const std::size_t                                    width = data.frame.geometry.width;
-  const auto                                           responses = ResponsesWithoutMotion(data, parallelFor);
+  const auto                                           responses = RemoveMotionLeakage(data, parallelFor);
   constexpr std::size_t                                trials = 6;
   const std::array<std::array<std::size_t, 2>, trials> sizes{
     { { 64, 64 }, { 32, 32 }, { 16, 16 }, { 8, 8 }, { 4, width }, { 16, width } }

@@ -13,7 +13,7 @@
 namespace sensornoise
 {
 
-struct PixelLight;
+struct IlluminationResponses;
 
 /** Dark offset from the responses of the pixels to the illumination components. */
 struct LocalOffset
@@ -34,7 +34,7 @@ struct LocalOffset
  * cross zero at mu. Tiles of 8 to 64 pixels and strips of rows are tried, and the partition of the smallest standard
  * error is used. The dispersion of the lines widens the error. Null if no tile determines a line. Estimator.md, 3.7. */
 SensorNoise_EXPORT std::optional<LocalOffset>
-FindLocalOffset(const PixelLight & data, const ParallelFor & parallelFor = SerialFor);
+FindLocalOffset(const IlluminationResponses & data, const ParallelFor & parallelFor = SerialFor);
 
 } // namespace sensornoise
 

@@ -27,7 +27,7 @@ struct ScaledCurve
   double              lineAtDarkest{ 0.0 }; // [DN^2]
   double              lineRise{ 0.0 };      // from the darkest to the brightest [DN^2]
   double              rangeDn{ 0.0 };
-  double              darkestLightDn{ 0.0 }; // signal at the darkest level [DN]; 0: taken to be small
+  double              darkestSignalDn{ 0.0 }; // signal at the darkest level [DN]; 0: taken to be small
 };
 
 double
@@ -67,10 +67,10 @@ MeanLocalGain(const ScaledCurve & curve, const Eigen::VectorXd & excess)
     return std::nullopt;
   }
   double z = std::sqrt(darkest) / slope;
-  if (curve.darkestLightDn > 0.0)
+  if (curve.darkestSignalDn > 0.0)
   {
-    const double power = std::min(1.9, slope * curve.darkestLightDn / darkest);
-    z = curve.darkestLightDn / ((2.0 - power) * std::sqrt(darkest));
+    const double power = std::min(1.9, slope * curve.darkestSignalDn / darkest);
+    z = curve.darkestSignalDn / ((2.0 - power) * std::sqrt(darkest));
   }
   double sum = 0.0;
   double count = 0.0;
@@ -114,7 +114,7 @@ FindMeanGain(const VarianceCurve & curve, int degree, const std::optional<double
   const double darkest = levelOf(bins.front());
   ScaledCurve  scaled;
   scaled.rangeDn = levelOf(bins.back()) - darkest;
-  scaled.darkestLightDn = offsetDn ? std::max(0.0, curve.line.pivotDn + darkest - *offsetDn) : 0.0;
+  scaled.darkestSignalDn = offsetDn ? std::max(0.0, curve.line.pivotDn + darkest - *offsetDn) : 0.0;
   scaled.lineAtDarkest = curve.line.intercept + curve.line.gain * (curve.line.pivotDn + darkest);
   scaled.lineRise = curve.line.gain * scaled.rangeDn;
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(terms, terms);

@@ -35,7 +35,7 @@ FitMedians(const VarianceData & data, const ChiSquareTrim & trim)
   std::vector<double>   count(bins, 0.0);
   for (std::size_t i = 0; i < sample.size(); ++i)
   {
-    value.push_back(data.variance[sample[i]] / trim.Of(data.freedom[sample[i]]).median);
+    value.push_back(data.variance[sample[i]] / trim.Of(data.dof[sample[i]]).median);
     centred.push_back(data.mean[sample[i]] - line.pivotDn);
     count[binOf[i]] += 1.0;
   }

@@ -60,7 +60,7 @@ MotionLeverage::FillBounds(std::size_t y, double * bounds) const
   const std::size_t    width = m_Frame.geometry.width;
   const double * const row = m_Frame.mean.data() + y * width;
   std::fill(bounds, bounds + width, 0.0);
-  WithWideVectors([this, row, width, bounds] {
+  CallWithAvx2([this, row, width, bounds] {
     AddAllSquares(
       row + StencilMargin, width, m_Weights, bounds + StencilMargin, std::make_index_sequence<NumberOfStencils>());
   });

@@ -30,7 +30,7 @@ struct LineSums
 } // namespace
 
 bool
-IsOffsetDrift(const PixelLight & data)
+IsOffsetDrift(const IlluminationResponses & data)
 {
   const std::size_t      side = InPattern.driftTileSide;
   const ReferenceFrame & frame = data.frame;

@@ -8,12 +8,12 @@
 namespace sensornoise
 {
 
-struct PixelLight;
+struct IlluminationResponses;
 
 /** Returns whether each further illumination component is one line a + b mean over the whole frame. Then a common
  * offset drifts, and there is no second light source that changes. */
 SensorNoise_EXPORT bool
-IsOffsetDrift(const PixelLight & data);
+IsOffsetDrift(const IlluminationResponses & data);
 
 } // namespace sensornoise
 

@@ -74,7 +74,7 @@ auto
 FindAddPairProducts()
 {
 #if defined(__GNUC__) && defined(__x86_64__)
-  return HasWideVectors() ? AddPairProductsAvx2 : AddPairProductsOneByOne;
+  return HasAvx2() ? AddPairProductsAvx2 : AddPairProductsOneByOne;
 #else
   return AddPairProductsOneByOne;
 #endif

@@ -42,9 +42,9 @@ TermsOf(const std::vector<TileExcess> & tiles, const PartRegression & fit)
 
 /** Returns the residuals in units of the sampling error [1]. */
 std::vector<double>
-ResidualsOf(const std::vector<TileExcess> &            tiles,
-            const std::vector<PartRegression::Terms> & terms,
-            const Eigen::VectorXd &                    theta)
+ComputeResiduals(const std::vector<TileExcess> &            tiles,
+                 const std::vector<PartRegression::Terms> & terms,
+                 const Eigen::VectorXd &                    theta)
 {
   std::vector<double> residuals;
   for (std::size_t i = 0; i < tiles.size(); ++i)
@@ -131,7 +131,7 @@ FitRobustly(const std::vector<TileExcess> & tiles, PartRegression & fit, std::si
   for (int round = 0; round < InParts.rounds; ++round)
   {
     Solve(tiles, terms, weights, fit);
-    const std::vector<double> residuals = ResidualsOf(tiles, terms, fit.theta);
+    const std::vector<double> residuals = ComputeResiduals(tiles, terms, fit.theta);
     fit.scale = ScaleOf(residuals);
     const bool isLast = 2 * round >= InParts.rounds;
     std::transform(residuals.begin(), residuals.end(), weights.begin(), [&](double residual) {
@@ -193,7 +193,7 @@ PartRegression::Criterion(const std::vector<TileExcess> & tiles, double common) 
 {
   const double limit = InParts.tukey * InParts.tukey;
   double       loss = 0.0;
-  for (const double residual : ResidualsOf(tiles, TermsOf(tiles, *this), theta))
+  for (const double residual : ComputeResiduals(tiles, TermsOf(tiles, *this), theta))
   {
     const double left = std::max(0.0, 1.0 - residual * residual / (common * common * limit));
     loss += limit / 3.0 * (1.0 - left * left * left);

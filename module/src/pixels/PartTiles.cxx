@@ -22,7 +22,7 @@ std::size_t
 SideOfTile(const FrameGeometry & geometry)
 {
   const std::size_t side =
-    geometry.Pixels() < InPattern.largeFramePixels ? InPattern.smallSquareSide : InPattern.squareSide;
+    geometry.Pixels() < InPattern.largeFramePixels ? InPattern.smallTileSide : InPattern.squareSide;
   const std::size_t longest = std::max(geometry.width, geometry.height);
   return side * std::max<std::size_t>(1, (longest + InParts.mostTiles * side - 1) / (InParts.mostTiles * side));
 }
@@ -51,7 +51,7 @@ SumTile(const VarianceData &           data,
         own.variance += data.variance[p];
         own.expected += expected;
         own.shot += std::clamp(line.gain * (data.mean[p] - reference.blackDn), 0.0, expected);
-        own.chance += line.SamplingVariance(data.freedom[p], expected) + line.noiseSpreadDn4;
+        own.chance += line.SamplingVariance(data.dof[p], expected) + line.noiseDispersionDn4;
       }
     }
   }
@@ -65,7 +65,7 @@ PhasesOf(const std::vector<std::array<PartSums, Phases>> & sums,
          std::size_t                                       across,
          std::size_t                                       side,
          const FrameGeometry &                             geometry,
-         double                                            sharedSquares)
+         double                                            varianceInflation)
 {
   const std::size_t down = sums.size() / across;
   const std::size_t together = (std::max(across, down) + InParts.mostPhaseTiles - 1) / InParts.mostPhaseTiles;
@@ -88,7 +88,7 @@ PhasesOf(const std::vector<std::array<PartSums, Phases>> & sums,
     {
       if (large[i][phase].pixels >= 1.0)
       {
-        phases.push_back(large[i][phase].Excess(sharedSquares));
+        phases.push_back(large[i][phase].Excess(varianceInflation));
         const double left = static_cast<double>(i % largeAcross) + 0.5;
         const double top = static_cast<double>(i / largeAcross) + 0.5;
         phases.back().x = std::min(1.0, left * largeSide / static_cast<double>(geometry.width));
@@ -114,14 +114,14 @@ PartSums::operator+=(const PartSums & other)
 }
 
 TileExcess
-PartSums::Excess(double sharedSquares) const
+PartSums::Excess(double varianceInflation) const
 {
   TileExcess tile;
   tile.pixels = pixels;
   tile.levelDn = level / pixels;
   tile.shotFraction = shot / expected;
   tile.excess = variance / expected - 1.0;
-  tile.error = std::sqrt(sharedSquares * chance) / expected;
+  tile.error = std::sqrt(varianceInflation * chance) / expected;
   return tile;
 }
 
@@ -142,7 +142,7 @@ MakePartTiles(const VarianceData &  data,
     }
   });
   PartTiles tiles;
-  tiles.phases = PhasesOf(sums, across, side, geometry, reference.sharedSquares);
+  tiles.phases = PhasesOf(sums, across, side, geometry, reference.varianceInflation);
   for (std::size_t i = 0; i < sums.size(); ++i)
   {
     const double x = (static_cast<double>((i % across) * side) + 0.5 * static_cast<double>(side)) /
@@ -154,9 +154,9 @@ MakePartTiles(const VarianceData &  data,
     {
       all += phase;
     }
-    if (all.pixels >= InCommon.leastCoveredShare * static_cast<double>(side * side))
+    if (all.pixels >= InCommon.leastCoveredFraction * static_cast<double>(side * side))
     {
-      tiles.places.push_back(all.Excess(reference.sharedSquares));
+      tiles.places.push_back(all.Excess(reference.varianceInflation));
       tiles.places.back().x = std::min(1.0, x);
       tiles.places.back().y = std::min(1.0, y);
     }

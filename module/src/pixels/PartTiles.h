@@ -39,17 +39,17 @@ struct SensorNoise_EXPORT PartSums
 
   PartSums &
   operator+=(const PartSums & other);
-  /** Returns the mean excess; the place is not set. \a sharedSquares: see JudgingLine [1]. */
+  /** Returns the mean excess; the place is not set. \a varianceInflation: see RejectionModel [1]. */
   TileExcess
-  Excess(double sharedSquares) const;
+  Excess(double varianceInflation) const;
 };
 
 /** Line that the variance of the pixels is compared with. */
 struct PartReference
 {
   VarianceLine line;
-  double       blackDn{ 0.0 };       ///< dark offset, or a level that it is not below [DN]
-  double       sharedSquares{ 1.0 }; ///< variance inflation, see JudgingLine [1]
+  double       blackDn{ 0.0 };           ///< dark offset, or a level that it is not below [DN]
+  double       varianceInflation{ 1.0 }; ///< variance inflation, see RejectionModel [1]
 };
 
 /** Excess variance of the pixels of a mask in tiles of the frame, at most 32 along each axis. */

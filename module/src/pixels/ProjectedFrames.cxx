@@ -27,7 +27,7 @@ constexpr int Middle = std::is_same_v<TPixel, unsigned short> ? 32768 : 0;
  * partner. */
 template <typename TPixel>
 void
-TakePairs(const TPixel *      frames,
+CopyPairs(const TPixel *      frames,
           const PixelLayout & layout,
           std::size_t         count,
           std::size_t         begin,
@@ -121,7 +121,7 @@ ProjectedFrames<TPixel>::AddTogether(double *       sums,
   {
     const TPixel * const frames = m_Frames + n * MostTogether * m_Layout.frame;
     const std::size_t    count = std::min(MostTogether, m_Count - n * MostTogether);
-    TakePairs(frames, m_Layout, count, begin, end, values);
+    CopyPairs(frames, m_Layout, count, begin, end, values);
     for (std::size_t j = 0; j < series; ++j)
     {
       for (std::size_t t = j; t < count; t += series)

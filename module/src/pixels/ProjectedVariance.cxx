@@ -28,7 +28,7 @@ ProjectedVariance::ProjectedVariance(const ReferenceFrame &            frame,
                                      const TemporalBasis &             basis,
                                      const MotionSeries &              motion,
                                      ResidualSquares                   squares,
-                                     const ProvisionalModel &          model,
+                                     const InitialNoiseModel &         model,
                                      const std::vector<std::uint8_t> & mask,
                                      const ParallelFor &               parallelFor)
   : m_Frame(frame)
@@ -47,24 +47,24 @@ ProjectedVariance::ProjectedVariance(const ReferenceFrame &            frame,
 }
 
 void
-ProjectedVariance::ReplaceSquares(std::size_t p, double squares, double freedom)
+ProjectedVariance::ReplaceSquares(std::size_t p, double squares, double dof)
 {
   const double all = static_cast<double>(m_Frame.frames) - 1.0 - static_cast<double>(m_Basis.Size());
-  m_Divisor[p] = static_cast<float>(static_cast<double>(m_Divisor[p]) * freedom / all);
+  m_Divisor[p] = static_cast<float>(static_cast<double>(m_Divisor[p]) * dof / all);
   m_Variance[p] = squares / static_cast<double>(m_Divisor[p]);
-  if (!m_CodeNoise.restsDn2.empty())
+  if (!m_CodeNoise.remaindersDn2.empty())
   {
-    m_Variance[p] -= m_CodeNoise.RestAt(m_Frame.mean[p]);
+    m_Variance[p] -= m_CodeNoise.RemainderAt(m_Frame.mean[p]);
   }
 }
 
 void
 ProjectedVariance::SetIllumination(const std::vector<double> & gamma, double offsetDn, bool isShotNoiseKnown)
 {
-  m_FrameFreedom = FrameFreedom(m_Basis.GetBasis(), gamma);
+  m_FrameDof = FrameDof(m_Basis.GetBasis(), gamma);
   m_OffsetDn = offsetDn;
   m_IsShotNoiseKnown = isShotNoiseKnown;
-  this->CountFreedom();
+  this->ComputeDof();
 }
 
 void
@@ -72,7 +72,7 @@ ProjectedVariance::Compute(const VarianceLine & line)
 {
   this->Compute(line.gain);
   m_NoiseLine = line;
-  this->CountFreedom();
+  this->ComputeDof();
 }
 
 void
@@ -82,15 +82,14 @@ ProjectedVariance::Compute(double gain)
   std::vector<float> ratios = m_Ratios;
   this->SetRatios({});
   ForBlocks(m_Mask.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
-    WithWideVectors(
-      [=, mask = m_Mask.data(), skew = m_Skew.data(), divisor = m_Divisor.data(), own = m_Variance.data()] {
-        for (std::size_t p = begin; p < end; ++p)
-        {
-          // Outside of the condition, so that SIMD instructions are used.
-          const double added = more * skew[p] / divisor[p];
-          own[p] += mask[p] != 0 ? added : 0.0;
-        }
-      });
+    CallWithAvx2([=, mask = m_Mask.data(), skew = m_Skew.data(), divisor = m_Divisor.data(), own = m_Variance.data()] {
+      for (std::size_t p = begin; p < end; ++p)
+      {
+        // Outside of the condition, so that SIMD instructions are used.
+        const double added = more * skew[p] / divisor[p];
+        own[p] += mask[p] != 0 ? added : 0.0;
+      }
+    });
   });
   this->SetRatios(std::move(ratios));
 }
@@ -121,17 +120,17 @@ ProjectedVariance::MeasuredVariance() const
 }
 
 void
-ProjectedVariance::TakeOffRest(const CodeNoise & noise)
+ProjectedVariance::SubtractRemainder(const CodeNoise & noise)
 {
   m_CodeNoise = noise;
-  if (noise.restsDn2.empty())
+  if (noise.remaindersDn2.empty())
   {
     return;
   }
   ForBlocks(m_Mask.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
     {
-      m_Variance[p] -= m_Mask[p] != 0 ? noise.RestAt(m_Frame.mean[p]) : 0.0;
+      m_Variance[p] -= m_Mask[p] != 0 ? noise.RemainderAt(m_Frame.mean[p]) : 0.0;
     }
   });
 }
@@ -139,12 +138,12 @@ ProjectedVariance::TakeOffRest(const CodeNoise & noise)
 VarianceData
 ProjectedVariance::GetData(const std::vector<std::uint8_t> & mask) const
 {
-  return { m_Frame.mean.data(), m_Frame.neighbourMean.data(), m_Variance.data(), this->GetFreedom().data(), mask.data(),
+  return { m_Frame.mean.data(), m_Frame.neighbourMean.data(), m_Variance.data(), this->GetDof().data(), mask.data(),
            mask.size() };
 }
 
 void
-ProjectedVariance::DivideSquares(const MotionSeries & motion, const ProvisionalModel & model)
+ProjectedVariance::DivideSquares(const MotionSeries & motion, const InitialNoiseModel & model)
 {
   const MotionLeverage leverage(m_Frame, motion);
   const auto           frames = static_cast<double>(m_Frame.frames);
@@ -172,20 +171,20 @@ ProjectedVariance::DivideSquares(const MotionSeries & motion, const ProvisionalM
 }
 
 void
-ProjectedVariance::CountFreedom()
+ProjectedVariance::ComputeDof()
 {
-  if (m_FrameFreedom.IsEqual())
+  if (m_FrameDof.IsEqual())
   {
-    m_Freedom.clear();
+    m_Dof.clear();
     return;
   }
-  if (m_Freedom.empty())
+  if (m_Dof.empty())
   {
-    m_Freedom = MakeMap<float>(m_Divisor.size(), m_ParallelFor);
+    m_Dof = MakeMap<float>(m_Divisor.size(), m_ParallelFor);
   }
-  ForPixels(m_Freedom.size(), m_ParallelFor, [this](std::size_t p) {
-    const double fraction = m_Mask[p] != 0 ? this->FreedomFractionAt(m_Frame.neighbourMean[p]) : 0.0;
-    m_Freedom[p] = static_cast<float>(fraction * m_Divisor[p]);
+  ForPixels(m_Dof.size(), m_ParallelFor, [this](std::size_t p) {
+    const double fraction = m_Mask[p] != 0 ? this->DofFractionAtPixel(m_Frame.neighbourMean[p]) : 0.0;
+    m_Dof[p] = static_cast<float>(fraction * m_Divisor[p]);
   });
 }
 

@@ -21,7 +21,7 @@ namespace sensornoise
 
 class TemporalBasis;
 struct MotionSeries;
-struct ProvisionalModel;
+struct InitialNoiseModel;
 struct ReferenceFrame;
 
 /** \class ProjectedVariance
@@ -45,9 +45,9 @@ struct ReferenceFrame;
  * - With both corrections, every component can be projected out of every pixel. This takes 5 to 15 % of the degrees of
  *   freedom, needs no selection of components by class of pixels, and leaves no bias below a threshold.
  * - The divisor of the squares is (T - 1 - J) (1 - h). The degrees of freedom by which the variance scatters are a
- *   different number where the illumination changes strongly, see FrameFreedom.
+ *   different number where the illumination changes strongly, see FrameDof.
  *
- * Pixels are sorted into RoughnessClasses for the test of fit (JudgeClasses). */
+ * Pixels are sorted into RoughnessClasses for the test of fit (TestClasses). */
 class SensorNoise_EXPORT ProjectedVariance
 {
 public:
@@ -60,19 +60,19 @@ public:
                     const TemporalBasis &             basis,
                     const MotionSeries &              motion,
                     ResidualSquares                   squares,
-                    const ProvisionalModel &          model,
+                    const InitialNoiseModel &         model,
                     const std::vector<std::uint8_t> & mask,
                     const ParallelFor &               parallelFor);
 
   /** Subtracts the remainder of the quantization noise that is not a line in the level, see CodeNoise. */
   void
-  TakeOffRest(const CodeNoise & noise);
+  SubtractRemainder(const CodeNoise & noise);
 
   /** Replaces the squares of pixel \a p of the mask by \a squares [DN^2], whose expectation is \a freedom times the
    * variance of the pixel. Squares without the noise that is common to a row are an example. To be called before
    * SetIllumination() and Compute(). */
   void
-  ReplaceSquares(std::size_t p, double squares, double freedom);
+  ReplaceSquares(std::size_t p, double squares, double dof);
 
   /** Allows for noise that differs from frame to frame. \a gamma + 1 is the illumination factor of each frame, and
    * \a offsetDn the dark offset. The fraction of shot noise is taken from the initial noise model until Compute(line)
@@ -123,9 +123,9 @@ public:
   }
   /** Returns the effective degrees of freedom of every pixel's variance; 0 outside the mask. */
   const std::vector<float> &
-  GetFreedom() const
+  GetDof() const
   {
-    return m_Freedom.empty() ? m_Divisor : m_Freedom;
+    return m_Dof.empty() ? m_Divisor : m_Dof;
   }
   /** Returns the divisor of every pixel's squares, (T - 1 - J) (1 - h); 0 outside the mask. */
   const std::vector<float> &
@@ -136,15 +136,15 @@ public:
   /** Returns the fraction of the degrees of freedom that a change of the illumination leaves to pixels of a level
    * [1]. */
   double
-  FreedomFractionAt(double levelDn) const
+  DofFractionAtPixel(double levelDn) const
   {
-    return m_FrameFreedom.IsEqual() ? 1.0 : m_FrameFreedom.FractionAt(this->ShotFractionAt(levelDn));
+    return m_FrameDof.IsEqual() ? 1.0 : m_FrameDof.DofFractionAt(this->ShotFractionAt(levelDn));
   }
-  /** Returns whether the noise differs from frame to frame by as much as matters, see FrameFreedom::IsEqual(). */
+  /** Returns whether the noise differs from frame to frame by as much as matters, see FrameDof::IsEqual(). */
   bool
-  HasUnequalFrames() const
+  HasUnequalNoise() const
   {
-    return !m_FrameFreedom.IsEqual();
+    return !m_FrameDof.IsEqual();
   }
   /** Returns the factor of the gain in the corrected squares of each pixel, sum_i S_i sum_j K_ij [DN]. */
   const std::vector<float> &
@@ -179,10 +179,10 @@ public:
 private:
   /** Divides the squares of the mask's pixels by their divisors. */
   void
-  DivideSquares(const MotionSeries & motion, const ProvisionalModel & model);
+  DivideSquares(const MotionSeries & motion, const InitialNoiseModel & model);
   /** Computes the effective degrees of freedom of the mask's pixels. */
   void
-  CountFreedom();
+  ComputeDof();
   /** Returns the fraction of the variance at a level of the neighbours' mean that is shot noise [1]. */
   double
   ShotFractionAt(double levelDn) const
@@ -199,10 +199,10 @@ private:
   std::vector<double>               m_Variance;
   std::vector<float>                m_Skew; // sum_i S_i sum_j K_ij [DN]
   std::vector<float>                m_Divisor;
-  std::vector<float>                m_Ratios;  // variance relative to a uniform sensor [1]; empty: 1
-  std::vector<float>                m_Freedom; // effective degrees of freedom; empty: equal to the divisor
-  FrameFreedom                      m_FrameFreedom;
-  VarianceLine                      m_NoiseLine; // gives the fraction of shot noise for m_Freedom
+  std::vector<float>                m_Ratios; // variance relative to a uniform sensor [1]; empty: 1
+  std::vector<float>                m_Dof;    // effective degrees of freedom; empty: equal to the divisor
+  FrameDof                          m_FrameDof;
+  VarianceLine                      m_NoiseLine; // gives the fraction of shot noise for m_Dof
   double                            m_OffsetDn{ 0.0 };
   bool                              m_IsShotNoiseKnown{ true };
   std::vector<std::uint8_t>         m_ClassOf;

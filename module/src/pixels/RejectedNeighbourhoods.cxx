@@ -40,16 +40,16 @@ struct PixelFits
 };
 
 PixelFits
-JudgePixels(const ProjectedVariance &         projected,
-            const JudgingLine &               line,
-            const std::vector<std::uint8_t> & mask,
-            const ParallelFor &               parallelFor)
+TestPixels(const ProjectedVariance &         projected,
+           const RejectionModel &            line,
+           const std::vector<std::uint8_t> & mask,
+           const ParallelFor &               parallelFor)
 {
   PixelFits fits{ MakeMap<float>(mask.size(), parallelFor), MakeMap<std::uint16_t>(mask.size(), parallelFor) };
   ForBlocks(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
-    JudgedRun run{};
+    TestedRun run{};
     ForRuns(begin, end, [&](std::size_t first, std::size_t pixels) {
-      WithWideVectors([&, used = mask.data() + first, ratio = fits.ratio.data() + first] {
+      CallWithAvx2([&, used = mask.data() + first, ratio = fits.ratio.data() + first] {
         run.Judge(projected, line, first, pixels);
         for (std::size_t i = 0; i < pixels; ++i)
         {
@@ -69,18 +69,18 @@ JudgePixels(const ProjectedVariance &         projected,
 
 /** Returns a map that is 1 at pixels whose neighbourhood of the half width \a radius does not fit. */
 std::vector<std::uint8_t>
-FindMisfitCores(const ProjectedVariance & projected,
-                const JudgingLine &       line,
-                const PixelFits &         pixels,
-                std::size_t               radius,
-                const ParallelFor &       parallelFor)
+FindRejectedCores(const ProjectedVariance & projected,
+                  const RejectionModel &    line,
+                  const PixelFits &         pixels,
+                  std::size_t               radius,
+                  const ParallelFor &       parallelFor)
 {
   const double              side = 2.0 * static_cast<double>(radius) + 1.0;
   const double              area = side * side;
   const ReferenceFrame &    frame = projected.GetFrame();
   const std::size_t         width = frame.geometry.width;
   const std::size_t         height = frame.geometry.height;
-  const auto                freedom = static_cast<double>(frame.frames - 1 - projected.GetBasis().Size());
+  const auto                dof = static_cast<double>(frame.frames - 1 - projected.GetBasis().Size());
   std::vector<std::uint8_t> core(frame.mean.size());
   ForBoxBands(height, parallelFor, [&](std::size_t first, std::size_t last) {
     BoxRows ratios(RowsOf(pixels.ratio, width), width, height, radius, first, last);
@@ -95,12 +95,12 @@ FindMisfitCores(const ProjectedVariance & projected,
         const double crowd = both / PixelFits::Rejected;
         const double count = both % PixelFits::Rejected;
         const double excess = sums[x] / std::max(1.0, count) - 1.0;
-        bool         isCore = crowd > InCommon.largestFarShare * area;
-        if (excess > InPixels.leastMisfit && count > InPixels.leastCountedShare * area)
+        bool         isCore = crowd > InCommon.largestOutlierFraction * area;
+        if (excess > InPixels.leastNeighbourhoodExcess && count > InPixels.leastCountedFraction * area)
         {
           const double level = frame.neighbourMean[y * width + x];
-          const double own = line.EffectiveFreedom(freedom * projected.FreedomFractionAt(level), line.At(level));
-          isCore = isCore || excess > Significance.manyTests * std::sqrt(2.0 * line.sharedSquares / (own * count));
+          const double own = line.EffectiveDof(dof * projected.DofFractionAtPixel(level), line.At(level));
+          isCore = isCore || excess > Significance.manyTests * std::sqrt(2.0 * line.varianceInflation / (own * count));
         }
         core[y * width + x] = isCore ? 1 : 0;
       }
@@ -111,16 +111,16 @@ FindMisfitCores(const ProjectedVariance & projected,
 } // namespace
 
 std::vector<std::uint8_t>
-FindLocalMisfit(const ProjectedVariance &         projected,
-                const JudgingLine &               line,
-                const std::vector<std::uint8_t> & mask,
-                const ParallelFor &               parallelFor)
+RejectNeighbourhoods(const ProjectedVariance &         projected,
+                     const RejectionModel &            line,
+                     const std::vector<std::uint8_t> & mask,
+                     const ParallelFor &               parallelFor)
 {
-  const std::size_t         radius = InPixels.misfitRadius;
+  const std::size_t         radius = InPixels.neighbourhoodRadius;
   const std::size_t         width = projected.GetFrame().geometry.width;
   const std::size_t         height = projected.GetFrame().geometry.height;
-  const PixelFits           pixels = JudgePixels(projected, line, mask, parallelFor);
-  std::vector<std::uint8_t> core = FindMisfitCores(projected, line, pixels, radius, parallelFor);
+  const PixelFits           pixels = TestPixels(projected, line, mask, parallelFor);
+  std::vector<std::uint8_t> core = FindRejectedCores(projected, line, pixels, radius, parallelFor);
   if (std::find(core.begin(), core.end(), std::uint8_t{ 1 }) == core.end())
   {
     return core;

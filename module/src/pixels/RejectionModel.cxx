@@ -24,7 +24,7 @@ namespace sensornoise
 namespace
 {
 /** Mean excess of the variance over the line in a tile. */
-struct JudgingSquare
+struct RejectionTile
 {
   double level{ 0.0 };     // mean level [DN]
   double excess{ 0.0 };    // mean of the variance relative to the line, minus 1 [1]
@@ -34,12 +34,12 @@ struct JudgingSquare
 };
 
 /** Excess over a line of a row of pixels, computed with SIMD instructions; the sums over the row are not. */
-struct JudgedRow
+struct TileRow
 {
   VarianceLine line;
-  double       excess[InPixels.judgingSquareSide]{};
-  double       expected[InPixels.judgingSquareSide]{};
-  double       chance[InPixels.judgingSquareSide]{};
+  double       excess[InPixels.rejectionTileSide]{};
+  double       expected[InPixels.rejectionTileSide]{};
+  double       chance[InPixels.rejectionTileSide]{};
 
   void
   Judge(const VarianceData & data, std::size_t first, std::size_t pixels)
@@ -47,18 +47,18 @@ struct JudgedRow
     const VarianceLine   own = line; // a copy that no pointer can alias
     const double * const mean = data.mean + first;
     const double * const variance = data.variance + first;
-    const float * const  freedom = data.freedom + first;
+    const float * const  dof = data.dof + first;
     for (std::size_t i = 0; i < pixels; ++i)
     {
       expected[i] = own.At(mean[i]);
       excess[i] = variance[i] - expected[i];
-      chance[i] = own.SamplingVariance(freedom[i], expected[i]);
+      chance[i] = own.SamplingVariance(dof[i], expected[i]);
     }
   }
 };
 
-JudgingSquare
-SumJudgingSquare(const VarianceLine &      line,
+RejectionTile
+SumRejectionTile(const VarianceLine &      line,
                  const VarianceData &      data,
                  const ProjectedVariance & projected,
                  std::size_t               left,
@@ -67,13 +67,13 @@ SumJudgingSquare(const VarianceLine &      line,
   const FrameGeometry & geometry = projected.GetFrame().geometry;
   const double          reachDn2 =
     InMoments.defectiveNoiseFactor * InMoments.defectiveNoiseFactor * line.lowestDn2 / InPixels.lowestShare;
-  JudgingSquare     square;
+  RejectionTile     square;
   double            total = 0.0;
   double            squares = 0.0;
   double            chance = 0.0;
-  JudgedRow         row{ line };
-  const std::size_t across = std::min(InPixels.judgingSquareSide, geometry.width - left);
-  for (std::size_t y = top; y < std::min(top + InPixels.judgingSquareSide, geometry.height); ++y)
+  TileRow           row{ line };
+  const std::size_t across = std::min(InPixels.rejectionTileSide, geometry.width - left);
+  for (std::size_t y = top; y < std::min(top + InPixels.rejectionTileSide, geometry.height); ++y)
   {
     const std::size_t first = y * geometry.width + left;
     row.Judge(data, first, across);
@@ -103,35 +103,37 @@ SumJudgingSquare(const VarianceLine &      line,
 }
 
 /** Returns the tiles with enough pixels, sorted by their levels. */
-std::vector<JudgingSquare>
-MakeJudgingSquares(const VarianceLine &      line,
+std::vector<RejectionTile>
+MakeRejectionTiles(const VarianceLine &      line,
                    const VarianceData &      data,
                    const ProjectedVariance & projected,
                    const ParallelFor &       parallelFor)
 {
   const FrameGeometry &      geometry = projected.GetFrame().geometry;
-  const std::size_t          across = (geometry.width + InPixels.judgingSquareSide - 1) / InPixels.judgingSquareSide;
-  const std::size_t          down = (geometry.height + InPixels.judgingSquareSide - 1) / InPixels.judgingSquareSide;
-  std::vector<JudgingSquare> squares(across * down);
-  const std::size_t          oneIn = std::max<std::size_t>(1, squares.size() / InPixels.enoughJudgingSquares);
+  const std::size_t          across = (geometry.width + InPixels.rejectionTileSide - 1) / InPixels.rejectionTileSide;
+  const std::size_t          down = (geometry.height + InPixels.rejectionTileSide - 1) / InPixels.rejectionTileSide;
+  std::vector<RejectionTile> squares(across * down);
+  const std::size_t          oneIn = std::max<std::size_t>(1, squares.size() / InPixels.enoughRejectionTiles);
   parallelFor(down, [&](std::size_t row) {
     for (std::size_t column = row % oneIn; column < across; column += oneIn)
     {
       squares[row * across + column] =
-        SumJudgingSquare(line, data, projected, column * InPixels.judgingSquareSide, row * InPixels.judgingSquareSide);
+        SumRejectionTile(line, data, projected, column * InPixels.rejectionTileSide, row * InPixels.rejectionTileSide);
     }
   });
-  const auto isTooSmall = [](const JudgingSquare & square) { return square.pixels < InPixels.leastSquarePixels; };
+  const auto isTooSmall = [](const RejectionTile & square) {
+    return square.pixels < InPixels.leastPixelsOfRejectionTile;
+  };
   squares.erase(std::remove_if(squares.begin(), squares.end(), isTooSmall), squares.end());
   std::stable_sort(squares.begin(), squares.end(), [](const auto & a, const auto & b) { return a.level < b.level; });
   return squares;
 }
 
 double
-MedianOf(const std::vector<JudgingSquare> & squares,
+MedianOf(const std::vector<RejectionTile> & squares,
          std::size_t                        first,
          std::size_t                        last,
-         double JudgingSquare::* member)
+         double RejectionTile::* member)
 {
   std::vector<double> values;
   for (std::size_t i = first; i < last; ++i)
@@ -142,24 +144,24 @@ MedianOf(const std::vector<JudgingSquare> & squares,
 }
 } // namespace
 
-JudgingLine
-MakeJudgingLine(const VarianceLine &              line,
-                const ProjectedVariance &         projected,
-                const std::vector<std::uint8_t> & mask,
-                double                            blackDn,
-                const ParallelFor &               parallelFor)
+RejectionModel
+FitRejectionModel(const VarianceLine &              line,
+                  const ProjectedVariance &         projected,
+                  const std::vector<std::uint8_t> & mask,
+                  double                            blackDn,
+                  const ParallelFor &               parallelFor)
 {
-  JudgingLine                judging{ line, {}, {} };
+  RejectionModel             judging{ line, {}, {} };
   const VarianceData         data = projected.GetData(mask);
-  std::vector<JudgingSquare> squares = MakeJudgingSquares(line, data, projected, parallelFor);
+  std::vector<RejectionTile> squares = MakeRejectionTiles(line, data, projected, parallelFor);
   if (!squares.empty())
   {
     const double patternDn2 =
-      MeasureLevelPattern(projected.GetFrame(), data, line, blackDn, parallelFor).OffsetVarianceDn2();
+      EstimateFixedPattern(projected.GetFrame(), data, line, blackDn, parallelFor).OffsetVarianceDn2();
     const double darkest = line.At(squares.front().level);
-    judging.byNeighbours = line.gain * line.gain * patternDn2 > InPixels.largestOwnOffset * darkest * darkest;
+    judging.byNeighbours = line.gain * line.gain * patternDn2 > InPixels.largestDsnuEffect * darkest * darkest;
   }
-  const std::size_t bins = std::min(InPixels.mostJudgingLevels, squares.size() / InPixels.squaresPerLevel);
+  const std::size_t bins = std::min(InPixels.mostRejectionLevels, squares.size() / InPixels.tilesPerLevel);
   bool              departs = false;
   for (std::size_t b = 0; b < bins; ++b)
   {
@@ -168,7 +170,7 @@ MakeJudgingLine(const VarianceLine &              line,
     const auto        at = [&](std::size_t i) { return squares.begin() + static_cast<std::ptrdiff_t>(i); };
     std::stable_sort(at(first), at(end), [](const auto & a, const auto & c) { return a.roughness < c.roughness; });
     const std::size_t   last = first + (end - first + 1) / 2;
-    const double        excess = MedianOf(squares, first, last, &JudgingSquare::excess);
+    const double        excess = MedianOf(squares, first, last, &RejectionTile::excess);
     std::vector<double> distance;
     for (std::size_t i = first; i < last; ++i)
     {
@@ -176,8 +178,8 @@ MakeJudgingLine(const VarianceLine &              line,
     }
     // 1.5 median deviations are a standard deviation; a median has 1.25 times the standard error of a mean.
     const double error = 1.25 * 1.5 * Quantile(distance, 0.5) / std::sqrt(static_cast<double>(last - first));
-    departs = departs || std::abs(excess) > InPixels.leastDeparture + Significance.hint * error;
-    const double level = MedianOf(squares, first, last, &JudgingSquare::level);
+    departs = departs || std::abs(excess) > InPixels.leastDeviation + Significance.hint * error;
+    const double level = MedianOf(squares, first, last, &RejectionTile::level);
     if (judging.levels.empty() || level > judging.levels.back())
     {
       judging.levels.push_back(level);
@@ -186,8 +188,8 @@ MakeJudgingLine(const VarianceLine &              line,
   }
   if (departs)
   {
-    const std::size_t dark = std::max(InPixels.squaresPerLevel, squares.size() / InPixels.darkSquaresOneIn);
-    judging.line.noiseSpreadDn4 = std::max(0.0, MedianOf(squares, 0, dark, &JudgingSquare::spread));
+    const std::size_t dark = std::max(InPixels.tilesPerLevel, squares.size() / InPixels.darkTilesOneIn);
+    judging.line.noiseDispersionDn4 = std::max(0.0, MedianOf(squares, 0, dark, &RejectionTile::spread));
   }
   else
   {

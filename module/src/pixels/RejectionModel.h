@@ -22,7 +22,7 @@ class ProjectedVariance;
 /** Rejection model: the variance that pixels are tested against. It is a line times the deviation from the line that
  * the whole sensor has, for example by a non-linear response, and it includes the dispersion of the noise from pixel to
  * pixel. Pixels are not rejected for these. */
-struct SensorNoise_EXPORT JudgingLine
+struct SensorNoise_EXPORT RejectionModel
 {
   VarianceLine        line;   ///< the line, with the dispersion of the noise from pixel to pixel
   std::vector<double> levels; ///< levels in rising order [DN]; empty: the model is the line
@@ -30,7 +30,7 @@ struct SensorNoise_EXPORT JudgingLine
   bool byNeighbours{ false }; ///< true: a pixel's level is its neighbours' mean, because its own offset is not signal
   /** Variance inflation of the mean of many pixels by the spatial noise correlation: the sum over all lags of the
    * squared correlation coefficients [1]. */
-  double sharedSquares{ 1.0 };
+  double varianceInflation{ 1.0 };
 
   /** Returns the expected variance at the level \a meanDn [DN^2]. */
   double
@@ -81,9 +81,9 @@ struct SensorNoise_EXPORT JudgingLine
   /** Returns the degrees of freedom of a pixel's variance, reduced by the dispersion of the noise from pixel to
    * pixel. */
   double
-  EffectiveFreedom(double freedom, double varianceDn2) const
+  EffectiveDof(double dof, double varianceDn2) const
   {
-    return line.EffectiveFreedom(freedom, varianceDn2);
+    return line.EffectiveDof(dof, varianceDn2);
   }
 };
 
@@ -92,14 +92,14 @@ struct SensorNoise_EXPORT JudgingLine
  * level. The deviation in a bin is the median excess of its smoother half of tiles. The dispersion of the noise from
  * pixel to pixel is the median over the dark tiles.
  *
- * The result is \a line alone if no deviation exceeds InPixels.leastDeparture by Significance.hint standard errors.
- * \a blackDn is as in MeasureLevelPattern(). */
-SensorNoise_EXPORT JudgingLine
-MakeJudgingLine(const VarianceLine &              line,
-                const ProjectedVariance &         projected,
-                const std::vector<std::uint8_t> & mask,
-                double                            blackDn,
-                const ParallelFor &               parallelFor);
+ * The result is \a line alone if no deviation exceeds InPixels.leastDeviation by Significance.hint standard errors.
+ * \a blackDn is as in EstimateFixedPattern(). */
+SensorNoise_EXPORT RejectionModel
+FitRejectionModel(const VarianceLine &              line,
+                  const ProjectedVariance &         projected,
+                  const std::vector<std::uint8_t> & mask,
+                  double                            blackDn,
+                  const ParallelFor &               parallelFor);
 
 } // namespace sensornoise
 

@@ -31,7 +31,7 @@ public:
   SquaresOfBlocks(const ReferenceFrame & frame, const TemporalBasis & basis, ResidualSquares & squares)
     : m_Variance(frame.variance.data())
     , m_Squares(squares)
-    , m_Freedom(static_cast<double>(frame.frames - 1))
+    , m_Dof(static_cast<double>(frame.frames - 1))
   {
     const Eigen::MatrixXd & q = basis.GetBasis();
     const Eigen::VectorXd   skew = q.transpose() * q.cwiseAbs2().rowwise().sum();
@@ -41,13 +41,13 @@ public:
   void
   Fill(const double * coordinates, std::size_t first, std::size_t pixels) const
   {
-    WithWideVectors([&] {
+    CallWithAvx2([&] {
       double               squares[BlockPixels]; // a copy that no pointer can alias
       float                skews[BlockPixels] = {};
       const double * const variance = m_Variance + first;
       for (std::size_t i = 0; i < pixels; ++i)
       {
-        squares[i] = m_Freedom * variance[i];
+        squares[i] = m_Dof * variance[i];
       }
       for (std::size_t j = 0; j < m_Factors.size(); ++j)
       {
@@ -67,7 +67,7 @@ public:
 private:
   const double *      m_Variance;
   ResidualSquares &   m_Squares;
-  double              m_Freedom;
+  double              m_Dof;
   std::vector<double> m_Factors; // weights of the coordinates in the skew
 };
 } // namespace detail

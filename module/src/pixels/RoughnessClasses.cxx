@@ -85,12 +85,12 @@ EdgesOf(std::vector<double> roughness)
 
 /** Sets the classes of a row of pixels from their sums of the energy. All limits are compared, without branches. */
 void
-ClassifyRow(const double *           sums,
-            const double *           neighbourMean,
-            const ProvisionalModel & model,
-            const ClassEdges &       edges,
-            std::size_t              width,
-            std::uint8_t *           classOf)
+ClassifyRow(const double *            sums,
+            const double *            neighbourMean,
+            const InitialNoiseModel & model,
+            const ClassEdges &        edges,
+            std::size_t               width,
+            std::uint8_t *            classOf)
 {
   constexpr std::size_t together = 64; // pixels whose counts stay in the first-level cache
   for (std::size_t first = 0; first < width; first += together)
@@ -119,7 +119,7 @@ ClassifyRow(const double *           sums,
 
 std::vector<std::uint8_t>
 ClassifyRoughness(const ReferenceFrame &            frame,
-                  const ProvisionalModel &          model,
+                  const InitialNoiseModel &         model,
                   const std::vector<std::uint8_t> & mask,
                   const ParallelFor &               parallelFor)
 {

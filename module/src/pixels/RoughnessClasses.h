@@ -13,7 +13,7 @@
 namespace sensornoise
 {
 
-struct ProvisionalModel;
+struct InitialNoiseModel;
 struct ReferenceFrame;
 
 /** Number of classes into which pixels are sorted by the roughness of their surroundings: the energy of the derivatives
@@ -24,7 +24,7 @@ inline constexpr std::size_t RoughnessClasses = 24;
  * mask's pixels. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
 ClassifyRoughness(const ReferenceFrame &            frame,
-                  const ProvisionalModel &          model,
+                  const InitialNoiseModel &         model,
                   const std::vector<std::uint8_t> & mask,
                   const ParallelFor &               parallelFor);
 

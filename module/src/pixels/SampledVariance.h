@@ -32,7 +32,7 @@ private:
   std::vector<double>       m_Mean;
   std::vector<double>       m_NeighbourMean;
   std::vector<double>       m_Variance;
-  std::vector<float>        m_Freedom;
+  std::vector<float>        m_Dof;
   std::vector<std::uint8_t> m_Mask;
 };
 

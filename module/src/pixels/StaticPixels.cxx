@@ -41,27 +41,27 @@ using SumsOfClasses = std::array<double, ClassSums * Classes>;
 
 SumsOfClasses
 SumClasses(const ProjectedVariance &         projected,
-           const JudgingLine &               line,
+           const RejectionModel &            line,
            const std::vector<std::uint8_t> & mask,
            const ParallelFor &               parallelFor)
 {
   const ReferenceFrame & frame = projected.GetFrame();
-  const double           sampling = 2.0 * line.sharedSquares / static_cast<double>(frame.frames - 1);
-  const auto             sumRun = [&](std::size_t first, std::size_t pixels, JudgedRun & run, double * sums) {
+  const double           sampling = 2.0 * line.varianceInflation / static_cast<double>(frame.frames - 1);
+  const auto             sumRun = [&](std::size_t first, std::size_t pixels, TestedRun & run, double * sums) {
     OfRun weight{};
     OfRun error{};
-    WithWideVectors([&,
-                     level = frame.neighbourMean.data() + first,
-                     divisor = projected.GetDivisor().data() + first,
-                     freedom = projected.GetFreedom().data() + first,
-                     spread = line.line.noiseSpreadDn4] {
+    CallWithAvx2([&,
+                  level = frame.neighbourMean.data() + first,
+                  divisor = projected.GetDivisor().data() + first,
+                  dof = projected.GetDof().data() + first,
+                  spread = line.line.noiseDispersionDn4] {
       run.Judge(projected, line, first, pixels);
       line.FillVariance(level, pixels, weight);
       for (std::size_t i = 0; i < pixels; ++i)
       {
         const double near = run.expected[i] / weight[i];
         weight[i] = near * near;
-        const double ofFrames = static_cast<double>(divisor[i]) / static_cast<double>(freedom[i]);
+        const double ofFrames = static_cast<double>(divisor[i]) / static_cast<double>(dof[i]);
         error[i] = sampling * ofFrames + spread / (run.expected[i] * run.expected[i]);
       }
     });
@@ -83,7 +83,7 @@ SumClasses(const ProjectedVariance &         projected,
   };
   return SumBlocks<ClassSums * Classes>(
     mask.size(), parallelFor, [&](std::size_t begin, std::size_t end, SumsOfClasses & sums) {
-      JudgedRun run{};
+      TestedRun run{};
       ForRuns(begin, end, [&](std::size_t first, std::size_t pixels) { sumRun(first, pixels, run, sums.data()); });
     });
 }
@@ -131,7 +131,7 @@ FirstBadClass(const ClassTable & table)
     return table.excess[c] > std::max(Significance.oneTest * table.error[c], InPixels.leastClassExcess) ||
            table.outliers[c] > usual + InPixels.leastClassOutliers;
   };
-  for (std::size_t c = InPixels.firstJudgedClass; c < Classes; ++c)
+  for (std::size_t c = InPixels.firstTestedClass; c < Classes; ++c)
   {
     if (isBad(c) && (c + 1 == Classes || isBad(c + 1)))
     {
@@ -144,10 +144,10 @@ FirstBadClass(const ClassTable & table)
 } // namespace
 
 ClassFit
-JudgeClasses(const ProjectedVariance &         projected,
-             const JudgingLine &               line,
-             const std::vector<std::uint8_t> & mask,
-             const ParallelFor &               parallelFor)
+TestClasses(const ProjectedVariance &         projected,
+            const RejectionModel &            line,
+            const std::vector<std::uint8_t> & mask,
+            const ParallelFor &               parallelFor)
 {
   ClassFit            fit;
   const SumsOfClasses sums = SumClasses(projected, line, mask, parallelFor);

@@ -14,7 +14,7 @@
 namespace sensornoise
 {
 
-struct JudgingLine;
+struct RejectionModel;
 
 /** Result of the test of the roughness classes against a rejection model. */
 struct ClassFit
@@ -32,19 +32,19 @@ struct ClassFit
  * more than 3 standard errors and 0.15 %, or if its fraction of outliers is higher by 1 %. The first of two failing
  * classes in a row, and all rougher ones, are rejected. Estimator.md, 3.5. */
 SensorNoise_EXPORT ClassFit
-JudgeClasses(const ProjectedVariance &         projected,
-             const JudgingLine &               line,
-             const std::vector<std::uint8_t> & mask,
-             const ParallelFor &               parallelFor);
+TestClasses(const ProjectedVariance &         projected,
+            const RejectionModel &            line,
+            const std::vector<std::uint8_t> & mask,
+            const ParallelFor &               parallelFor);
 
 /** Marks the pixels of neighbourhoods that do not fit the rejection model. A neighbourhood is rejected if the mean
  * variance of its 15 x 15 pixels exceeds the model by 5 standard deviations and 4 %, or if it holds 15 % outliers.
  * Single noisy pixels are not marked; the fit trims them. Estimator.md, 3.5. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
-FindLocalMisfit(const ProjectedVariance &         projected,
-                const JudgingLine &               line,
-                const std::vector<std::uint8_t> & mask,
-                const ParallelFor &               parallelFor);
+RejectNeighbourhoods(const ProjectedVariance &         projected,
+                     const RejectionModel &            line,
+                     const std::vector<std::uint8_t> & mask,
+                     const ParallelFor &               parallelFor);
 
 } // namespace sensornoise
 

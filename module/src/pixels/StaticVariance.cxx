@@ -33,7 +33,7 @@ namespace
 {
 /** Fits a line without errors to a sample of the pixels: precise enough to test pixels. */
 VarianceLine
-DrawLine(const VarianceData & data, const std::optional<VarianceLine> & start, const ParallelFor & parallelFor)
+FitSampleLine(const VarianceData & data, const std::optional<VarianceLine> & start, const ParallelFor & parallelFor)
 {
   const SampledVariance sample(data, InPixels.pixelsOfRoughLine, parallelFor);
   VarianceFit           fit(sample.GetData(), parallelFor, start);
@@ -44,35 +44,35 @@ DrawLine(const VarianceData & data, const std::optional<VarianceLine> & start, c
 /** Returns how the line of the pixels of \a mask depends on the gain that was put in; no dependence if the frames are
  * about equal. */
 GainFeedback
-FeedbackOf(const ProjectedVariance &         projected,
-           const VarianceLine &              line,
-           const std::vector<std::uint8_t> & mask,
-           const ParallelFor &               parallelFor)
+ComputeFeedback(const ProjectedVariance &         projected,
+                const VarianceLine &              line,
+                const std::vector<std::uint8_t> & mask,
+                const ParallelFor &               parallelFor)
 {
-  return projected.HasUnequalFrames() && line.isDetermined ? GainFeedback(projected, line, mask, parallelFor)
-                                                           : GainFeedback();
+  return projected.HasUnequalNoise() && line.isDetermined ? GainFeedback(projected, line, mask, parallelFor)
+                                                          : GainFeedback();
 }
 
 /** Fits a line to the pixels of \a mask, again until the gain that corrects the variances equals the gain of the
  * line. */
 VarianceLine
-DrawSettledLine(ProjectedVariance &                 projected,
-                const std::vector<std::uint8_t> &   mask,
-                const std::optional<VarianceLine> & start,
-                const ParallelFor &                 parallelFor)
+FitFixedPointLine(ProjectedVariance &                 projected,
+                  const std::vector<std::uint8_t> &   mask,
+                  const std::optional<VarianceLine> & start,
+                  const ParallelFor &                 parallelFor)
 {
-  VarianceLine line = DrawLine(projected.GetData(mask), start, parallelFor);
-  for (int round = 0; round < InPixels.settlingRounds; ++round)
+  VarianceLine line = FitSampleLine(projected.GetData(mask), start, parallelFor);
+  for (int round = 0; round < InPixels.fixedPointRounds; ++round)
   {
-    const GainFeedback feedback = FeedbackOf(projected, line, mask, parallelFor);
-    const VarianceLine settled = feedback.Settle(line, projected.GetGain());
+    const GainFeedback feedback = ComputeFeedback(projected, line, mask, parallelFor);
+    const VarianceLine settled = feedback.SolveFixedPoint(line, projected.GetGain());
     if (!feedback.IsLarge() ||
-        std::abs(settled.gain - projected.GetGain()) < InPixels.settledChange * std::abs(settled.gain))
+        std::abs(settled.gain - projected.GetGain()) < InPixels.fixedPointChange * std::abs(settled.gain))
     {
       break;
     }
     projected.Compute(settled);
-    line = DrawLine(projected.GetData(mask), settled, parallelFor);
+    line = FitSampleLine(projected.GetData(mask), settled, parallelFor);
   }
   return line;
 }
@@ -80,21 +80,21 @@ DrawSettledLine(ProjectedVariance &                 projected,
 /** Fits the first line to the flat pixels of \a mask. If only dark areas of the scene are flat, brighter pixels are
  * added to the mask, provided that their variance lies on one line with the variance of the dark pixels. */
 VarianceLine
-DrawFirstLine(ProjectedVariance &               projected,
-              const std::vector<std::uint8_t> & usable,
-              std::vector<std::uint8_t> &       mask,
-              const ParallelFor &               parallelFor)
+FitFirstLine(ProjectedVariance &               projected,
+             const std::vector<std::uint8_t> & usable,
+             std::vector<std::uint8_t> &       mask,
+             const ParallelFor &               parallelFor)
 {
   if (const std::optional<BrighterPixels> brighter = FindBrighterPixels(projected, usable, mask, parallelFor))
   {
-    VarianceLine line = DrawSettledLine(projected, brighter->mask, brighter->through, parallelFor);
-    if (line.isDetermined && FollowsLine(projected, brighter->beyond, line) && FollowsLine(projected, mask, line))
+    VarianceLine line = FitFixedPointLine(projected, brighter->mask, brighter->through, parallelFor);
+    if (line.isDetermined && AgreesWithLine(projected, brighter->beyond, line) && AgreesWithLine(projected, mask, line))
     {
       mask = brighter->mask;
       return line;
     }
   }
-  return DrawSettledLine(projected, mask, std::nullopt, parallelFor);
+  return FitFixedPointLine(projected, mask, std::nullopt, parallelFor);
 }
 
 /** Fits the line of all pixels of the data, with its errors. */
@@ -114,15 +114,15 @@ FitAllPixels(const VarianceData & data, const VarianceLine & start, double black
  * neighbourhoods. */
 std::size_t
 SelectPixels(const ProjectedVariance &         projected,
-             const JudgingLine &               line,
+             const RejectionModel &            line,
              const std::vector<std::uint8_t> & usable,
              StaticVariance &                  found,
              const ParallelFor &               parallelFor)
 {
-  const std::vector<std::uint8_t> misfit = FindLocalMisfit(projected, line, usable, parallelFor);
+  const std::vector<std::uint8_t> misfit = RejectNeighbourhoods(projected, line, usable, parallelFor);
   ForPixels(
     misfit.size(), parallelFor, [&](std::size_t p) { found.mask[p] = usable[p] != 0 && misfit[p] == 0 ? 1 : 0; });
-  found.classes = JudgeClasses(projected, line, found.mask, parallelFor);
+  found.classes = TestClasses(projected, line, found.mask, parallelFor);
   ForPixels(misfit.size(),
             parallelFor,
             [usable = usable.data(),
@@ -143,10 +143,10 @@ SelectPixels(const ProjectedVariance &         projected,
 
 /** Compares the parts by the measured variance of the pixels of \a mask. */
 GainByParts
-ComparePartsOf(const ProjectedVariance &         projected,
-               const PartReference &             reference,
-               const std::vector<std::uint8_t> & mask,
-               const ParallelFor &               parallelFor)
+CompareMeasuredParts(const ProjectedVariance &         projected,
+                     const PartReference &             reference,
+                     const std::vector<std::uint8_t> & mask,
+                     const ParallelFor &               parallelFor)
 {
   VarianceData        data = projected.GetData(mask);
   std::vector<double> measured;
@@ -162,13 +162,13 @@ ComparePartsOf(const ProjectedVariance &         projected,
  * \a drawn again. Changes nothing unless most pixels then follow the line: other causes of differences between parts,
  * such as a non-linear response, are left to the fit. */
 void
-AllowForParts(ProjectedVariance &               projected,
-              const PartReference &             reference,
-              const std::vector<std::uint8_t> & mask,
-              VarianceLine &                    drawn,
-              const ParallelFor &               parallelFor)
+CorrectForParts(ProjectedVariance &               projected,
+                const PartReference &             reference,
+                const std::vector<std::uint8_t> & mask,
+                VarianceLine &                    drawn,
+                const ParallelFor &               parallelFor)
 {
-  GainByParts parts = ComparePartsOf(projected, reference, mask, parallelFor);
+  GainByParts parts = CompareMeasuredParts(projected, reference, mask, parallelFor);
   for (auto * const own : { &parts.places, &parts.phases })
   {
     if (*own && !(*own)->DifferMuch())
@@ -182,8 +182,8 @@ AllowForParts(ProjectedVariance &               projected,
   }
   const ReferenceFrame & frame = projected.GetFrame();
   projected.SetRatios(MapOfRatios(parts, frame.mean, frame.geometry, reference, parallelFor));
-  const VarianceLine line = DrawSettledLine(projected, mask, drawn, parallelFor);
-  if (!line.isDetermined || !FollowsLine(projected, mask, line))
+  const VarianceLine line = FitFixedPointLine(projected, mask, drawn, parallelFor);
+  if (!line.isDetermined || !AgreesWithLine(projected, mask, line))
   {
     projected.SetRatios({});
     return;
@@ -207,7 +207,7 @@ struct FitPremises
   double slopeDn;
   double offsetDn;
   double blackDn;
-  double sharedSquares;
+  double varianceInflation;
 };
 
 /** Computes FitStaticVariance() once. With \a mayDivide the variance may be divided by the ratios of parts. */
@@ -219,28 +219,28 @@ FitOnce(ProjectedVariance &               projected,
         bool                              mayDivide,
         const ParallelFor &               parallelFor)
 {
-  const auto [slopeDn, offsetDn, blackDn, sharedSquares] = premises;
+  const auto [slopeDn, offsetDn, blackDn, varianceInflation] = premises;
   StaticVariance found;
-  found.sharedSquares = sharedSquares;
+  found.varianceInflation = varianceInflation;
   found.pixelUse = std::move(pixelUse);
   // The line of the flat classes rejects neighbourhoods, and then classes among the others.
   projected.SetRatios({});
   projected.Compute(slopeDn);
   found.mask = MaskOfFlatClasses(projected, usable, parallelFor);
-  VarianceLine drawn = DrawFirstLine(projected, usable, found.mask, parallelFor);
+  VarianceLine drawn = FitFirstLine(projected, usable, found.mask, parallelFor);
   if (mayDivide && drawn.isDetermined)
   {
-    AllowForParts(projected, { drawn, blackDn, sharedSquares }, found.mask, drawn, parallelFor);
+    CorrectForParts(projected, { drawn, blackDn, varianceInflation }, found.mask, drawn, parallelFor);
   }
   bool isJudged = false;
   for (int round = 0; round < 2 && drawn.isDetermined && !isJudged; ++round)
   {
-    JudgingLine judge = MakeJudgingLine(drawn, projected, found.mask, blackDn, parallelFor);
-    judge.sharedSquares = sharedSquares;
+    RejectionModel judge = FitRejectionModel(drawn, projected, found.mask, blackDn, parallelFor);
+    judge.varianceInflation = varianceInflation;
     projected.Compute(drawn);
     const std::size_t misfits = SelectPixels(projected, judge, usable, found, parallelFor);
-    isJudged = static_cast<double>(misfits) < InPixels.fewMisfits * static_cast<double>(usable.size());
-    drawn = DrawSettledLine(projected, found.mask, judge.line, parallelFor);
+    isJudged = static_cast<double>(misfits) < InPixels.fewRejected * static_cast<double>(usable.size());
+    drawn = FitFixedPointLine(projected, found.mask, judge.line, parallelFor);
   }
   if (!drawn.isDetermined)
   {
@@ -249,14 +249,16 @@ FitOnce(ProjectedVariance &               projected,
   projected.Compute(drawn);
   const VarianceData data = projected.GetData(found.mask);
   VarianceFit        fit = FitAllPixels(data, drawn, blackDn, parallelFor);
-  const GainFeedback feedback = FeedbackOf(projected, fit.GetLine(), found.mask, parallelFor);
+  const GainFeedback feedback = ComputeFeedback(projected, fit.GetLine(), found.mask, parallelFor);
   if (feedback.IsLarge())
   {
-    const VarianceLine settled = feedback.Settle(fit.GetLine(), projected.GetGain());
+    const VarianceLine settled = feedback.SolveFixedPoint(fit.GetLine(), projected.GetGain());
     projected.Compute(settled);
     fit = FitAllPixels(data, settled, blackDn, parallelFor);
   }
-  const auto   settle = [&](const VarianceLine & fitted) { return feedback.Settle(fitted, projected.GetGain()); };
+  const auto settle = [&](const VarianceLine & fitted) {
+    return feedback.SolveFixedPoint(fitted, projected.GetGain());
+  };
   VarianceLine line = settle(fit.GetLine());
   if (!line.isDetermined)
   {
@@ -267,19 +269,19 @@ FitOnce(ProjectedVariance &               projected,
     found.pixelUse[p] = trimmed[p] != 0 ? static_cast<std::uint8_t>(PixelUse::Outlier) : found.pixelUse[p];
   });
   const ReferenceFrame & frame = projected.GetFrame();
-  found.pattern = MeasureLevelPattern(frame, data, line, blackDn, parallelFor);
-  if (found.pattern.LargestShare() * std::abs(line.gain) >
+  found.pattern = EstimateFixedPattern(frame, data, line, blackDn, parallelFor);
+  if (found.pattern.LargestFraction() * std::abs(line.gain) >
       InPixels.negligiblePattern * std::sqrt(line.covariance(0, 0)))
   {
-    found.fromLight = settle(FitLightLine(fit, data, frame));
+    found.instrumentalLine = settle(FitInstrumental(fit, data, frame));
   }
   CorrectForNoisyMeans(line, offsetDn, frame.frames);
   found.line = line;
   std::vector<std::uint8_t> kept = found.mask;
   ForPixels(kept.size(), parallelFor, [&](std::size_t p) { kept[p] = trimmed[p] != 0 ? 0 : kept[p]; });
-  found.parts = ComparePartsOf(projected, { line, blackDn, sharedSquares }, kept, parallelFor);
-  found.curve = fit.CurveAbout(found.fromLight.isDetermined ? found.fromLight : line);
-  if (found.curve.ReducedChi2() > InSteps.leastChi2 * sharedSquares)
+  found.parts = CompareMeasuredParts(projected, { line, blackDn, varianceInflation }, kept, parallelFor);
+  found.curve = fit.CurveAbout(found.instrumentalLine.isDetermined ? found.instrumentalLine : line);
+  if (found.curve.ReducedChi2() > InSteps.leastChi2 * varianceInflation)
   {
     found.ofOwnLevels = fit.CurveAbout(found.curve.line, VarianceFit::SortedBy::OwnLevel);
   }
@@ -297,9 +299,9 @@ FitStaticVariance(ProjectedVariance &               projected,
                   double                            offsetDn,
                   double                            blackDn,
                   const ParallelFor &               parallelFor,
-                  double                            sharedSquares)
+                  double                            varianceInflation)
 {
-  const FitPremises premises{ slopeDn, offsetDn, blackDn, sharedSquares };
+  const FitPremises premises{ slopeDn, offsetDn, blackDn, varianceInflation };
   StaticVariance    found = FitOnce(projected, usable, pixelUse, premises, true, parallelFor);
   if (projected.HasRatios() && found.parts.Larger() == nullptr)
   {

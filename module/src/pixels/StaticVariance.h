@@ -28,15 +28,15 @@ struct StaticVariance
    * intensity. */
   VarianceLine line;
   /** Largest fraction of the levels' variance that can be fixed-pattern noise. */
-  LevelPattern pattern;
-  /** The line by instrumental variables, see FitLightLine(); not determined where the pattern is negligible. */
-  VarianceLine fromLight;
+  FixedPatternEstimate pattern;
+  /** The line by instrumental variables, see FitInstrumental(); not determined where the pattern is negligible. */
+  VarianceLine instrumentalLine;
   /** The line from frames of unequal illumination, and their deviation from it, see FitFramePhotonTransfer(). Not
    * determined where the frames are about equal. */
   VarianceCurve fromFrames;
   /** Result of the test of the roughness classes. */
   ClassFit classes;
-  /** Deviation of the variance from fromLight, or from line where fromLight is not determined. */
+  /** Deviation of the variance from instrumentalLine, or from line where instrumentalLine is not determined. */
   VarianceCurve curve;
   /** Deviation from the same line with the pixels sorted by their own levels, by which two amplifiers differ. It has no
    * bins if \a curve follows its line. */
@@ -52,8 +52,8 @@ struct StaticVariance
   std::vector<std::uint8_t> pixelUse;
   /** Number of pixels whose use is PixelUse::NotStatic. */
   std::size_t notStatic{ 0 };
-  /** Variance inflation by the spatial noise correlation, see JudgingLine [1]. */
-  double sharedSquares{ 1.0 };
+  /** Variance inflation by the spatial noise correlation, see RejectionModel [1]. */
+  double varianceInflation{ 1.0 };
 };
 
 /** Finds the pixels that fit a static scene, and fits the line of their variance, from the flat classes to the rough
@@ -62,9 +62,9 @@ struct StaticVariance
  *
  * \a pixelUse is the use of the pixels as known before; the use of the \a usable pixels is set. \a slopeDn is the
  * approximate gain [DN/e-]. \a offsetDn is the dark offset, or the darkest level if the offset is not known [DN];
- * \a blackDn is the dark offset, or a level that it is not below [DN]. \a sharedSquares is the variance inflation by
- * the spatial noise correlation, see JudgingLine [1]. If too few pixels are left, the line is not determined, and the
- * results that depend on it are missing. */
+ * \a blackDn is the dark offset, or a level that it is not below [DN]. \a varianceInflation is the variance inflation
+ * by the spatial noise correlation, see RejectionModel [1]. If too few pixels are left, the line is not determined, and
+ * the results that depend on it are missing. */
 SensorNoise_EXPORT StaticVariance
 FitStaticVariance(ProjectedVariance &               projected,
                   const std::vector<std::uint8_t> & usable,
@@ -73,7 +73,7 @@ FitStaticVariance(ProjectedVariance &               projected,
                   double                            offsetDn,
                   double                            blackDn,
                   const ParallelFor &               parallelFor,
-                  double                            sharedSquares = 1.0);
+                  double                            varianceInflation = 1.0);
 
 } // namespace sensornoise
 

@@ -17,7 +17,7 @@ namespace sensornoise
 {
 
 /** Test of a run of pixels, inside and outside the mask, against a rejection model, with SIMD instructions. */
-struct JudgedRun
+struct TestedRun
 {
   OfRun expected; ///< variance by the model at the pixel's level [DN^2]
   OfRun ratio;    ///< variance over the expected variance [1]
@@ -26,18 +26,18 @@ struct JudgedRun
 
   /** Tests \a pixels pixels, at most PixelsPerRun, from pixel \a first on. */
   void
-  Judge(const ProjectedVariance & projected, const JudgingLine & judge, std::size_t first, std::size_t pixels)
+  Judge(const ProjectedVariance & projected, const RejectionModel & judge, std::size_t first, std::size_t pixels)
   {
     const ReferenceFrame & frame = projected.GetFrame();
     const double * const   level = judge.LevelsOf(frame).data() + first;
     const double * const   variance = projected.GetVariance().data() + first;
-    const float * const    freedom = projected.GetFreedom().data() + first;
+    const float * const    dof = projected.GetDof().data() + first;
     const VarianceLine     line = judge.line;
     judge.FillVariance(level, pixels, expected);
     for (std::size_t i = 0; i < pixels; ++i)
     {
       ratio[i] = variance[i] / expected[i];
-      const FarLimits far(line.EffectiveFreedom(freedom[i], expected[i]));
+      const FarLimits far(line.EffectiveDof(dof[i], expected[i]));
       isAbove[i] = ratio[i] < far.high ? 0.0 : 1.0;
       isOff[i] = ratio[i] > far.low ? isAbove[i] : 1.0;
     }

@@ -68,7 +68,7 @@ VarianceCurve::Nonlinearity(double dispersion) const
 }
 
 double
-VarianceCurve::DarkestShare(double blackDn) const
+VarianceCurve::DarkestFraction(double blackDn) const
 {
   if (bins.empty())
   {
@@ -96,7 +96,7 @@ VarianceCurve::SlopeOf(std::size_t first, std::size_t last) const
 }
 
 std::vector<SlopeExcess>
-VarianceCurve::SlopesOfHalves() const
+VarianceCurve::FitHalves() const
 {
   const CurveBin all = this->SumOf(0, bins.size());
   const Slope    whole = this->SlopeOf(0, bins.size());

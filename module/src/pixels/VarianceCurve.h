@@ -76,12 +76,12 @@ struct SensorNoise_EXPORT VarianceCurve
   /** Returns the signal of the darkest bin as a fraction of the signal of the brightest bin, both above \a blackDn [1];
    * 1 without bins. */
   double
-  DarkestShare(double blackDn) const;
+  DarkestFraction(double blackDn) const;
 
   /** Returns the excesses of the slope in the darker and the brighter half of the levels, divided once by the number of
    * pixels and once by the information on the slope. A half of one level is left out. */
   std::vector<SlopeExcess>
-  SlopesOfHalves() const;
+  FitHalves() const;
 
 private:
   /** Returns the sum of the bins [first, last). */

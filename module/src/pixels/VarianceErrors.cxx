@@ -67,7 +67,7 @@ VarianceFit::FillErrors()
                                      wxx };
   });
   m_Line.covariance = Sandwich(m_Line, s[WWRRXX], s[WWRRX], s[WWRR]);
-  const auto pixels = static_cast<double>(m_Freedoms.values);
+  const auto pixels = static_cast<double>(m_Dofs.values);
   // Quadratic column of the parabola, orthogonal to the first two columns: q = x^2 - a x - b.
   const double a = s[WX3] / s[WXX];
   const double b = s[WXX] / s[W];

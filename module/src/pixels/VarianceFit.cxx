@@ -24,25 +24,25 @@ namespace sensornoise
 namespace
 {
 ValueRange
-RangeOfFreedoms(const VarianceData & data, const ParallelFor & parallelFor)
+FindDofRange(const VarianceData & data, const ParallelFor & parallelFor)
 {
   return RangeOverPixels(
     data.pixels,
     parallelFor,
     [&data](std::size_t p) { return data.mask[p] != 0; },
-    [&data](std::size_t p) { return static_cast<double>(data.freedom[p]); });
+    [&data](std::size_t p) { return static_cast<double>(data.dof[p]); });
 }
 
 /** Returns the highest degrees of freedom of the pixels at and above a level, where a strong change of the illumination
  * leaves the fewest. Returns \a otherwise if there are no such pixels. */
 double
-FreedomAbove(double levelDn, const VarianceData & data, double otherwise, const ParallelFor & parallelFor)
+HighestDofAbove(double levelDn, const VarianceData & data, double otherwise, const ParallelFor & parallelFor)
 {
   const ValueRange range = RangeOverPixels(
     data.pixels,
     parallelFor,
     [&data, levelDn](std::size_t p) { return data.mask[p] != 0 && data.neighbourMean[p] >= levelDn; },
-    [&data](std::size_t p) { return static_cast<double>(data.freedom[p]); });
+    [&data](std::size_t p) { return static_cast<double>(data.dof[p]); });
   return range.values > 0 ? range.highest : otherwise;
 }
 } // namespace
@@ -54,30 +54,30 @@ VarianceFit::VarianceFit(const VarianceData &                data,
                          double                              blackDn)
   : m_Data(data)
   , m_ParallelFor(parallelFor)
-  , m_Freedoms(RangeOfFreedoms(data, parallelFor))
+  , m_Dofs(FindDofRange(data, parallelFor))
   , m_Rule(rule)
   , m_BlackDn(blackDn)
 {
-  if (m_Freedoms.values >= InPixels.fewestPixelsOfFit)
+  if (m_Dofs.values >= InPixels.fewestPixelsOfFit)
   {
     const std::optional<VarianceLine> first =
-      start ? start : FitMedians(data, ChiSquareTrim(m_Freedoms.lowest, m_Freedoms.highest));
+      start ? start : FitMedians(data, ChiSquareTrim(m_Dofs.lowest, m_Dofs.highest));
     if (first)
     {
       m_Line.gain = first->gain;
       m_Line.intercept = first->intercept;
       m_Line.lowestDn2 = first->lowestDn2;
       m_Line.pivotDn = first->pivotDn;
-      m_Line.noiseSpreadDn4 = first->noiseSpreadDn4;
+      m_Line.noiseDispersionDn4 = first->noiseDispersionDn4;
       m_Trim.emplace(this->MakeTrim());
       if (m_Rule == TrimRule::Distance)
       {
         std::vector<double> levels = this->SampleLevels();
         m_DarkestDn = Quantile(levels, InCommon.darkestQuantile);
         m_BrightestDn = Quantile(levels, InCommon.brightestQuantile);
-        m_BrightFreedom = FreedomAbove(m_BrightestDn, m_Data, m_Freedoms.highest, m_ParallelFor);
+        m_BrightDof = HighestDofAbove(m_BrightestDn, m_Data, m_Dofs.highest, m_ParallelFor);
         this->SetReach();
-        this->SetNoiseSpread();
+        this->SetNoiseDispersion();
       }
     }
   }
@@ -87,13 +87,13 @@ VarianceFit::VarianceFit(const VarianceData & data, const VarianceFit & ofSample
   : VarianceFit(ofSample)
 {
   m_Data = data;
-  m_Freedoms = RangeOfFreedoms(data, m_ParallelFor);
+  m_Dofs = FindDofRange(data, m_ParallelFor);
 }
 
 ChiSquareTrim
 VarianceFit::MakeTrim() const
 {
-  return { m_Line.EffectiveFreedom(m_Freedoms.lowest, m_Line.lowestDn2), m_Freedoms.highest };
+  return { m_Line.EffectiveDof(m_Dofs.lowest, m_Line.lowestDn2), m_Dofs.highest };
 }
 
 void
@@ -133,7 +133,7 @@ VarianceFit::Iterate(int iterations)
     if (m_Rule == TrimRule::Distance && iteration < 3 && iteration + 1 < iterations)
     {
       this->SetReach();
-      this->SetNoiseSpread();
+      this->SetNoiseDispersion();
     }
     else if (change < 1e-9)
     {

@@ -155,7 +155,7 @@ private:
   AddTerms(const OfRun & a, const OfRun & b, const OfRun & c, TTerms terms, std::array<double, VSums> & sums)
   {
     constexpr std::size_t lanes = 4; // independent sums, so that no addition waits for another
-    WithWideVectors([&a, &b, &c, &sums, terms] {
+    CallWithAvx2([&a, &b, &c, &sums, terms] {
       double own[VSums][lanes] = {};
       for (std::size_t i = 0; i < PixelsPerRun; i += lanes)
       {
@@ -221,15 +221,15 @@ private:
     sums = own;
   }
 
-  /** Contributions of a run of pixels to the sums of SetNoiseSpread(). */
-  struct SpreadTerms
+  /** Contributions of a run of pixels to the sums of SetNoiseDispersion(). */
+  struct DispersionTerms
   {
     OfRun weight; // 0: trimmed, or outside the mask
     OfRun more;   // squared excess minus its sampling variance, times the weight
     OfRun chance; // sampling variance, times the weight
   };
   void
-  FindSpread(std::size_t first, std::size_t pixels, SpreadTerms & terms) const;
+  EstimateNoiseDispersion(std::size_t first, std::size_t pixels, DispersionTerms & terms) const;
 
   ChiSquareTrim
   MakeTrim() const;
@@ -242,18 +242,18 @@ private:
   SetReach();
   /** Computes the dispersion of the noise variance from pixel to pixel about the present line. */
   void
-  SetNoiseSpread();
+  SetNoiseDispersion();
 
   VarianceData                 m_Data;
   ParallelFor                  m_ParallelFor;
-  ValueRange                   m_Freedoms; // number of the mask's pixels, and the range of their degrees of freedom
+  ValueRange                   m_Dofs; // number of the mask's pixels, and the range of their degrees of freedom
   VarianceLine                 m_Line;
   std::optional<ChiSquareTrim> m_Trim;
   TrimRule                     m_Rule;
   double                       m_BlackDn;
   double                       m_DarkestDn{ 0.0 };     // quantile of the levels [DN]
   double                       m_BrightestDn{ 0.0 };   // quantile of the levels [DN]
-  double                       m_BrightFreedom{ 1.0 }; // highest degrees of freedom of the brightest pixels
+  double                       m_BrightDof{ 1.0 };     // highest degrees of freedom of the brightest pixels
   double                       m_ReachDn2{ 0.0 };      // largest excess that is kept [DN^2]
   double                       m_ReachBelowDn2{ 0.0 }; // largest deficit that is kept [DN^2]
 };

@@ -18,7 +18,7 @@ struct VarianceData
   const double *       mean;          ///< temporal mean [DN]
   const double *       neighbourMean; ///< mean of the 8 neighbours [DN]
   const double *       variance;      ///< unbiased variance [DN^2]
-  const float *        freedom;       ///< degrees of freedom of the variance
+  const float *        dof;           ///< degrees of freedom of the variance
   const std::uint8_t * mask;          ///< nonzero at the pixels that count
   std::size_t          pixels;        ///< number of pixels
 };
@@ -34,12 +34,12 @@ struct VarianceLine
   double          pivotDn{ 0.0 };       ///< weighted mean of the means, where value and slope are uncorrelated [DN]
   double          spreadDn2{ 0.0 };     ///< weighted sum of the squared deviations of the means from the pivot [1/DN^2]
   double          curvature{ 0.0 };     ///< second-order coefficient of a parabola fitted instead [1]
-  double          curvatureTilt{ 0.0 }; ///< linear term of the parabola's deviation, see BendAt() [DN]
-  double          curvatureLift{ 0.0 }; ///< constant term of the parabola's deviation, see BendAt() [DN^2]
-  double          curvatureSd{ 0.0 };   ///< standard error of the curvature [1]
-  double          trimmedFraction{ 0.0 }; ///< fraction of the pixels that were trimmed [1]
-  double          noiseSpreadDn4{ 0.0 };  ///< dispersion of the noise variance from pixel to pixel [DN^4]
-  bool            isDetermined{ false };
+  double          curvatureTilt{ 0.0 }; ///< linear term of the parabola's deviation, see CurvatureDeviationAt() [DN]
+  double curvatureLift{ 0.0 };      ///< constant term of the parabola's deviation, see CurvatureDeviationAt() [DN^2]
+  double curvatureSd{ 0.0 };        ///< standard error of the curvature [1]
+  double trimmedFraction{ 0.0 };    ///< fraction of the pixels that were trimmed [1]
+  double noiseDispersionDn4{ 0.0 }; ///< dispersion of the noise variance from pixel to pixel [DN^4]
+  bool   isDetermined{ false };
 
   /** Returns the line's value, at least lowestDn2 [DN^2]. */
   double
@@ -51,26 +51,26 @@ struct VarianceLine
    * variance. Shot noise has the fourth cumulant g^3 q, at most g^2 V, so Var(s^2) / V^2 = 2 / freedom + g^2 / (V T).
    * The second term matters if few electrons make a DN. */
   double
-  SamplingFreedom(double freedom, double varianceDn2) const
+  SamplingDof(double dof, double varianceDn2) const
   {
-    return freedom * varianceDn2 / (varianceDn2 + 0.5 * gain * gain);
+    return dof * varianceDn2 / (varianceDn2 + 0.5 * gain * gain);
   }
   /** Returns the sampling variance of a pixel's variance [DN^4]. */
   double
-  SamplingVariance(double freedom, double varianceDn2) const
+  SamplingVariance(double dof, double varianceDn2) const
   {
-    return 2.0 * varianceDn2 * (varianceDn2 + 0.5 * gain * gain) / freedom;
+    return 2.0 * varianceDn2 * (varianceDn2 + 0.5 * gain * gain) / dof;
   }
-  /** Returns SamplingFreedom() reduced by the dispersion of the noise variance from pixel to pixel. */
+  /** Returns SamplingDof() reduced by the dispersion of the noise variance from pixel to pixel. */
   double
-  EffectiveFreedom(double freedom, double varianceDn2) const
+  EffectiveDof(double dof, double varianceDn2) const
   {
     const double square = varianceDn2 * varianceDn2;
-    return freedom * square / (square + 0.5 * (gain * gain * varianceDn2 + freedom * noiseSpreadDn4));
+    return dof * square / (square + 0.5 * (gain * gain * varianceDn2 + dof * noiseDispersionDn4));
   }
   /** Returns the deviation of the fitted parabola from the line [DN^2]. */
   double
-  BendAt(double meanDn) const
+  CurvatureDeviationAt(double meanDn) const
   {
     const double x = meanDn - pivotDn;
     return curvature * (x * x - curvatureTilt * x - curvatureLift);

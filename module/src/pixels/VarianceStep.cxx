@@ -19,7 +19,7 @@ namespace sensornoise
 namespace
 {
 std::vector<ExcessOfBin>
-ExcessesOf(const VarianceCurve & curve)
+ComputeExcesses(const VarianceCurve & curve)
 {
   std::vector<ExcessOfBin> bins;
   for (const CurveBin & bin : curve.bins)
@@ -108,7 +108,7 @@ LeastSmoothChi2(const std::vector<ExcessOfBin> & bins)
 
 /** Returns whether the step remains if a parabola, which describes a smooth non-linearity, is fitted too. */
 bool
-StandsBesideCurve(const StepCandidate & step, double scatter)
+IsSignificantBesideCurve(const StepCandidate & step, double scatter)
 {
   const auto fit = RegressCurve<4>(
     step.bins, [at = step.x](double x) { return Eigen::Vector4d{ 1.0, x, x * x, x > at ? 1.0 : 0.0 }; });
@@ -173,7 +173,7 @@ VarianceStep::RestOf(const VarianceCurve & curve) const
 std::optional<VarianceStep>
 FindVarianceStep(const VarianceCurve & curve)
 {
-  const std::vector<ExcessOfBin> bins = ExcessesOf(curve);
+  const std::vector<ExcessOfBin> bins = ComputeExcesses(curve);
   if (bins.size() < 2 * InSteps.leastBins + 1)
   {
     return std::nullopt;
@@ -199,7 +199,7 @@ FindVarianceStep(const VarianceCurve & curve)
   const double least = InSteps.leastSize * std::max({ below, below + step.sizeDn2, 0.0 });
   if (std::abs(step.sizeDn2) < least || std::abs(step.sizeDn2) < Significance.manyTests * step.errorDn2 ||
       LeastSmoothChi2(found->bins) - fit.chi2 < Significance.manyTests * Significance.manyTests * scatter ||
-      !StandsBesideCurve(*found, scatter))
+      !IsSignificantBesideCurve(*found, scatter))
   {
     return std::nullopt;
   }

@@ -46,12 +46,12 @@ ClearBehind(std::size_t pixels, TNumbers &... numbers)
   (std::fill(numbers.begin() + static_cast<std::ptrdiff_t>(pixels), numbers.end(), 0.0), ...);
 }
 
-/** Returns the weight of a variance with the degrees of freedom 2 \a halfFreedom and the expectation \a expected
+/** Returns the weight of a variance with the degrees of freedom 2 \a halfDof and the expectation \a expected
  * [1/DN^4]. */
 double
-WeightAt(const VarianceLine & line, double halfFreedom, double expected)
+WeightAt(const VarianceLine & line, double halfDof, double expected)
 {
-  return halfFreedom / (expected * expected + halfFreedom * line.noiseSpreadDn4);
+  return halfDof / (expected * expected + halfDof * line.noiseDispersionDn4);
 }
 
 /** Returns 1 between two limits, else 0: numbers, for SIMD instructions. */
@@ -99,13 +99,13 @@ VarianceFit::WeighRun(std::size_t first, std::size_t pixels, Run & run) const
 void
 VarianceFit::WeighByDistance(std::size_t first, std::size_t pixels, Run & run) const
 {
-  WithWideVectors([&] {
+  CallWithAvx2([&] {
     const Departure of{ m_Line, m_Data, m_ReachDn2, m_ReachBelowDn2 };
     OfRun           counts;
     for (std::size_t i = 0; i < pixels; ++i)
     {
       const std::size_t p = first + i;
-      run.weight[i] = WeightAt(of.line, 0.5 * of.data.freedom[p], of.Expected(p));
+      run.weight[i] = WeightAt(of.line, 0.5 * of.data.dof[p], of.Expected(p));
       run.value[i] = of.data.variance[p];
       counts[i] = of.IsWithinReach(of.Excess(p));
     }
@@ -116,10 +116,10 @@ VarianceFit::WeighByDistance(std::size_t first, std::size_t pixels, Run & run) c
 void
 VarianceFit::WeighByLevel(std::size_t first, std::size_t pixels, Run & run) const
 {
-  WithWideVectors([&] {
+  CallWithAvx2([&] {
     const VarianceLine line = m_Line; // copies that no pointer can alias
     const VarianceData data = m_Data;
-    OfRun              freedom;
+    OfRun              dof;
     OfRun              ratio;
     OfRun              counts;
     for (std::size_t i = 0; i < pixels; ++i)
@@ -127,13 +127,13 @@ VarianceFit::WeighByLevel(std::size_t first, std::size_t pixels, Run & run) cons
       const std::size_t p = first + i;
       const double      own = line.At(data.mean[p]);
       const double      expected = line.At(data.neighbourMean[p]);
-      run.weight[i] = WeightAt(line, 0.5 * data.freedom[p], expected);
-      freedom[i] = line.EffectiveFreedom(data.freedom[p], own);
+      run.weight[i] = WeightAt(line, 0.5 * data.dof[p], expected);
+      dof[i] = line.EffectiveDof(data.dof[p], own);
       ratio[i] = data.variance[p] / own;
     }
     for (std::size_t i = 0; i < pixels; ++i)
     {
-      const auto & limits = m_Trim->Of(freedom[i]);
+      const auto & limits = m_Trim->Of(dof[i]);
       counts[i] = IsBetween(ratio[i], limits.low, limits.high);
       run.value[i] = limits.mean;
     }
@@ -149,7 +149,7 @@ void
 VarianceFit::KeepRun(std::size_t first, std::size_t pixels, Run & run, KeptRun & kept) const
 {
   this->WeighRun(first, pixels, run);
-  WithWideVectors([&, mean = m_Data.mean + first, used = m_Data.mask + first, pivot = m_Line.pivotDn] {
+  CallWithAvx2([&, mean = m_Data.mean + first, used = m_Data.mask + first, pivot = m_Line.pivotDn] {
     for (std::size_t i = 0; i < pixels; ++i)
     {
       const double weight = run.weight[i];
@@ -181,26 +181,26 @@ VarianceFit::SetReach()
   const double darkest = m_Line.At(m_DarkestDn);
   const double brightest = m_Line.At(m_BrightestDn);
   const double largest = std::max(darkest, brightest);
-  const double freedom = std::max(1.0, m_Line.SamplingFreedom(m_BrightFreedom, largest));
-  const double chance = largest * (ChiSquareUpperQuantile(InPixels.reachTail, freedom) / freedom - 1.0);
+  const double dof = std::max(1.0, m_Line.SamplingDof(m_BrightDof, largest));
+  const double chance = largest * (ChiSquareUpperQuantile(InPixels.reachTail, dof) / dof - 1.0);
   const double atBlack = std::max(0.0, m_Line.intercept + m_Line.gain * m_BlackDn);
   const double noisy =
     (InMoments.defectiveNoiseFactor * InMoments.defectiveNoiseFactor - 1.0) * std::min({ darkest, brightest, atBlack });
   m_ReachDn2 = std::max(chance, noisy);
-  m_ReachBelowDn2 = largest * (1.0 - ChiSquareQuantile(InPixels.reachTail, freedom) / freedom);
+  m_ReachBelowDn2 = largest * (1.0 - ChiSquareQuantile(InPixels.reachTail, dof) / dof);
 }
 
 void
-VarianceFit::FindSpread(std::size_t first, std::size_t pixels, SpreadTerms & terms) const
+VarianceFit::EstimateNoiseDispersion(std::size_t first, std::size_t pixels, DispersionTerms & terms) const
 {
-  WithWideVectors([&] {
+  CallWithAvx2([&] {
     const Departure of{ m_Line, m_Data, m_ReachDn2, m_ReachBelowDn2 };
     OfRun           counts;
     for (std::size_t i = 0; i < pixels; ++i)
     {
       const std::size_t p = first + i;
       const double      expected = of.Expected(p);
-      const double      chance = of.line.SamplingVariance(of.data.freedom[p], expected);
+      const double      chance = of.line.SamplingVariance(of.data.dof[p], expected);
       const double      excess = of.Excess(p);
       terms.weight[i] = 1.0 / (chance * chance);
       terms.more[i] = excess * excess - chance;
@@ -221,7 +221,7 @@ VarianceFit::FindSpread(std::size_t first, std::size_t pixels, SpreadTerms & ter
 }
 
 void
-VarianceFit::SetNoiseSpread()
+VarianceFit::SetNoiseDispersion()
 {
   // Sums of the squared weight, of its product with the squared excess beyond sampling noise, and of its product with
   // the sampling variance.
@@ -233,9 +233,9 @@ VarianceFit::SetNoiseSpread()
     Sums
   };
   const auto   s = SumBlocks<Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
-    SpreadTerms terms{};
+    DispersionTerms terms{};
     ForRuns(begin, end, [&](std::size_t first, std::size_t pixels) {
-      this->FindSpread(first, pixels, terms);
+      this->EstimateNoiseDispersion(first, pixels, terms);
       AddTerms(
         terms.weight,
         terms.more,
@@ -245,7 +245,7 @@ VarianceFit::SetNoiseSpread()
     });
   });
   const double spread = s[WWMore] / std::max(1e-300, s[WW]);
-  m_Line.noiseSpreadDn4 = spread * s[WW] > InPixels.leastNoiseSpread * s[WWChance] ? spread : 0.0;
+  m_Line.noiseDispersionDn4 = spread * s[WW] > InPixels.leastNoiseDispersion * s[WWChance] ? spread : 0.0;
 }
 
 } // namespace sensornoise

@@ -176,7 +176,7 @@ CorrectedVariance::AddRow(const TPixel *      frames,
   {
     factors[k] = m_Series[(t + k) * m_Rows + (m_Rows > 1 ? y : 0)];
   }
-  WithWideVectors([&] {
+  CallWithAvx2([&] {
     layout.step == 1 ? AddTimes<1>(factors, row, layout.frame, width, cross)
                      : AddTimes<2>(factors, row, layout.frame, width, cross);
   });

@@ -77,7 +77,7 @@ FitOffsetLine(const std::vector<double> & brightRatio,
 /** Tests whether the flicker exceeds the noise, and whether v_* and v^* lie on one line. Sets flickerZ and
  * offsetLinePhi. */
 void
-JudgeFlicker(FlickerEstimate & estimate, const OffsetLine & line, const FlickerSums & sums, double darkDn)
+TestFlicker(FlickerEstimate & estimate, const OffsetLine & line, const FlickerSums & sums, double darkDn)
 {
   const std::size_t frames = estimate.brightRatio.size();
   const double      dof = static_cast<double>(frames - 1);
@@ -153,7 +153,7 @@ EstimateFlicker(const FlickerSums &     sums,
     estimate.gamma.push_back((estimate.brightRatio[t] - 1.0) * gammaPerRatio);
   }
   estimate.flickerSd = std::sqrt(SampleVariance(estimate.gamma));
-  JudgeFlicker(estimate, line, sums, dark.levelDn);
+  TestFlicker(estimate, line, sums, dark.levelDn);
 
   if (mode != RollingShutter::Off && sums.GetNumberOfRows() > 1)
   {

@@ -46,7 +46,7 @@ FlickerSums::WeightedPixels::ForRunsOf(const TPixel * frame, TValue value, TFunc
         PrefetchValues(frame + pixels[first + count + i], 1);
       }
     }
-    WithWideVectors([&] {
+    CallWithAvx2([&] {
       std::transform(values.data(), values.data() + count, means.data() + first, values.data(), value);
       function(first, count, values);
     });
@@ -89,8 +89,8 @@ FlickerSums::FlickerSums(const IsoIntensitySet & bright,
   , m_Rows(rowSet.pixels.empty() ? 0 : geometry.Rows())
   , m_BrightRatios(frames, 0.0)
   , m_DarkResiduals(frames, 0.0)
-  , m_BrightSpreads(frames, 0.0)
-  , m_DarkSpreads(frames, 0.0)
+  , m_BrightVariances(frames, 0.0)
+  , m_DarkVariances(frames, 0.0)
   , m_RowSums(frames * m_Rows, 0.0)
   , m_RowWeights(m_Rows, 0.0)
   , m_Bright(bright, mean)
@@ -121,10 +121,10 @@ void
 FlickerSums::AddFrame(const TPixel * frame, std::size_t t)
 {
   const auto ratio = [](double u, double mean) { return u / mean; };
-  m_Bright.Average(frame, ratio, m_BrightRatios[t], m_BrightSpreads[t]);
+  m_Bright.Average(frame, ratio, m_BrightRatios[t], m_BrightVariances[t]);
   const double brightness = m_BrightRatios[t];
   const auto   residual = [brightness](double u, double mean) { return u - brightness * mean; };
-  m_Dark.Average(frame, residual, m_DarkResiduals[t], m_DarkSpreads[t]);
+  m_Dark.Average(frame, residual, m_DarkResiduals[t], m_DarkVariances[t]);
 
   double * const rows = m_RowSums.data() + t * m_Rows;
   m_RowSet.ForRunsOf(frame, ratio, [&](std::size_t first, std::size_t count, const OfRun & values) {
@@ -156,7 +156,8 @@ FlickerSums::Forget()
 void
 FlickerSums::Save(std::ostream & out) const
 {
-  for (const auto * const sums : { &m_BrightRatios, &m_DarkResiduals, &m_BrightSpreads, &m_DarkSpreads, &m_RowSums })
+  for (const auto * const sums :
+       { &m_BrightRatios, &m_DarkResiduals, &m_BrightVariances, &m_DarkVariances, &m_RowSums })
   {
     WriteNumbers(out, *sums);
   }

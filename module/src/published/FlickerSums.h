@@ -87,13 +87,13 @@ public:
   double
   GetBrightRatioNoise() const
   {
-    return m_Bright.NoiseOfAverage(m_BrightSpreads);
+    return m_Bright.NoiseOfAverage(m_BrightVariances);
   }
   /** Returns the variance of v_*(t) by pixel noise for a given v^*(t) [DN^2], measured in the same way. */
   double
   GetDarkResidualNoiseDn2() const
   {
-    return m_Dark.NoiseOfAverage(m_DarkSpreads);
+    return m_Dark.NoiseOfAverage(m_DarkVariances);
   }
 
   /** Returns the number of rows; 0 without a row set. */
@@ -148,7 +148,7 @@ private:
   std::array<std::vector<double> *, 5>
   OfFrames()
   {
-    return { &m_BrightRatios, &m_DarkResiduals, &m_BrightSpreads, &m_DarkSpreads, &m_RowSums };
+    return { &m_BrightRatios, &m_DarkResiduals, &m_BrightVariances, &m_DarkVariances, &m_RowSums };
   }
 
   std::size_t                m_Frames;
@@ -156,8 +156,8 @@ private:
   std::size_t                m_Rows;
   std::vector<double>        m_BrightRatios;
   std::vector<double>        m_DarkResiduals;
-  std::vector<double>        m_BrightSpreads;
-  std::vector<double>        m_DarkSpreads;
+  std::vector<double>        m_BrightVariances;
+  std::vector<double>        m_DarkVariances;
   std::vector<double>        m_RowSums;
   std::vector<double>        m_RowWeights;
   WeightedPixels             m_Bright;

@@ -99,7 +99,7 @@ void
 PublishedPasses<TPixel>::FinishMoments()
 {
   m_Scene = this->EndMoments();
-  if (!m_Scene.obstacle)
+  if (!m_Scene.failureReason)
   {
     m_Sums.emplace(m_Scene.bright, m_Scene.dark, m_Scene.mean.data(), m_Geometry, m_Distinct.Count(), m_Scene.rowSet);
     m_Sums->SetLayout(m_Layout);

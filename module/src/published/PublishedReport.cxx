@@ -163,7 +163,7 @@ FillNoise(Report &                  report,
   if (!isIdentified)
   {
     report.Warn(WarningCode::OffsetNotIdentifiable,
-                TextOfFaintFlicker(flicker.flickerZ) +
+                DescribeInsignificantFlicker(flicker.flickerZ) +
                   ". Record more flicker or more frames, or use --method refined with dark frames "
                   "(--dark)");
   }
@@ -183,7 +183,7 @@ FillQuality(Report &                  report,
             const ParallelFor &       parallelFor)
 {
   const PublishedScene & scene = found.scene;
-  const FitQuality       quality = JudgeLine(corrected, line, found.frames, parallelFor);
+  const FitQuality       quality = EvaluateLineFit(corrected, line, found.frames, parallelFor);
   FillFit(report, quality);
   report.fit.offsetLinePhi = found.flicker.offsetLinePhi;
   const double contrastDn = ContrastDn(scene);
@@ -211,9 +211,9 @@ MakePublishedReport(const PublishedFindings & found, const ParallelFor & paralle
   const auto valid = static_cast<std::size_t>(std::count(scene.valid.begin(), scene.valid.end(), std::uint8_t{ 1 }));
   DescribeStack(report, found.geometry, found.frames, scene.summary, valid, maps.pixelUse);
   WarnOfStack(report, found.frames, scene.summary);
-  if (scene.obstacle)
+  if (scene.failureReason)
   {
-    report.Warn(scene.obstacle->GetCode(), scene.obstacle->what());
+    report.Warn(scene.failureReason->GetCode(), scene.failureReason->what());
     return report;
   }
   WarnOfWidening(report, WarningCode::BrightSetWidened, "bright", scene.bright);

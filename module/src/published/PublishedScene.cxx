@@ -93,7 +93,7 @@ FindSets(PublishedScene &          scene,
   }
   catch (const NothingToMeasure & reason)
   {
-    scene.obstacle = reason;
+    scene.failureReason = reason;
   }
 }
 

@@ -23,15 +23,15 @@ namespace sensornoise
 struct PublishedScene
 {
   StackSummary                    summary;
-  std::vector<double>             mean;     ///< [DN]
-  std::vector<double>             variance; ///< variance of the uncorrected stack, flicker included [DN^2]
-  std::vector<std::uint8_t>       valid;    ///< 1: finite, never clipped and not masked by the user
-  std::vector<std::uint8_t>       kept;     ///< 1: kept by the vibration mask
-  std::vector<std::uint8_t>       pixelUse; ///< values of PixelUse, as far as pass 1 determines them
-  IsoIntensitySet                 bright;   ///< S^*
-  IsoIntensitySet                 dark;     ///< S_*
-  IsoIntensitySet                 rowSet;   ///< set for gamma_t(y); empty with RollingShutter::Off
-  std::optional<NothingToMeasure> obstacle; ///< reason why the stack cannot be measured; null: it can
+  std::vector<double>             mean;          ///< [DN]
+  std::vector<double>             variance;      ///< variance of the uncorrected stack, flicker included [DN^2]
+  std::vector<std::uint8_t>       valid;         ///< 1: finite, never clipped and not masked by the user
+  std::vector<std::uint8_t>       kept;          ///< 1: kept by the vibration mask
+  std::vector<std::uint8_t>       pixelUse;      ///< values of PixelUse, as far as pass 1 determines them
+  IsoIntensitySet                 bright;        ///< S^*
+  IsoIntensitySet                 dark;          ///< S_*
+  IsoIntensitySet                 rowSet;        ///< set for gamma_t(y); empty with RollingShutter::Off
+  std::optional<NothingToMeasure> failureReason; ///< reason why the stack cannot be measured; null: it can
 };
 
 /** Sets valid, kept and pixelUse of a scene that has mean, variance and valid of the moments. Pixels that are 0 in

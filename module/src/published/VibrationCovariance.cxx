@@ -114,7 +114,7 @@ public:
   void
   Fold()
   {
-    WithWideVectors([this] {
+    CallWithAvx2([this] {
       for (std::size_t j = 0; j < Columns; ++j)
       {
         for (std::size_t k = j; k < Columns; ++k)

@@ -17,21 +17,21 @@ struct RefinedConstants
   /** \name Conditions for the gain to be identifiable */
   ///@{
   /** Smallest fraction of the usable pixels that must be used [1]. Chosen empirically. */
-  double leastUsedShare{ 0.1 };
+  double leastUsedFraction{ 0.1 };
   /** Deviation of the variance from its line above which the data are not from a sensor [1]: local gains that differ by
    * 4 % make 0.03 to 0.1, a gamma of 1.3 makes 0.13 or more. With half the value, a shoulder of 4 % is rejected; twice
    * the value changes nothing in the cases of estimator.md, 3.13. */
   double largestNonlinearity{ 0.12 };
   /** Largest fraction of values that repeat the value in the frame before, beyond the number that noise explains, where
    * the noise is correlated [1]. Chosen by its effect: with it, the total covariance over lags is 6 % too large. */
-  double largestRepeatedShare{ 0.03 };
+  double largestRepeatedFraction{ 0.03 };
   /** Largest factor by which the total covariance over lags may change the gain where illumination changes could not be
    * projected out [1]. Chosen by its effect: beyond twice the variance, most of the covariance is not noise. */
   double largestCorrection{ 2.0 };
   /** Largest relative change of the gain by remaining illumination changes, over the relative change of the variance
    * that tiles show [1]. The slope of the squared signal contributes 2, differences within tiles as much again. Chosen
    * on simulated bands of 12 rows, which made 2.5 to 4.7. */
-  double slopeOfRest{ 4.0 };
+  double slopeOfRemaining{ 4.0 };
   ///@}
 
   /** \name Errors of the gain */
@@ -50,7 +50,7 @@ struct RefinedConstants
    * it, the scatter of the means of tiles grows by less than a twentieth. With half the value, errors of
    * brighter-fatter sensors are 1.7 times as large. With twice the value, gains of smoothed frames are 0.9 % low, and
    * errors twice as large. */
-  double leastSharedSquares{ 1.1 };
+  double leastVarianceInflation{ 1.1 };
   /** Half width of the surroundings of a pixel whose mean level is compared with the pixel's own to find edges
    * [pixels]: 5 x 5 pixels, the border of usable pixels. */
   std::size_t edgeMargin{ 2 };
@@ -78,7 +78,7 @@ struct RefinedConstants
   double largestReadShare{ 0.1 };
   /** Largest signal of the darkest levels, relative to the brightest, for which a non-linear response is
    * distinguishable from noise [1]. Chosen empirically: flat fields have 0.9 and more, scenes less than 0.3. */
-  double largestDarkestShare{ 0.5 };
+  double largestDarkestFraction{ 0.5 };
   ///@}
 
   /** Smallest fraction of the shot noise that the projection on the frames' levels is assumed to leave, in the
@@ -90,7 +90,7 @@ struct RefinedConstants
   ///@{
   /** Smallest fraction of a frame's noise that the projection must leave, for its residuals to count [1]. Where less
    * remains, rounding and the errors of the model exceed the noise. Chosen on simulated flat fields. */
-  double leastLeftShare{ 0.05 };
+  double leastRemainingFraction{ 0.05 };
   /** Smallest expected square of a frame's residuals for the weights, relative to the tile's mean square [1]: a guard
    * where a line is negative. Chosen empirically: the dark frames of series of 5,000 electrons have 0.02. */
   double leastWeighedVariance{ 0.01 };
@@ -103,7 +103,7 @@ struct RefinedConstants
   double leastUnlikeNoise{ 0.1 };
   /** That difference under local changes of the illumination, which are not known in every frame and tile [1]. Chosen
    * larger than the local changes of lamps that pulse under a rolling shutter. */
-  double leastUnlikeUnderLocalLight{ 0.3 };
+  double leastUnlikeUnderLocalIllumination{ 0.3 };
   /** That difference where the scene moves by more than smallVibration [1]: twice the noise. Chosen empirically: the
    * remaining motion of a frame adds less in the flatter half of a scene. */
   double leastUnlikeUnderMotion{ 1.0 };
@@ -116,7 +116,7 @@ struct RefinedConstants
   /** Smallest fraction of the information on the slope that must remain without the fifth of the frames that contribute
    * most [1]. Chosen between two cases: it is 0.25 for pulses in every fourth frame, and 0.05 for two frames of 1.5
    * times the level among 60 frames that flicker by 2 %. */
-  double leastShareOfOthers{ 0.1 };
+  double leastInformationWithoutLargest{ 0.1 };
   /** Smallest rms difference between frames for them to have several levels, as a fraction of the expected squares by
    * the levels [1]. */
   double leastFrameContrast{ 1e-4 };
@@ -137,7 +137,7 @@ struct RefinedConstants
   /** Largest fraction of the motion along one axis that may appear as motion along the other axis [1]. It applies where
    * the scene has one direction, and no motion along the first axis is detected. Chosen by its effect: equal motion
    * along both axes adds 0.5 %. */
-  double largestShareOfOtherAxis{ 0.1 };
+  double largestFractionOfOtherAxis{ 0.1 };
   ///@}
 
   /** \name Signal in the dark frames */
@@ -155,15 +155,15 @@ struct RefinedConstants
   /** Relative increase of the slope of the variance by the illumination of rows or columns above which it is
    * subtracted, and above which no gain is given if it remains [1]. Chosen by its effect: the former is the standard
    * error of the gain of 60 frames of 200 x 240 pixels. */
-  double leastLineLight{ 0.002 };
-  double largestLineLight{ 0.01 };
+  double leastLineIllumination{ 0.002 };
+  double largestLineIllumination{ 0.01 };
   ///@}
 
   /** \name Reporting thresholds */
   ///@{
   /** Fraction of the pixels that move, or that may be affected by clipping [1], and of the trimmed pixels [1]. Chosen
    * empirically. */
-  double reportedShare{ 0.01 };
+  double reportedFraction{ 0.01 };
   double reportedTrimmed{ 2e-3 };
   /** Motion above which the frames should be registered [pixels rms]. Chosen empirically: biasOfVibration begins there.
    */

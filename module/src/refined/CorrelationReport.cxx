@@ -99,17 +99,17 @@ MostUnusualDifference(const NoiseCorrelation & correlation)
 void
 WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const LagCoefficient * space)
 {
-  if (correlation.repeatedShare > 0.0)
+  if (correlation.repeatedFraction > 0.0)
   {
     report.Warn(WarningCode::NoiseNotLinear,
-                PercentApart(correlation.repeatedShare, InRefined.largestRepeatedShare) +
+                PercentApart(correlation.repeatedFraction, InRefined.largestRepeatedFraction) +
                   " of the pixels repeat their value in the frame before, beyond chance (expected at most " +
-                  Percent(InRefined.largestRepeatedShare) +
+                  Percent(InRefined.largestRepeatedFraction) +
                   "): a video coder skips blocks, or parts of frames are repeated, so that the gain is not "
                   "identifiable. Record raw frames");
     return;
   }
-  if (correlation.isOfIllumination && space != nullptr)
+  if (correlation.isByIllumination && space != nullptr)
   {
     report.Warn(
       WarningCode::NoiseNotLinear,

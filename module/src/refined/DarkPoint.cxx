@@ -99,7 +99,7 @@ GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
   {
     const double level = curve.LevelOf(bin);
     const double light = level - dark.offsetDn;
-    if (light > InCommon.darkShare * (brightestDn - dark.offsetDn))
+    if (light > InCommon.darkFraction * (brightestDn - dark.offsetDn))
     {
       const double own = curve.VarianceOf(bin);
       const double gain = (own - dark.varianceDn2) / light;
@@ -116,9 +116,9 @@ GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
     gains.mean = sum / weight;
     gains.variance = 1.0 / weight;
     // The scatter is significant if chi-square exceeds its expectation by two standard deviations.
-    const double freedom = std::max(1.0, levels - 1.0);
+    const double dof = std::max(1.0, levels - 1.0);
     const double chi2 = squares - sum * gains.mean;
-    const double more = chi2 - freedom - Significance.hint * std::sqrt(2.0 * freedom);
+    const double more = chi2 - dof - Significance.hint * std::sqrt(2.0 * dof);
     gains.scatter = std::sqrt(std::max(0.0, more / weight));
   }
   return gains;
@@ -126,18 +126,18 @@ GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
 } // namespace
 
 void
-UseDarkPoint(GainEstimate & estimate, const RefinedResults & found)
+CombineWithDarkPoint(GainEstimate & estimate, const RefinedResults & found)
 {
   const DarkPoint    dark = PointOf(found);
-  const bool         isBent = estimate.IsBent();
+  const bool         isNonlinear = estimate.IsNonlinear();
   const GainEstimate before = estimate;
   const double       contradiction = MoveToPoint(estimate, dark);
   const auto         atOffset = estimate.atOffset;
-  const bool         isFar = estimate.curve.DarkestShare(dark.offsetDn) > InCommon.darkShare;
+  const bool         isFar = estimate.curve.DarkestFraction(dark.offsetDn) > InCommon.darkFraction;
   estimate.isLinearityTested =
     std::sqrt(before.covariance(0, 0)) < 0.5 * InRefined.largestNonlinearity * std::abs(before.line.gain);
   const double difference = std::abs(dark.varianceDn2 - atOffset->valueDn2);
-  if (!isBent && contradiction > Significance.severalTests &&
+  if (!isNonlinear && contradiction > Significance.severalTests &&
       difference > InCommon.leastDarkDifference * std::max(dark.varianceDn2, std::abs(atOffset->valueDn2)))
   {
     estimate = before;
@@ -147,11 +147,11 @@ UseDarkPoint(GainEstimate & estimate, const RefinedResults & found)
   }
   const LevelGains   gains = GainsOfLevels(estimate.curve, dark);
   const VarianceLine line = estimate.line;
-  if (isBent || isFar)
+  if (isNonlinear || isFar)
   {
     estimate.atOffset.reset(); // a non-linear response may explain the difference
   }
-  if ((isBent || contradiction > Significance.hint) && gains.mean > 0.0)
+  if ((isNonlinear || contradiction > Significance.hint) && gains.mean > 0.0)
   {
     const double light = std::max(1e-9, line.pivotDn - dark.offsetDn);
     const double error = std::hypot(dark.varianceErrorDn2 / light, gains.mean * dark.offsetErrorDn / light);

@@ -23,7 +23,7 @@ struct GainEstimate;
  * smaller but significant, the gain is the mean of the gains of the levels, (V - sigma^2) / (mean - mu). Its error is
  * their scatter. */
 SensorNoise_EXPORT void
-UseDarkPoint(GainEstimate & estimate, const RefinedResults & found);
+CombineWithDarkPoint(GainEstimate & estimate, const RefinedResults & found);
 
 } // namespace sensornoise
 

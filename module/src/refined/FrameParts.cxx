@@ -38,7 +38,7 @@ MakeFrameParts(const FrameEnergies & energies, const TileLevels & levels, const 
     std::array<PartSums, FrameGroups> sums;
     for (Eigen::Index t = 0; t < frames; ++t)
     {
-      if (energies.LeftShare()(t) > InRefined.leastLeftShare && expected(t) > 0.0)
+      if (energies.RemainingFraction()(t) > InRefined.leastRemainingFraction && expected(t) > 0.0)
       {
         sums[GroupOfFrame(t, frames)] += { pixels,
                                            pixels * level(t),
@@ -52,7 +52,7 @@ MakeFrameParts(const FrameEnergies & energies, const TileLevels & levels, const 
     {
       if (sums[group].pixels > 0.0)
       {
-        tiles.push_back(sums[group].Excess(reference.sharedSquares));
+        tiles.push_back(sums[group].Excess(reference.varianceInflation));
         tiles.back().phase = group;
       }
     }

@@ -24,7 +24,7 @@ struct Regression
 {
   explicit Regression(const FrameEnergies & energies, const TileLevels & levels)
     : squares(energies.SquaresDn2())
-    , ofConstant(energies.LeftShare())
+    , ofConstant(energies.RemainingFraction())
     , ofLevel(energies.Tiles(), energies.Frames())
     , pixels(energies.Pixels())
   {
@@ -41,7 +41,7 @@ struct Regression
 };
 
 /** Returns approximate inverse variances of the squared residuals: a squared normal value has a variance of twice its
- * squared expectation. The weight is 0 for frames with less than InRefined.leastLeftShare of their noise in the
+ * squared expectation. The weight is 0 for frames with less than InRefined.leastRemainingFraction of their noise in the
  * residuals. */
 Eigen::MatrixXd
 WeightsBy(const Regression & data, const VarianceLine & line)
@@ -49,7 +49,7 @@ WeightsBy(const Regression & data, const VarianceLine & line)
   Eigen::MatrixXd weights(data.squares.rows(), data.squares.cols());
   for (Eigen::Index t = 0; t < weights.cols(); ++t)
   {
-    const bool isLeft = data.ofConstant(t) > InRefined.leastLeftShare;
+    const bool isLeft = data.ofConstant(t) > InRefined.leastRemainingFraction;
     for (Eigen::Index i = 0; i < weights.rows(); ++i)
     {
       const double least = InRefined.leastWeighedVariance * data.squares.row(i).mean() * data.ofConstant(t);
@@ -140,14 +140,14 @@ SlopeOfTiles(const Regression & data, const Eigen::MatrixXd & weights)
 /** Returns the fraction of the information on the slope that remains without the fifth of the frames that contribute
  * most [1]. As many frames may have other noise, and a slope that depends on them alone is not identifiable. */
 double
-ShareOfOthers(const Regression & data, Eigen::MatrixXd weights, const FrameSlope & slope)
+InformationWithoutLargest(const Regression & data, Eigen::MatrixXd weights, const FrameSlope & slope)
 {
   std::vector<Eigen::Index> frames(static_cast<std::size_t>(weights.cols()));
   std::iota(frames.begin(), frames.end(), Eigen::Index{ 0 });
   std::stable_sort(frames.begin(), frames.end(), [&](Eigen::Index a, Eigen::Index b) {
     return slope.information(a) > slope.information(b);
   });
-  frames.resize(static_cast<std::size_t>(InMoments.largestLeftOutShare * static_cast<double>(weights.cols())));
+  frames.resize(static_cast<std::size_t>(InMoments.largestLeftOutFraction * static_cast<double>(weights.cols())));
   for (const Eigen::Index t : frames)
   {
     weights.col(t).setZero();
@@ -258,7 +258,7 @@ FitFramePhotonTransfer(const FrameEnergies & energies, const TileLevels & levels
   const TileMean & slope = found.ofTiles;
   const double     ofLevels = weights.cwiseProduct(data.ofLevel.cwiseAbs2()).sum();
   if (!(slope.denominators.sum() > InRefined.leastFrameContrast * InRefined.leastFrameContrast * ofLevels) ||
-      !(ShareOfOthers(data, weights, found) > InRefined.leastShareOfOthers))
+      !(InformationWithoutLargest(data, weights, found) > InRefined.leastInformationWithoutLargest))
   {
     return {};
   }

@@ -36,7 +36,7 @@ SlopeCovariance(double errorOfSlope, double pivotDn)
 
 /** Returns the remaining bias of the gain by large vibrations, for which the expansion in derivatives fails [DN/e-]. */
 double
-ErrorOfVibration(const VarianceLine & line, const ProvisionalModel & model)
+ErrorOfVibration(const VarianceLine & line, const InitialNoiseModel & model)
 {
   const double square = std::max(model.vibrationXPixels2, model.vibrationYPixels2);
   return square > InRefined.smallVibration
@@ -48,52 +48,52 @@ ErrorOfVibration(const VarianceLine & line, const ProvisionalModel & model)
  * of signal [DN/e-]. The fixed-pattern noise is \a pattern's fraction of the levels of all pixels. \a levelsDn2 is the
  * variance of the levels in the part: the dark parts of a scene may have no other differences. */
 double
-SlopeOfPattern(double gain, const LevelPattern & pattern, double levelsDn2)
+SlopeOfPattern(double gain, const FixedPatternEstimate & pattern, double levelsDn2)
 {
-  const double patternDn2 = pattern.LargestShare() * pattern.lightDn2;
+  const double patternDn2 = pattern.LargestFraction() * pattern.levelVarianceDn2;
   return levelsDn2 > patternDn2 ? std::abs(gain) * patternDn2 / levelsDn2 : std::abs(gain);
 }
 
 double
 DispersionOfClasses(const StaticVariance & variance)
 {
-  return variance.sharedSquares * BeyondChance(variance.classes.reducedChi2, ProjectedVariance::Classes - 1.0);
+  return variance.varianceInflation * BeyondChance(variance.classes.reducedChi2, ProjectedVariance::Classes - 1.0);
 }
 
 /** Chooses between the line of all pixels, with the error by fixed-pattern noise, and the instrumental-variable fit.
  * The errors alone decide, not the values. */
 void
-ChooseLine(GainEstimate &           estimate,
-           const SensorLines &      lines,
-           const StaticVariance &   variance,
-           const ProvisionalModel & model)
+ChooseLine(GainEstimate &            estimate,
+           const SensorLines &       lines,
+           const StaticVariance &    variance,
+           const InitialNoiseModel & model)
 {
   const VarianceLine & all = lines.all;
   const double         dispersion = DispersionOfClasses(variance);
-  const double         fromPattern = variance.pattern.LargestShare() * std::abs(all.gain);
+  const double         fromPattern = variance.pattern.LargestFraction() * std::abs(all.gain);
   const double         error = std::sqrt(dispersion * all.covariance(0, 0));
   estimate.line = all;
   estimate.covariance = dispersion * all.covariance;
-  if (lines.fromLight.isDetermined &&
-      std::hypot(error, fromPattern) > std::sqrt(dispersion * lines.fromLight.covariance(0, 0)))
+  if (lines.instrumentalLine.isDetermined &&
+      std::hypot(error, fromPattern) > std::sqrt(dispersion * lines.instrumentalLine.covariance(0, 0)))
   {
-    estimate.line = lines.fromLight;
-    estimate.covariance = dispersion * lines.fromLight.covariance;
+    estimate.line = lines.instrumentalLine;
+    estimate.covariance = dispersion * lines.instrumentalLine.covariance;
   }
   else
   {
     estimate.covariance += SlopeCovariance(std::min(fromPattern, 100.0 * std::abs(all.gain)), all.pivotDn);
   }
-  estimate.covariance += SlopeCovariance(ErrorOfVibration(all, model), all.pivotDn) + lines.errorOfShared;
+  estimate.covariance += SlopeCovariance(ErrorOfVibration(all, model), all.pivotDn) + lines.covarianceOfCorrelation;
 }
 
 /** Fits one line on either side of a step of the variance, with the same gain, and replaces the curve by the deviations
  * from both lines. */
 void
-UseStep(GainEstimate &           estimate,
-        const SensorLines &      lines,
-        const StaticVariance &   variance,
-        const ProvisionalModel & model)
+ApplyStep(GainEstimate &            estimate,
+          const SensorLines &       lines,
+          const StaticVariance &    variance,
+          const InitialNoiseModel & model)
 {
   estimate.step = FindVarianceStep(lines.ofOwnLevels);
   if (!estimate.step)
@@ -103,9 +103,9 @@ UseStep(GainEstimate &           estimate,
   const VarianceStep & step = *estimate.step;
   estimate.line = step.line;
   estimate.curve = step.RestOf(lines.ofOwnLevels);
-  estimate.reducedChi2 = estimate.curve.ReducedChi2() / variance.sharedSquares;
-  estimate.covariance = DispersionOfClasses(variance) * step.line.covariance + lines.errorOfShared;
-  const double ofPattern = variance.pattern.LargestShare() * std::abs(step.line.gain);
+  estimate.reducedChi2 = estimate.curve.ReducedChi2() / variance.varianceInflation;
+  estimate.covariance = DispersionOfClasses(variance) * step.line.covariance + lines.covarianceOfCorrelation;
+  const double ofPattern = variance.pattern.LargestFraction() * std::abs(step.line.gain);
   for (const double error : { ErrorOfVibration(step.line, model), ofPattern, step.errorOfSlopes })
   {
     estimate.covariance += SlopeCovariance(error, step.line.pivotDn);
@@ -114,7 +114,7 @@ UseStep(GainEstimate &           estimate,
 
 /** Extends the interval to the gains of both amplifiers. */
 void
-HoldSlopesBesideStep(GainEstimate & estimate)
+ExtendIntervalByStep(GainEstimate & estimate)
 {
   if (estimate.step)
   {
@@ -130,12 +130,12 @@ HoldSlopesBesideStep(GainEstimate & estimate)
  * variance in proportion to the squared signal, whose slope is twice its ratio to the signal. They also correlate
  * neighbours, so that the total covariance over lags may contain illumination instead of noise. */
 void
-HoldRestOfLight(GainEstimate & estimate, const RefinedResults & found)
+ExtendIntervalByIllumination(GainEstimate & estimate, const RefinedResults & found)
 {
-  const double rest = found.lines.restOfVariance;
+  const double rest = found.lines.remainingVariance;
   if (rest > 0.0)
   {
-    const double ofVariance = (1.0 - InRefined.slopeOfRest * rest) * found.variance.line.gain;
+    const double ofVariance = (1.0 - InRefined.slopeOfRemaining * rest) * found.variance.line.gain;
     estimate.below = std::max(estimate.below, estimate.line.gain - ofVariance);
     estimate.above = std::max(estimate.above, ofVariance - estimate.line.gain);
   }
@@ -151,12 +151,12 @@ SizeBeyondChance(double difference, double variance, double z)
 /** Extends the interval to the gains of the darker and the brighter half of the levels, where they differ significantly
  * from the gain of all. */
 void
-FindSpreadOfSlopes(GainEstimate &        estimate,
-                   const VarianceCurve & curve,
-                   const LevelPattern &  pattern,
-                   double                dispersion)
+ExtendIntervalByHalves(GainEstimate &               estimate,
+                       const VarianceCurve &        curve,
+                       const FixedPatternEstimate & pattern,
+                       double                       dispersion)
 {
-  for (const SlopeExcess & half : curve.SlopesOfHalves())
+  for (const SlopeExcess & half : curve.FitHalves())
   {
     double & side = half.value < 0.0 ? estimate.below : estimate.above;
     // The bins are sorted by the mean of 8 neighbours, which has an eighth of the variance of fixed-pattern noise.
@@ -168,7 +168,7 @@ FindSpreadOfSlopes(GainEstimate &        estimate,
 
 /** If the response is visibly non-linear, replaces the slope, which is then not the gain, by the mean local gain. */
 void
-UseMeanGain(GainEstimate & estimate, const VarianceCurve & curve, double blackDn, double dispersion)
+ApplyMeanGain(GainEstimate & estimate, const VarianceCurve & curve, double blackDn, double dispersion)
 {
   const std::optional<MeanGain> parabola = FindMeanGain(curve, 2);
   if (!parabola)
@@ -177,7 +177,7 @@ UseMeanGain(GainEstimate & estimate, const VarianceCurve & curve, double blackDn
   }
   const double bend = parabola->value - curve.line.gain;
   const double chance = dispersion * parabola->variance;
-  const bool   isSure = estimate.IsBent() || bend * bend > Significance.oneTest * Significance.oneTest * chance;
+  const bool   isSure = estimate.IsNonlinear() || bend * bend > Significance.oneTest * Significance.oneTest * chance;
   if (!isSure || !(estimate.nonlinearity > InRefined.leastNonlinearity))
   {
     double & side = bend < 0.0 ? estimate.below : estimate.above;
@@ -202,24 +202,24 @@ UseMeanGain(GainEstimate & estimate, const VarianceCurve & curve, double blackDn
 }
 
 void
-FindModelError(GainEstimate &        estimate,
-               const VarianceCurve & curve,
-               const LevelPattern &  pattern,
-               double                blackDn,
-               double                dispersion)
+FindModelError(GainEstimate &               estimate,
+               const VarianceCurve &        curve,
+               const FixedPatternEstimate & pattern,
+               double                       blackDn,
+               double                       dispersion)
 {
-  estimate.isWide = curve.DarkestShare(blackDn) < InRefined.largestDarkestShare;
+  estimate.isWide = curve.DarkestFraction(blackDn) < InRefined.largestDarkestFraction;
   if (!estimate.isWide && std::sqrt(estimate.covariance(0, 0)) > InCommon.largestRelativeError * estimate.scale)
   {
     return; // deviations from a line that is not known have no meaning
   }
   estimate.nonlinearity = curve.Nonlinearity(dispersion);
-  FindSpreadOfSlopes(estimate, curve, pattern, dispersion);
+  ExtendIntervalByHalves(estimate, curve, pattern, dispersion);
   if (estimate.isWide)
   {
-    UseMeanGain(estimate, curve, blackDn, dispersion);
+    ApplyMeanGain(estimate, curve, blackDn, dispersion);
   }
-  if (!estimate.IsBent())
+  if (!estimate.IsNonlinear())
   {
     // The remaining deviations scatter about a line that is straight enough.
     estimate.covariance *= BeyondChance(estimate.reducedChi2, static_cast<double>(curve.bins.size()) - 2.0);
@@ -228,39 +228,39 @@ FindModelError(GainEstimate &        estimate,
 /** Returns the estimate by frames of unequal illumination alone. */
 GainEstimate
 EstimateOfFrames(const VarianceCurve &   frames,
-                 const Eigen::Matrix2d & errorOfShared,
+                 const Eigen::Matrix2d & covarianceOfCorrelation,
                  double                  blackDn,
-                 double                  sharedSquares)
+                 double                  varianceInflation)
 {
   GainEstimate estimate;
   estimate.line = frames.line;
   estimate.curve = frames;
-  estimate.covariance = frames.line.covariance + errorOfShared;
-  estimate.reducedChi2 = frames.ReducedChi2() / sharedSquares;
+  estimate.covariance = frames.line.covariance + covarianceOfCorrelation;
+  estimate.reducedChi2 = frames.ReducedChi2() / varianceInflation;
   estimate.isFromFrames = true;
-  FindModelError(estimate, frames, {}, blackDn, sharedSquares); // no fixed-pattern noise between frames
+  FindModelError(estimate, frames, {}, blackDn, varianceInflation); // no fixed-pattern noise between frames
   return estimate;
 }
 
 /** Combines the slopes by pixels and by frames, which are independent. The variance at the pivot is taken from the more
  * precise estimate. If either shows a non-linear response, the more precise one is used alone. */
 void
-UseFrames(GainEstimate & estimate, const SensorLines & lines, double blackDn, double sharedSquares)
+CombineWithFrames(GainEstimate & estimate, const SensorLines & lines, double blackDn, double varianceInflation)
 {
   if (!lines.fromFrames.line.isDetermined || estimate.step) // the variance of the frames has the step, too
   {
     return;
   }
-  GainEstimate other = EstimateOfFrames(lines.fromFrames, lines.errorOfShared, blackDn, sharedSquares);
+  GainEstimate other = EstimateOfFrames(lines.fromFrames, lines.covarianceOfCorrelation, blackDn, varianceInflation);
   other.scale = estimate.scale;
   if (other.StandardError() < estimate.StandardError())
   {
     std::swap(other, estimate);
   }
-  const bool   isBent = estimate.IsBent() || other.IsBent();
+  const bool   isNonlinear = estimate.IsNonlinear() || other.IsNonlinear();
   const double difference = other.line.gain - estimate.line.gain;
   const double expected = std::pow(estimate.StandardError(), 2) + std::pow(other.StandardError(), 2);
-  if (!isBent)
+  if (!isNonlinear)
   {
     const Eigen::Vector2d step = estimate.covariance.col(0) / expected;
     estimate.line.gain += step(0) * difference;
@@ -277,7 +277,7 @@ UseFrames(GainEstimate & estimate, const SensorLines & lines, double blackDn, do
 double
 GainEstimate::RelativeModelError() const
 {
-  return this->IsBent() ? 0.5 * (below + above) / std::max(1e-9, line.gain) : 0.0;
+  return this->IsNonlinear() ? 0.5 * (below + above) / std::max(1e-9, line.gain) : 0.0;
 }
 
 double
@@ -292,22 +292,22 @@ EstimateGain(const RefinedResults & found, const SensorLines & lines)
   const StaticVariance & variance = found.variance;
   GainEstimate           estimate;
   estimate.curve = lines.curve;
-  estimate.reducedChi2 = lines.curve.ReducedChi2() / variance.sharedSquares;
+  estimate.reducedChi2 = lines.curve.ReducedChi2() / variance.varianceInflation;
   ChooseLine(estimate, lines, variance, found.scene.model);
-  UseStep(estimate, lines, variance, found.scene.model);
+  ApplyStep(estimate, lines, variance, found.scene.model);
   estimate.scale = estimate.line.At(estimate.line.pivotDn) / std::max(1e-9, estimate.line.pivotDn - found.blackDn);
   const double dispersion =
-    std::min(DispersionOfClasses(variance), InRefined.largestDispersion * variance.sharedSquares);
+    std::min(DispersionOfClasses(variance), InRefined.largestDispersion * variance.varianceInflation);
   FindModelError(estimate, estimate.curve, variance.pattern, found.blackDn, dispersion);
-  HoldSlopesBesideStep(estimate);
-  HoldRestOfLight(estimate, found);
-  UseFrames(estimate, lines, found.blackDn, variance.sharedSquares);
+  ExtendIntervalByStep(estimate);
+  ExtendIntervalByIllumination(estimate, found);
+  CombineWithFrames(estimate, lines, found.blackDn, variance.varianceInflation);
   if (found.settings.offset && found.settings.offset->variance)
   {
     estimate.isDarkRejected = found.darkSignal.has_value();
     if (!estimate.isDarkRejected)
     {
-      UseDarkPoint(estimate, found);
+      CombineWithDarkPoint(estimate, found);
     }
   }
   return estimate;

@@ -59,7 +59,7 @@ struct GainEstimate
 
   /** Returns whether the gains of parts of the levels differ significantly. */
   bool
-  IsBent() const
+  IsNonlinear() const
   {
     return below > 0.0 || above > 0.0;
   }

@@ -61,7 +61,7 @@ FindContradiction(const RefinedResults & found, const GainEstimate & gain)
 {
   const std::string notRaw = ": the frames are not raw (gamma, compression), not linear";
   const bool        hasCodes = found.scene.summary.codes.clipHighDn.has_value();
-  if (found.frameNoise.HasSeveralKinds())
+  if (found.frameNoise.HasSeveralGroups())
   {
     const FrameNoise & noise = found.frameNoise;
     return "the noise variance of the frames does not follow their levels, " +
@@ -73,7 +73,7 @@ FindContradiction(const RefinedResults & found, const GainEstimate & gain)
            "--frames";
   }
   const double correction = gain.line.gain / std::max(1e-9, found.variance.line.gain);
-  if (found.lines.restOfVariance > 0.0 &&
+  if (found.lines.remainingVariance > 0.0 &&
       std::abs(std::log(std::max(1e-9, correction))) > std::log(InRefined.largestCorrection))
   {
     return "the spatial noise correlation changes the gain by a factor of " +
@@ -89,7 +89,8 @@ FindContradiction(const RefinedResults & found, const GainEstimate & gain)
            (hasCodes ? ", or of several gains. Record raw frames, or fit the linear part alone: --level-range LOW,HIGH"
                      : ", or saturated. Record raw frames, or give the levels at which they saturate: --clip LOW,HIGH");
   }
-  if (gain.isWide && gain.IsBent() && gain.above + gain.below > 2.0 * InCommon.largestRelativeError * gain.line.gain)
+  if (gain.isWide && gain.IsNonlinear() &&
+      gain.above + gain.below > 2.0 * InCommon.largestRelativeError * gain.line.gain)
   {
     return "the variance is a curve of the mean, so that the gain depends on the assumed read noise and is between " +
            Rounded(gain.line.gain - gain.below) + " and " + Rounded(gain.line.gain + gain.above) + " DN/e-" + notRaw +
@@ -107,7 +108,7 @@ FindContradiction(const RefinedResults & found, const GainEstimate & gain)
 /** Files the bounds of the gain by a known offset alone: the line passes the offset with a variance between 0 and the
  * lowest variance of the frames. */
 void
-BoundGain(Report & report, const RefinedResults & found, const GainEstimate & gain)
+FileGainBounds(Report & report, const RefinedResults & found, const GainEstimate & gain)
 {
   const auto & known = found.settings.offset;
   const double light = known ? gain.line.pivotDn - known->valueDn : 0.0;
@@ -139,7 +140,7 @@ FindFewIlluminatedFrames(const RefinedResults & found)
     order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return illumination(a) > illumination(b); });
   std::size_t count = 0;
   double      carried = 0.0;
-  while (count < order.size() && carried < InPixels.shareOfFewFrames * all)
+  while (count < order.size() && carried < InPixels.fractionOfFewFrames * all)
   {
     carried += illumination(order[count++]);
   }
@@ -163,36 +164,36 @@ FindFewIlluminatedFrames(const RefinedResults & found)
 
 /** Files that the gain, and with it every parameter of the sensor, is not identifiable, and warns why. */
 void
-FillTooLittle(Report & report, const RefinedResults & found, const GainEstimate & gain)
+FileNotIdentifiable(Report & report, const RefinedResults & found, const GainEstimate & gain)
 {
   SetSensorParameters(report, EstimateStatus::NotIdentifiable);
   const double error = gain.StandardError();
-  if (static_cast<double>(report.pixels.used) < InRefined.leastUsedShare * found.scene.usable)
+  if (static_cast<double>(report.pixels.used) < InRefined.leastUsedFraction * found.scene.usable)
   {
     report.Warn(WarningCode::TooLittleToMeasure,
                 PercentApart(static_cast<double>(report.pixels.used) / std::max(1.0, found.scene.usable),
-                             InRefined.leastUsedShare) +
+                             InRefined.leastUsedFraction) +
                   " of the pixels that are not clipped fit a static scene (expected at least " +
-                  Percent(InRefined.leastUsedShare) + "), which would give a gain of " +
+                  Percent(InRefined.leastUsedFraction) + "), which would give a gain of " +
                   Measured(gain.line.gain, error) +
                   " DN/e-: the scene moves, or is too dark. Choose a static part of it (--roi), or more light");
     return;
   }
-  BoundGain(report, found, gain);
+  FileGainBounds(report, found, gain);
   const std::string few = FindFewIlluminatedFrames(found);
   if (!few.empty())
   {
     report.Warn(WarningCode::TooLittleToMeasure, few);
     return;
   }
-  const LevelPattern & pattern = found.variance.pattern;
-  const double         levels = std::sqrt(std::max(0.0, pattern.lightDn2));
-  const bool           hasDark = found.settings.offset && found.settings.offset->darkFrames > 0;
+  const FixedPatternEstimate & pattern = found.variance.pattern;
+  const double                 levels = std::sqrt(std::max(0.0, pattern.levelVarianceDn2));
+  const bool                   hasDark = found.settings.offset && found.settings.offset->darkFrames > 0;
   report.Warn(
     WarningCode::IntensityRangeTooSmall,
     "the levels of the scene do not determine the gain: they differ by " + Rounded(levels) + " DN rms, " +
       Percent(levels / std::max(1e-9, gain.line.pivotDn - found.blackDn)) +
-      " of the signal, and fixed-pattern noise may explain " + Percent(std::min(1.0, pattern.LargestShare())) +
+      " of the signal, and fixed-pattern noise may explain " + Percent(std::min(1.0, pattern.LargestFraction())) +
       " of that. The gain is known only to +- " + Rounded(error) + " of about " + Rounded(gain.scale) + " DN/e-. " +
       AskIfExchanged(
         found,
@@ -233,7 +234,7 @@ FillParts(Report & report, const RefinedResults & found, const GainEstimate & ga
   const GainByParts & parts = found.variance.parts;
   for (const auto * const own : { &parts.places, &parts.phases, &parts.frames })
   {
-    if (!*own || !(*own)->Differ() || (own == &parts.phases && found.correlation.IsShared()))
+    if (!*own || !(*own)->Differ() || (own == &parts.phases && found.correlation.IsCorrelated()))
     {
       continue;
     }
@@ -308,7 +309,7 @@ FillGainAndIntercept(Report &               report,
     std::hypot(std::sqrt(gain.covariance(1, 1)), 0.5 * (gain.below + gain.above) * gain.line.pivotDn);
   report.totalIntercept = WithError(gain.line.intercept + codes.interceptDn2, interceptError, student);
   report.intercept = WithError(gain.line.intercept - quantisationDn2, interceptError, student);
-  if (gain.nonlinearity > InRefined.leastNonlinearity && gain.IsBent())
+  if (gain.nonlinearity > InRefined.leastNonlinearity && gain.IsNonlinear())
   {
     report.Warn(
       WarningCode::ResponseNotStraight,
@@ -333,10 +334,10 @@ FillGain(Report &               report,
   // If all levels are alike, parts of them differ by fixed-pattern noise, and not by a non-linear response.
   const double error = gain.isWide ? std::sqrt(gain.covariance(0, 0)) : gain.StandardError();
   const bool   isTooLittle = error > InCommon.largestRelativeError * gain.scale ||
-                           static_cast<double>(report.pixels.used) < InRefined.leastUsedShare * found.scene.usable;
-  if (isTooLittle && !found.frameNoise.HasSeveralKinds() && !(gain.nonlinearity > InRefined.largestNonlinearity))
+                           static_cast<double>(report.pixels.used) < InRefined.leastUsedFraction * found.scene.usable;
+  if (isTooLittle && !found.frameNoise.HasSeveralGroups() && !(gain.nonlinearity > InRefined.largestNonlinearity))
   {
-    FillTooLittle(report, found, gain);
+    FileNotIdentifiable(report, found, gain);
     return false;
   }
   if (!contradiction.empty())
@@ -346,7 +347,7 @@ FillGain(Report &               report,
     return false;
   }
   FillGainAndIntercept(report, found, gain, quantisationDn2, student);
-  BoundGain(report, found, gain);
+  FileGainBounds(report, found, gain);
   return true;
 }
 
@@ -359,12 +360,12 @@ WarnOfNarrowRange(Report & report, const RefinedResults & found, const GainEstim
   const bool            isTested = hasDark && gain.isLinearityTested && !gain.isDarkRejected;
   const double          inFrames = (found.InDarkestFrame(found.scene.model.centreDn) - blackDn) /
                           (found.InBrightestFrame(found.scene.model.centreDn) - blackDn);
-  const double share = curve.DarkestShare(blackDn) * (gain.isFromFrames ? std::max(0.0, inFrames) : 1.0);
-  if (!isTested && share > InCommon.darkShare)
+  const double share = curve.DarkestFraction(blackDn) * (gain.isFromFrames ? std::max(0.0, inFrames) : 1.0);
+  if (!isTested && share > InCommon.darkFraction)
   {
     report.Warn(WarningCode::ResponseUnchecked,
-                "the darkest areas have " + PercentApart(share, InCommon.darkShare) +
-                  " of the signal of the brightest (expected at most " + Percent(InCommon.darkShare) +
+                "the darkest areas have " + PercentApart(share, InCommon.darkFraction) +
+                  " of the signal of the brightest (expected at most " + Percent(InCommon.darkFraction) +
                   "), so that a non-linear response would not be noticed. " +
                   (hasDark ? "Include dark and bright areas in the scene, or record several exposures (--exposures)"
                            : "Give dark frames (--dark), or include dark areas in the scene"));

@@ -64,12 +64,12 @@ SlopeOfSkew(const ReferenceFrame & frame, const std::vector<float> & skew)
 /** Returns an approximate gain. The projection reduces shot noise by g times \a skew over \a freedom, so that the slope
  * of the residual variance over the level is too small by a known factor. */
 double
-RoughGain(const ReferenceFrame & frame, const std::vector<float> & skew, double freedom)
+RoughGain(const ReferenceFrame & frame, const std::vector<float> & skew, double dof)
 {
   try
   {
-    const double slope = FitProvisionalModel(frame).slopeDn;
-    const double taken = SlopeOfSkew(frame, skew) / freedom;
+    const double slope = FitInitialNoiseModel(frame).slopeDn;
+    const double taken = SlopeOfSkew(frame, skew) / dof;
     return slope / std::max(InRefined.leastShotLeft, 1.0 - taken);
   }
   catch (const NothingToMeasure &)
@@ -117,13 +117,13 @@ LevelProjection::TakeMaps(const ParallelFor & parallelFor)
 {
   m_Projections.EndPass(m_Frame);
   ResidualSquares     squares = m_Projections.TakeSquares();
-  const double        freedom = static_cast<double>(m_Frame.frames) - 2.0;
+  const double        dof = static_cast<double>(m_Frame.frames) - 2.0;
   std::vector<double> raw = std::move(m_Frame.variance);
   m_Frame.variance = std::move(squares.rss);
-  ForPixels(raw.size(), parallelFor, [&](std::size_t p) { m_Frame.variance[p] /= freedom; });
-  const double gain = RoughGain(m_Frame, squares.skew, freedom);
+  ForPixels(raw.size(), parallelFor, [&](std::size_t p) { m_Frame.variance[p] /= dof; });
+  const double gain = RoughGain(m_Frame, squares.skew, dof);
   ForPixels(raw.size(), parallelFor, [&](std::size_t p) {
-    const double added = gain * static_cast<double>(squares.skew[p]) / freedom;
+    const double added = gain * static_cast<double>(squares.skew[p]) / dof;
     m_Frame.variance[p] += raw[p] > 0.0 ? added : 0.0; // the variance of a constant pixel stays 0
   });
   return { { m_Summary, std::move(m_Frame.mean), std::move(m_Frame.variance), std::move(m_Valid) }, std::move(raw) };

@@ -17,14 +17,14 @@ namespace sensornoise
 namespace
 {
 /** Sums for the illumination changes of a tile, and for the variance that they add to its pixels. */
-struct TileLight
+struct TileIllumination
 {
   double frames{ 0.0 };
   double pixels{ 0.0 };
   double square{ 0.0 }; ///< of the tile's signal over the frames, in units of its noise
 
-  TileLight &
-  operator+=(const TileLight & other)
+  TileIllumination &
+  operator+=(const TileIllumination & other)
   {
     frames += other.frames;
     pixels += other.pixels;
@@ -36,13 +36,13 @@ struct TileLight
 /** Returns the sums of tile \a i. Its signal in a frame, sum w z r, has the variance sum w z^2 by the noise of the
  * pixels. A relative change e of the illumination increases this variance by the fraction e^2 sum w z^2, and the
  * variance of the pixels by the mean of e^2 w z^2 over them. */
-TileLight
-LightOfTile(const NoiseResiduals & residuals, std::size_t i)
+TileIllumination
+SumTileIllumination(const NoiseResiduals & residuals, std::size_t i)
 {
   const float * const w = residuals.WeightOf(i);
   const float * const z = residuals.LightOf(i);
   const std::size_t   size = residuals.GetTiles().Pixels();
-  TileLight           light;
+  TileIllumination    light;
   double              noise = 0.0;
   for (std::size_t p = 0; p < size; ++p)
   {
@@ -63,13 +63,13 @@ LightOfTile(const NoiseResiduals & residuals, std::size_t i)
     }
     light.square += sum * sum / noise;
   }
-  light.frames = residuals.GetFreedom();
+  light.frames = residuals.GetDof();
   return light;
 }
 } // namespace
 
 double
-EffectOfLineLight(const MeasuredNumber & square, double signalDn, double gain, double least)
+EffectOfLineIllumination(const MeasuredNumber & square, double signalDn, double gain, double least)
 {
   const double effect = square.value * std::max(0.0, signalDn) / gain;
   return square.value > Significance.severalTests * square.standardError && effect > least ? effect : 0.0;
@@ -78,26 +78,28 @@ EffectOfLineLight(const MeasuredNumber & square, double signalDn, double gain, d
 double
 RestOfIllumination(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
 {
-  std::vector<TileLight> tiles(residuals.GetTiles().origins.size());
-  parallelFor(tiles.size(), [&](std::size_t i) { tiles[i] = LightOfTile(residuals, i); });
-  const JackknifeEstimate estimate = Jackknife(tiles, [](const TileLight & sum) {
+  std::vector<TileIllumination> tiles(residuals.GetTiles().origins.size());
+  parallelFor(tiles.size(), [&](std::size_t i) { tiles[i] = SumTileIllumination(residuals, i); });
+  const JackknifeEstimate estimate = Jackknife(tiles, [](const TileIllumination & sum) {
     return Eigen::VectorXd::Constant(1, sum.pixels > 0.0 ? (sum.square - sum.frames) / sum.pixels : 0.0);
   });
   // Both sums are over the tiles: the excess of each tile is a sum over its frames.
-  const double perFrame = 1.0 / std::max(1.0, residuals.GetFreedom());
+  const double perFrame = 1.0 / std::max(1.0, residuals.GetDof());
   const double rest = estimate.value(0) * perFrame;
   const double error = estimate.StandardError(0) * perFrame;
-  return rest > Significance.severalTests * error && rest > InRefined.largestLineLight / InRefined.slopeOfRest ? rest
-                                                                                                               : 0.0;
+  return rest > Significance.severalTests * error &&
+             rest > InRefined.largestLineIllumination / InRefined.slopeOfRemaining
+           ? rest
+           : 0.0;
 }
 
 void
-TakeOffLineIllumination(LineIllumination &          lines,
-                        NoiseResiduals &            residuals,
-                        ProjectedVariance &         projected,
-                        std::vector<std::uint8_t> & chosen,
-                        std::vector<std::uint8_t> & pixelUse,
-                        const ParallelFor &         parallelFor)
+SubtractLineIllumination(LineIllumination &          lines,
+                         NoiseResiduals &            residuals,
+                         ProjectedVariance &         projected,
+                         std::vector<std::uint8_t> & chosen,
+                         std::vector<std::uint8_t> & pixelUse,
+                         const ParallelFor &         parallelFor)
 {
   const std::vector<float>  left = residuals.TakeOffLines(lines.axis, chosen, parallelFor);
   const SampleTiles &       tiles = residuals.GetTiles();
@@ -111,7 +113,7 @@ TakeOffLineIllumination(LineIllumination &          lines,
       if (chosen[pixel] != 0 && left[i * tiles.Pixels() + p] > 0.0F)
       {
         sampled[pixel] = 1;
-        projected.ReplaceSquares(pixel, residuals.SquaresOf(i)[p], residuals.GetFreedom());
+        projected.ReplaceSquares(pixel, residuals.SquaresOf(i)[p], residuals.GetDof());
       }
     }
   }

@@ -21,8 +21,8 @@ namespace sensornoise
 struct LineIllumination
 {
   LineAxis axis{ LineAxis::Rows }; ///< whether it is specific to rows or to columns
-  /** Mean square of its relative changes, see FindLineLight() [1]: \a found before it is subtracted, \a left after
-   * that. */
+  /** Mean square of its relative changes, see EstimateLineIlluminationChange() [1]: \a found before it is subtracted,
+   * \a left after that. */
   MeasuredNumber found;
   MeasuredNumber left;
   /** Whether it was subtracted, and the number of pixels that were measured without it: those of the noise sample. */
@@ -30,14 +30,14 @@ struct LineIllumination
   std::size_t pixels{ 0 };
   /** Variance by other changes of the illumination that remains in a pixel's variance, relative to it [1]; 0: none is
    * significant. */
-  double restOfVariance{ 0.0 };
+  double remainingVariance{ 0.0 };
 };
 
 /** Returns the relative increase of the slope of the variance by illumination changes of the mean square \a square [1].
  * They add \a square times q^2 to the variance at the signal q; \a signalDn is the signal of the brightest pixels
  * [DN], \a gain the gain [DN/e-]. Returns 0 if the increase is not significant, or less than \a least [1]. */
 SensorNoise_EXPORT double
-EffectOfLineLight(const MeasuredNumber & square, double signalDn, double gain, double least);
+EffectOfLineIllumination(const MeasuredNumber & square, double signalDn, double gain, double least);
 
 /** Returns the increase of a pixel's variance by local changes of the illumination, relative to it [1]; 0: not
  * significant, or too small to count. */
@@ -48,12 +48,12 @@ RestOfIllumination(const NoiseResiduals & residuals, const ParallelFor & paralle
  * the variance in \a projected by the remaining one. Pixels outside of the sample are removed from \a chosen and
  * marked in \a pixelUse. */
 SensorNoise_EXPORT void
-TakeOffLineIllumination(LineIllumination &          lines,
-                        NoiseResiduals &            residuals,
-                        ProjectedVariance &         projected,
-                        std::vector<std::uint8_t> & chosen,
-                        std::vector<std::uint8_t> & pixelUse,
-                        const ParallelFor &         parallelFor);
+SubtractLineIllumination(LineIllumination &          lines,
+                         NoiseResiduals &            residuals,
+                         ProjectedVariance &         projected,
+                         std::vector<std::uint8_t> & chosen,
+                         std::vector<std::uint8_t> & pixelUse,
+                         const ParallelFor &         parallelFor);
 
 } // namespace sensornoise
 

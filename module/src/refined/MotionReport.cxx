@@ -52,7 +52,7 @@ struct FrameWeights
   }
   /** Returns the number of equally weighted frames that determine a variance as precisely, minus 1. */
   double
-  EffectiveFreedom() const
+  EffectiveDof() const
   {
     return sum * sum / squares - 1.0;
   }
@@ -85,7 +85,7 @@ WeighFrames(const std::vector<double> & gamma)
 }
 
 /** Shifts from the coefficients of a derivative, which are (1 + gamma_t) times the shift, and their variance. */
-struct ShiftSpread
+struct ShiftVariance
 {
   std::vector<double> series;        ///< shift of every frame [pixel]; 0 for a frame without a weight
   double              square{ 0.0 }; ///< variance over time without the variance of the noise [pixel^2]
@@ -94,13 +94,13 @@ struct ShiftSpread
 /** Returns the shifts of \a coefficients; \a noiseSquare is the mean variance of their noise over the frames [pixel^2].
  */
 template <typename TCoefficients>
-ShiftSpread
+ShiftVariance
 SpreadOf(const TCoefficients &       coefficients,
          const std::vector<double> & gamma,
          const FrameWeights &        weights,
          double                      noiseSquare)
 {
-  ShiftSpread spread;
+  ShiftVariance spread;
   spread.series.assign(gamma.size(), 0.0);
   double mean = 0.0;
   for (std::size_t t = 0; t < gamma.size(); ++t)
@@ -147,23 +147,23 @@ struct AxisShifts
 };
 
 AxisShifts
-ByLeastSquares(const PolishedSeries & polished, Eigen::Index k)
+ByLeastSquares(const ReestimatedComponents & reestimated, Eigen::Index k)
 {
-  AxisShifts   shifts{ polished.motion.coefficients.col(k), polished.motion.ofLight.row(k), 0.0 };
-  const double ofFlicker = shifts.ofLight.dot(Eigen::RowVector2d(-polished.line.offset, 1.0));
-  shifts.noise = polished.motion.covariance(k, k) + ofFlicker * ofFlicker / polished.line.precision;
+  AxisShifts   shifts{ reestimated.motion.coefficients.col(k), reestimated.motion.ofLight.row(k), 0.0 };
+  const double ofFlicker = shifts.ofLight.dot(Eigen::RowVector2d(-reestimated.line.offset, 1.0));
+  shifts.noise = reestimated.motion.covariance(k, k) + ofFlicker * ofFlicker / reestimated.line.precision;
   return shifts;
 }
 
 AxisShifts
-ByInstruments(const PolishedSeries & polished, Eigen::Index axis)
+ByInstruments(const ReestimatedComponents & reestimated, Eigen::Index axis)
 {
-  const InstrumentShifts & shifts = *polished.shifts;
+  const InstrumentShifts & shifts = *reestimated.shifts;
   return { shifts.coefficients.col(axis), shifts.ofLight.row(axis), shifts.covariance(axis, axis) };
 }
 
 /** Flicker that is subtracted from the shifts, with its error. */
-struct LightOfShifts
+struct IlluminationOfShifts
 {
   const OffsetLine & solved; ///< flicker at which the shifts were found
   OffsetLine         inUse;  ///< flicker that is reported
@@ -191,21 +191,24 @@ Slack(double phi)
  * lies between white noise and white noise times the dispersion of the frames' illumination, which need not be caused
  * by motion. A wrong offset leaves a part of the flicker in the shifts. On average this adds its square, which is
  * subtracted: half of the sum of what an offset too low and an offset too high add. */
-ShiftSpread
-SpreadAbout(const AxisShifts & shifts, const LightOfShifts & light, const FrameWeights & weights, double & errorSquare)
+ShiftVariance
+SpreadAbout(const AxisShifts &           shifts,
+            const IlluminationOfShifts & light,
+            const FrameWeights &         weights,
+            double &                     errorSquare)
 {
   const double white = shifts.noise * weights.MeanNoise();
   const double noise = white * (1.0 + Slack(light.phi));
   const auto   spreadAt = [&](const OffsetLine & line) {
     return SpreadOf(shifts.About(light.solved, line).coefficients, line.gamma, weights, noise);
   };
-  ShiftSpread  spread = spreadAt(light.inUse);
-  const double low = spreadAt(light.Beyond(-1.0)).square - spread.square;
-  const double high = spreadAt(light.Beyond(1.0)).square - spread.square;
-  const double ofFlicker = std::max(0.0, 0.5 * (low + high));
+  ShiftVariance spread = spreadAt(light.inUse);
+  const double  low = spreadAt(light.Beyond(-1.0)).square - spread.square;
+  const double  high = spreadAt(light.Beyond(1.0)).square - spread.square;
+  const double  ofFlicker = std::max(0.0, 0.5 * (low + high));
   spread.square -= ofFlicker;
   const double square = std::max(0.0, spread.square);
-  errorSquare = 4.0 * square * noise / weights.EffectiveFreedom() + 2.0 * noise * noise / weights.EffectiveFreedom() +
+  errorSquare = 4.0 * square * noise / weights.EffectiveDof() + 2.0 * noise * noise / weights.EffectiveDof() +
                 0.25 * (high - low) * (high - low) + 2.0 * ofFlicker * ofFlicker +
                 std::pow(white * Slack(light.phi), 2);
   return spread;
@@ -214,33 +217,33 @@ SpreadAbout(const AxisShifts & shifts, const LightOfShifts & light, const FrameW
 /** Returns the motion along \a axis, whose derivative is \a stencil: by instruments where they are available, else by
  * least squares. A part of the difference between both is taken as a systematic error. */
 AxisMotion
-MotionAlong(Eigen::Index           axis,
-            std::size_t            stencil,
-            const PolishedSeries & polished,
-            const LightOfShifts &  light,
-            const FrameWeights &   weights)
+MotionAlong(Eigen::Index                  axis,
+            std::size_t                   stencil,
+            const ReestimatedComponents & reestimated,
+            const IlluminationOfShifts &  light,
+            const FrameWeights &          weights)
 {
   AxisMotion   result;
-  const auto & stencils = polished.motion.stencils;
+  const auto & stencils = reestimated.motion.stencils;
   const auto   place = std::find(stencils.begin(), stencils.end(), stencil);
   if (place == stencils.end())
   {
     return result;
   }
   result.place = static_cast<Eigen::Index>(place - stencils.begin());
-  double      errorSquare = 0.0;
-  ShiftSpread spread = SpreadAbout(ByLeastSquares(polished, result.place), light, weights, errorSquare);
-  double      systematic = 0.0;
+  double        errorSquare = 0.0;
+  ShiftVariance spread = SpreadAbout(ByLeastSquares(reestimated, result.place), light, weights, errorSquare);
+  double        systematic = 0.0;
   result.leastSquares = spread.series;
-  if (polished.shifts)
+  if (reestimated.shifts)
   {
     const double leastSquares = std::sqrt(std::max(0.0, spread.square));
-    spread = SpreadAbout(ByInstruments(polished, axis), light, weights, errorSquare);
+    spread = SpreadAbout(ByInstruments(reestimated, axis), light, weights, errorSquare);
     const double sd = std::sqrt(std::max(0.0, spread.square));
     systematic =
-      2.0 * sd * std::hypot(InRefined.errorOfMotion * (sd - leastSquares), sd * polished.shifts->scaleErrors(axis));
+      2.0 * sd * std::hypot(InRefined.errorOfMotion * (sd - leastSquares), sd * reestimated.shifts->scaleErrors(axis));
   }
-  if (!(std::abs(polished.motion.ofOtherAxis) > InRefined.largestShareOfOtherAxis))
+  if (!(std::abs(reestimated.motion.ofOtherAxis) > InRefined.largestFractionOfOtherAxis))
   {
     result.sd = RootOf(spread.square, std::hypot(std::sqrt(errorSquare), systematic));
   }
@@ -265,29 +268,32 @@ ProductOf(const std::vector<double> & a, const std::vector<double> & b, const Fr
  * instruments, a part of the difference from least squares is added as a systematic error, as for the standard
  * deviations. */
 Quantity
-CovarianceOf(const AxisMotion & x, const AxisMotion & y, const PolishedSeries & polished, const FrameWeights & weights)
+CovarianceOf(const AxisMotion &            x,
+             const AxisMotion &            y,
+             const ReestimatedComponents & reestimated,
+             const FrameWeights &          weights)
 {
-  const Eigen::MatrixXd & ofAll = polished.motion.covariance;
+  const Eigen::MatrixXd & ofAll = reestimated.motion.covariance;
   Eigen::Matrix2d         noise;
   noise << ofAll(x.place, x.place), ofAll(x.place, y.place), ofAll(y.place, x.place), ofAll(y.place, y.place);
-  const double slack = Slack(polished.motionPhi);
+  const double slack = Slack(reestimated.motionPhi);
   const double scale = weights.MeanNoise() * (1.0 + slack);
   noise *= scale;
   double value = ProductOf(x.leastSquares, y.leastSquares, weights) - noise(0, 1);
   double systematic = 0.0;
-  if (polished.shifts)
+  if (reestimated.shifts)
   {
     const double leastSquares = value;
-    noise = polished.shifts->covariance * scale;
+    noise = reestimated.shifts->covariance * scale;
     value = ProductOf(x.series, y.series, weights) - noise(0, 1);
-    const double scaleError = polished.shifts->scaleErrors.norm();
+    const double scaleError = reestimated.shifts->scaleErrors.norm();
     systematic = std::hypot(2.0 * InRefined.errorOfMotion * (value - leastSquares), scaleError * value);
   }
   const double squareX = std::max(0.0, ProductOf(x.series, x.series, weights) - noise(0, 0));
   const double squareY = std::max(0.0, ProductOf(y.series, y.series, weights) - noise(1, 1));
   const double shiftsAndNoise = squareX * noise(1, 1) + squareY * noise(0, 0) + 2.0 * value * noise(0, 1);
   const double noiseAlone = noise(0, 0) * noise(1, 1) + noise(0, 1) * noise(0, 1);
-  const double variance = (std::max(0.0, shiftsAndNoise) + noiseAlone) / weights.EffectiveFreedom();
+  const double variance = (std::max(0.0, shiftsAndNoise) + noiseAlone) / weights.EffectiveDof();
   const double ofNoise = noise(0, 1) * slack / (1.0 + slack);
   return WithError(value, std::hypot(std::sqrt(variance), systematic, ofNoise));
 }
@@ -317,7 +323,7 @@ TextOfUnknownFlicker(double ofScale, const std::optional<Interval> & limit)
 void
 FillFlicker(Report & report, const RefinedResults & found, double offset, double offsetErrorDn, double scaleError)
 {
-  OffsetLine line = found.polished.line;
+  OffsetLine line = found.reestimated.line;
   line.UseOffset(offset);
   report.flicker = line.gamma;
   const auto   frames = static_cast<double>(line.gamma.size());
@@ -332,9 +338,9 @@ FillFlicker(Report & report, const RefinedResults & found, double offset, double
   const double ownError =
     2.0 * std::sqrt(std::max(0.0, variance) * noise / (frames - 1.0)) + noise * std::sqrt(2.0 / (frames - 1.0));
   report.flickerSd = RootOf(variance, std::hypot(ownError, fromOffset));
-  if (found.HasLocalLight())
+  if (found.HasLocalIllumination())
   {
-    const LocalFlicker & local = found.polished.localFlicker;
+    const LocalFlicker & local = found.reestimated.localFlicker;
     const double         sd = local.Sd(offset);
     const double         step = 1.0 + offsetErrorDn;
     const double         slope = (local.Sd(offset + step) - local.Sd(offset - step)) / (2.0 * step);
@@ -356,23 +362,23 @@ FillFlicker(Report & report, const RefinedResults & found, double offset, double
 void
 FillMotion(Report & report, const RefinedResults & found, double offset, double offsetErrorDn)
 {
-  const PolishedSeries & polished = found.polished;
-  const FrameWeights     weights = WeighFrames(report.flicker);
-  if (polished.line.isLevelMotion || found.IsFlatUnderChange() || weights.frames < 2.0)
+  const ReestimatedComponents & reestimated = found.reestimated;
+  const FrameWeights            weights = WeighFrames(report.flicker);
+  if (reestimated.line.isLevelMotion || found.IsFlatUnderChange() || weights.frames < 2.0)
   {
     report.vibrationSdX = report.vibrationSdY = Quantity::Without(EstimateStatus::NotIdentifiable);
     report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable);
     return;
   }
-  LightOfShifts light{ polished.line, polished.line, 0.0, polished.motionPhi };
+  IlluminationOfShifts light{ reestimated.line, reestimated.line, 0.0, reestimated.motionPhi };
   if (std::isfinite(offset) && std::isfinite(offsetErrorDn))
   {
     light.offsetErrorDn = offsetErrorDn;
     light.inUse.offset = offset;
     light.inUse.UseOffset(offset);
   }
-  const AxisMotion x = MotionAlong(0, StencilX, polished, light, weights);
-  const AxisMotion y = MotionAlong(1, StencilY, polished, light, weights);
+  const AxisMotion x = MotionAlong(0, StencilX, reestimated, light, weights);
+  const AxisMotion y = MotionAlong(1, StencilY, reestimated, light, weights);
   report.vibrationSdX = x.sd;
   report.vibrationSdY = y.sd;
   report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable);
@@ -386,7 +392,7 @@ FillMotion(Report & report, const RefinedResults & found, double offset, double 
     const bool       isKnown = weights.ofFrames[t] > 0.0;
     report.motion.push_back({ isKnown ? x.series[t] : unknown, isKnown ? y.series[t] : unknown });
   }
-  const Quantity covariance = CovarianceOf(x, y, polished, weights);
+  const Quantity covariance = CovarianceOf(x, y, reestimated, weights);
   if (std::isfinite(covariance.value.value_or(0.0))) // NaN: the illumination is not known
   {
     report.vibrationCovariance = covariance;

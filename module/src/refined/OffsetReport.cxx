@@ -26,7 +26,7 @@ namespace sensornoise
 namespace
 {
 /** Warns if the dark frames contain signal, or if their variance contradicts the line at the offset, see
- * UseDarkPoint(). */
+ * CombineWithDarkPoint(). */
 void
 CompareDarkVariance(Report & report, const RefinedResults & found, const GainEstimate & gain, double quantisationDn2)
 {
@@ -89,7 +89,7 @@ CompareKnownOffset(Report &               report,
   const double offsetErrorDn = found.settings.offset->standardErrorDn;
   const double difference = flicker.valueDn - offsetDn;
   const double error = std::hypot(flicker.standardErrorDn, offsetErrorDn);
-  if (flicker.obstacle.empty() && std::abs(difference) > Significance.oneTest * error)
+  if (flicker.failureReason.empty() && std::abs(difference) > Significance.oneTest * error)
   {
     report.Warn(WarningCode::SteadyLight,
                 "the level that does not flicker is " + Measured(flicker.valueDn, flicker.standardErrorDn) + " DN, " +
@@ -115,7 +115,7 @@ CompareKnownOffset(Report &               report,
 
 /** Files that offset and read noise are not identifiable, with their bounds. */
 void
-FillBrackets(Report & report, const OffsetLimits & limits, double gain)
+FileBounds(Report & report, const OffsetLimits & limits, double gain)
 {
   const double largest = std::sqrt(limits.largestNoiseDn2);
   report.offset = Quantity::Without(EstimateStatus::NotIdentifiable);
@@ -191,17 +191,17 @@ FillReadNoise(Report &               report,
 } // namespace
 
 UsedOffset
-OffsetInUse(const RefinedResults & found,
-            const GainEstimate &   gain,
-            const OffsetEstimate & flicker,
-            const OffsetLimits &   limits)
+ChooseOffset(const RefinedResults & found,
+             const GainEstimate &   gain,
+             const OffsetEstimate & flicker,
+             const OffsetLimits &   limits)
 {
   const auto & known = found.settings.offset;
   if (known && !gain.isDarkRejected && !IsKnownOffsetOutOfRange(found, gain, limits))
   {
     return { known->valueDn, known->standardErrorDn };
   }
-  if (flicker.obstacle.empty())
+  if (flicker.failureReason.empty())
   {
     return { flicker.valueDn, flicker.standardErrorDn };
   }
@@ -284,17 +284,17 @@ struct OffsetEnds
 
 /** Returns the reason why the illumination does not determine the offset \a estimate; "" if it does. */
 std::string
-ObstacleOf(const RefinedResults & found,
-           const GainEstimate &   gain,
-           const OffsetLimits &   limits,
-           const OffsetEstimate & estimate,
-           const OffsetEnds &     interval)
+FindFailureReason(const RefinedResults & found,
+                  const GainEstimate &   gain,
+                  const OffsetLimits &   limits,
+                  const OffsetEstimate & estimate,
+                  const OffsetEnds &     interval)
 {
-  const ProvisionalModel &           model = found.scene.model;
-  const OffsetLine &                 line = found.polished.line;
-  const std::optional<LocalOffset> & local = found.polished.localOffset;
+  const InitialNoiseModel &          model = found.scene.model;
+  const OffsetLine &                 line = found.reestimated.line;
+  const std::optional<LocalOffset> & local = found.reestimated.localOffset;
   const double                       rangeDn = model.brightestDn - model.darkestDn;
-  const bool                         isLocal = found.HasLocalLight();
+  const bool                         isLocal = found.HasLocalIllumination();
   const std::string                  moreFlicker = ", or record more flicker or more frames";
   const double                       slackDn = Significance.oneTest * estimate.standardErrorDn;
   const double                       slackBelowDn =
@@ -314,7 +314,7 @@ ObstacleOf(const RefinedResults & found,
   }
   if (!(line.flickerZ > Significance.everyPixel) && !isLocal)
   {
-    return TextOfFaintFlicker(line.flickerZ) + Ask(moreFlicker);
+    return DescribeInsignificantFlicker(line.flickerZ) + Ask(moreFlicker);
   }
   if (isLocal && !local)
   {
@@ -350,16 +350,16 @@ ObstacleOf(const RefinedResults & found,
 OffsetEstimate
 OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits)
 {
-  const ProvisionalModel &           model = found.scene.model;
-  const OffsetLine &                 line = found.polished.line;
-  const std::optional<LocalOffset> & local = found.polished.localOffset;
+  const InitialNoiseModel &          model = found.scene.model;
+  const OffsetLine &                 line = found.reestimated.line;
+  const std::optional<LocalOffset> & local = found.reestimated.localOffset;
   OffsetEstimate                     estimate;
   double                             low = line.low;
   double                             high = line.high;
   estimate.valueDn = line.offset + model.centreDn;
   estimate.standardErrorDn = line.standardError;
   estimate.phi = line.phi;
-  const bool isLocal = found.HasLocalLight();
+  const bool isLocal = found.HasLocalIllumination();
   if (isLocal && local)
   {
     estimate.valueDn = local->offset + model.centreDn;
@@ -373,7 +373,7 @@ OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, co
   // Offsets that differ between pixels are taken for signal, which moves the zero away from the levels. A non-linear
   // response has the same effect.
   const double lightDn = std::abs(model.centreDn - estimate.valueDn);
-  const double fromPatternDn = lightDn * std::hypot(found.variance.pattern.offsetShare, gain.RelativeModelError());
+  const double fromPatternDn = lightDn * std::hypot(found.variance.pattern.offsetFraction, gain.RelativeModelError());
   if (fromPatternDn > InPixels.negligiblePattern * estimate.standardErrorDn)
   {
     estimate.standardErrorDn = std::hypot(estimate.standardErrorDn, fromPatternDn);
@@ -381,7 +381,7 @@ OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, co
     high += 1.96 * fromPatternDn;
     estimate.interval = Interval{ low + model.centreDn, high + model.centreDn };
   }
-  estimate.obstacle = ObstacleOf(found, gain, limits, estimate, { low, high });
+  estimate.failureReason = FindFailureReason(found, gain, limits, estimate, { low, high });
   return estimate;
 }
 } // namespace
@@ -390,7 +390,7 @@ OffsetEstimate
 EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits)
 {
   const OffsetEstimate estimate = OffsetByIllumination(found, gain, limits);
-  return estimate.obstacle.empty() ? estimate : OffsetByExposures(found).value_or(estimate);
+  return estimate.failureReason.empty() ? estimate : OffsetByExposures(found).value_or(estimate);
 }
 
 void
@@ -403,10 +403,10 @@ FillOffsetAndReadNoise(Report &               report,
                        double                 student)
 {
   report.fit.offsetLinePhi = flicker.phi;
-  if (!found.settings.offset && !flicker.obstacle.empty())
+  if (!found.settings.offset && !flicker.failureReason.empty())
   {
-    report.Warn(WarningCode::OffsetNotIdentifiable, flicker.obstacle);
-    FillBrackets(report, limits, gain.line.gain);
+    report.Warn(WarningCode::OffsetNotIdentifiable, flicker.failureReason);
+    FileBounds(report, limits, gain.line.gain);
     FillCovariance(report, gain, std::nullopt);
     return;
   }

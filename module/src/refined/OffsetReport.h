@@ -23,7 +23,7 @@ struct OffsetEstimate
   double      standardErrorDn{ 0.0 }; ///< [DN]
   Interval    interval;               ///< 95 % interval [DN]
   double      phi{ 1.0 };             ///< dispersion about the offset line [1]; 1: noise alone
-  std::string obstacle;               ///< reason why it is not identifiable, and what to do; empty: it is
+  std::string failureReason;          ///< reason why it is not identifiable, and what to do; empty: it is
 };
 
 /** Estimates the dark offset from the flicker of all frames, or, under local illumination, from the pixels' responses
@@ -42,10 +42,10 @@ struct UsedOffset
 /** Returns the known offset unless the frames contradict it, else the offset of the flicker if it is identifiable, else
  * the middle of the bounds. */
 SensorNoise_EXPORT UsedOffset
-OffsetInUse(const RefinedResults & found,
-            const GainEstimate &   gain,
-            const OffsetEstimate & flicker,
-            const OffsetLimits &   limits);
+ChooseOffset(const RefinedResults & found,
+             const GainEstimate &   gain,
+             const OffsetEstimate & flicker,
+             const OffsetLimits &   limits);
 
 /** Files offset and read noise from dark frames or the user, whatever the frames show. \a quantisationDn2 is the
  * variance of the quantization noise [DN^2]. */

@@ -31,15 +31,15 @@ struct FrameComparison
 {
   const NoiseResiduals &    residuals;
   const ProjectedVariance & projected;
-  const StillScene &        scene;
+  const StaticScene &       scene;
   TileLevels                levels;
-  bool                      isLightLocal{ false }; ///< the illumination changes differently between tiles
+  bool                      isIlluminationLocal{ false }; ///< the illumination changes differently between tiles
 
   /** Returns whether the noise variance differs between frames by as much as counts. */
   bool
   AreUnequal() const
   {
-    return scene.changesStrongly || projected.HasUnequalFrames();
+    return scene.changesStrongly || projected.HasUnequalNoise();
   }
 };
 
@@ -48,13 +48,13 @@ struct FrameComparison
 VarianceCurve
 LineOfFrames(const StaticVariance & variance, const FrameComparison & by, const ParallelFor & parallelFor)
 {
-  if (!by.AreUnequal() || by.isLightLocal)
+  if (!by.AreUnequal() || by.isIlluminationLocal)
   {
     return {};
   }
   const std::vector<std::uint8_t> used = MaskOfUsed(variance.pixelUse);
   const auto                      count = static_cast<double>(std::count(used.begin(), used.end(), std::uint8_t{ 1 }));
-  if (!(count > InRefined.leastUsedShare * static_cast<double>(by.scene.valid)))
+  if (!(count > InRefined.leastUsedFraction * static_cast<double>(by.scene.valid)))
   {
     return {};
   }
@@ -75,9 +75,9 @@ LinesByError(const StaticVariance & variance)
 {
   const VarianceCurve & frames = variance.fromFrames;
   const auto   errorOf = [](const VarianceLine & line) { return std::sqrt(std::max(0.0, line.covariance(0, 0))); };
-  const double ofPattern = variance.pattern.LargestShare() * variance.line.gain;
+  const double ofPattern = variance.pattern.LargestFraction() * variance.line.gain;
   const double ofPixels = std::hypot(errorOf(variance.line), ofPattern);
-  const double chi2 = frames.ReducedChi2() / variance.sharedSquares;
+  const double chi2 = frames.ReducedChi2() / variance.varianceInflation;
   const double ofFrames =
     errorOf(frames.line) * std::sqrt(BeyondChance(chi2, static_cast<double>(frames.bins.size()) - 2.0));
   if (!frames.line.isDetermined)
@@ -97,7 +97,7 @@ BetterLine(const StaticVariance & variance)
 
 /** Returns whether the scene moves so little that no motion remains in the residuals. */
 bool
-IsNearlyStill(const FrameComparison & by)
+MovesLittle(const FrameComparison & by)
 {
   return std::max(by.scene.model.vibrationXPixels2, by.scene.model.vibrationYPixels2) < InRefined.smallVibration;
 }
@@ -107,26 +107,27 @@ IsNearlyStill(const FrameComparison & by)
 FrameNoise
 CompareFrames(const StaticVariance &  variance,
               const FrameComparison & by,
-              double                  sharedSquares,
+              double                  varianceInflation,
               const ParallelFor &     parallelFor)
 {
   // Remaining motion of a frame is not noise, and levels of tiles are not known under local illumination.
-  const double least = std::max(IsNearlyStill(by) ? 0.0 : InRefined.leastUnlikeUnderMotion,
-                                by.isLightLocal ? InRefined.leastUnlikeUnderLocalLight : InRefined.leastUnlikeNoise);
+  const double least =
+    std::max(MovesLittle(by) ? 0.0 : InRefined.leastUnlikeUnderMotion,
+             by.isIlluminationLocal ? InRefined.leastUnlikeUnderLocalIllumination : InRefined.leastUnlikeNoise);
   const std::vector<std::uint8_t> used = MaskOfUsed(variance.pixelUse);
   const FrameEnergies             flat(by.residuals, MaskOfFlatClasses(by.projected, used, parallelFor), parallelFor);
-  const double                    chance = std::sqrt(2.0 * sharedSquares / std::max(1.0, flat.Pixels().sum()));
+  const double                    chance = std::sqrt(2.0 * varianceInflation / std::max(1.0, flat.Pixels().sum()));
   FrameNoise                      noise;
   for (const auto & [line, error] : LinesByError(variance))
   {
-    noise = JudgeFrameNoise(NoiseOfFrames(flat, by.levels, line, error), chance, least);
+    noise = GroupFramesByNoise(NoiseOfFrames(flat, by.levels, line, error), chance, least);
     for (int round = 0; round < InRefined.roundsOfFrameNoise && noise.groups.size() > 1; ++round)
     {
       const Eigen::VectorXd known = noise.OfFrames(flat.Frames());
-      noise = JudgeFrameNoise(NoiseOfFrames(flat, by.levels, line, error, known), chance, least);
+      noise = GroupFramesByNoise(NoiseOfFrames(flat, by.levels, line, error, known), chance, least);
     }
     noise.areFramesEqual = !by.AreUnequal();
-    if (noise.HasSeveralKinds())
+    if (noise.HasSeveralGroups())
     {
       break;
     }
@@ -137,23 +138,23 @@ CompareFrames(const StaticVariance &  variance,
 /** Finds causes of correlation other than filters: local motion, and parts of frames that \a repeat. It does not search
  * for local motion if the whole scene moves, as the remaining motion of frames has the slopes of the scene, too. */
 void
-NameOtherCauses(NoiseCorrelation &     correlation,
+FindOtherCauses(NoiseCorrelation &     correlation,
                 const NoiseResiduals & residuals,
                 double                 repeated,
-                bool                   isNearlyStill,
+                bool                   movesLittle,
                 const ParallelFor &    parallelFor)
 {
-  if (!correlation.covarianceLines.empty() && isNearlyStill)
+  if (!correlation.covarianceLines.empty() && movesLittle)
   {
     correlation.localMotion = FindLocalMotion(residuals, parallelFor);
     correlation.kind = correlation.HasLocalMotion() ? NoiseKind::NotLinear : correlation.kind;
   }
   const bool mayRepeat =
-    correlation.kind == NoiseKind::Temporal || correlation.kind == NoiseKind::Enlarged || correlation.isOfIllumination;
-  if (mayRepeat && repeated > InRefined.largestRepeatedShare)
+    correlation.kind == NoiseKind::Temporal || correlation.kind == NoiseKind::Enlarged || correlation.isByIllumination;
+  if (mayRepeat && repeated > InRefined.largestRepeatedFraction)
   {
     correlation.kind = NoiseKind::NotLinear; // a filter blends values, and repeats none
-    correlation.repeatedShare = repeated;
+    correlation.repeatedFraction = repeated;
   }
 }
 
@@ -164,35 +165,35 @@ struct ChosenPixels
   std::vector<std::uint8_t> & pixelUse;
 };
 
-/** Subtracts the illumination that is specific to rows or columns if its effect exceeds InRefined.leastLineLight. If
- * some temporal components of the illumination could not be projected out (\a areSeriesLeft), subtracts it wherever it
- * is significant. */
+/** Subtracts the illumination that is specific to rows or columns if its effect exceeds
+ * InRefined.leastLineIllumination. If some temporal components of the illumination could not be projected out (\a
+ * areSeriesLeft), subtracts it wherever it is significant. */
 LineIllumination
 AllowForLines(NoiseResiduals &     residuals,
               ProjectedVariance &  projected,
-              const StillScene &   scene,
+              const StaticScene &  scene,
               const ChosenPixels & pixels,
               double               signalDn,
               bool                 areSeriesLeft,
               const ParallelFor &  parallelFor)
 {
   LineIllumination lines;
-  lines.found = FindLineLight(residuals, LineAxis::Rows, parallelFor);
-  if (const MeasuredNumber ofColumns = FindLineLight(residuals, LineAxis::Columns, parallelFor);
+  lines.found = EstimateLineIlluminationChange(residuals, LineAxis::Rows, parallelFor);
+  if (const MeasuredNumber ofColumns = EstimateLineIlluminationChange(residuals, LineAxis::Columns, parallelFor);
       ofColumns.value * lines.found.standardError > lines.found.value * ofColumns.standardError)
   {
     lines.found = ofColumns;
     lines.axis = LineAxis::Columns;
   }
-  const double least = areSeriesLeft ? 0.0 : InRefined.leastLineLight;
-  const bool   counts = EffectOfLineLight(lines.found, signalDn, scene.model.slopeDn, least) > 0.0;
+  const double least = areSeriesLeft ? 0.0 : InRefined.leastLineIllumination;
+  const bool   counts = EffectOfLineIllumination(lines.found, signalDn, scene.model.slopeDn, least) > 0.0;
   if (counts && residuals.HasEnoughPixels())
   {
-    TakeOffLineIllumination(lines, residuals, projected, pixels.chosen, pixels.pixelUse, parallelFor);
+    SubtractLineIllumination(lines, residuals, projected, pixels.chosen, pixels.pixelUse, parallelFor);
   }
   if (counts || areSeriesLeft)
   {
-    lines.restOfVariance = RestOfIllumination(residuals, parallelFor);
+    lines.remainingVariance = RestOfIllumination(residuals, parallelFor);
   }
   return lines;
 }
@@ -201,7 +202,7 @@ AllowForLines(NoiseResiduals &     residuals,
 PixelNoise
 MeasurePixelNoise(ProjectedVariance &                      projected,
                   FrameSample                              sample,
-                  const StillScene &                       scene,
+                  const StaticScene &                      scene,
                   const std::optional<const SceneSeries> & series,
                   const RefinedSettings &                  settings,
                   double                                   codesDn2,
@@ -211,9 +212,9 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   const double              offsetDn = series->offset + scene.model.centreDn;
   std::vector<std::uint8_t> pixelUse = scene.pixelUse;
   std::vector<std::uint8_t> chosen = PixelsOfVariance(scene, settings, pixelUse);
-  const bool                isTold = settings.offset.has_value() || series->isOffsetTold;
-  const double   zeroDn = isTold ? blackDn : ZeroOfLight(scene.model.darkestDn, scene.model.brightestDn, blackDn);
-  const double   repeated = sample.RepeatedShare(chosen, scene.summary.codes.quantisationStepDn);
+  const bool                isTold = settings.offset.has_value() || series->isOffsetIdentifiable;
+  const double   zeroDn = isTold ? blackDn : ZeroOfSignal(scene.model.darkestDn, scene.model.brightestDn, blackDn);
+  const double   repeated = sample.RepeatedFraction(chosen, scene.summary.codes.quantisationStepDn);
   NoiseResiduals residuals(
     std::move(sample), series->basis.GetBasis(), { scene.frame.mean, chosen, zeroDn, isTold }, parallelFor);
   LineIllumination lines;
@@ -228,10 +229,10 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
                           parallelFor);
   }
   // If the levels do not identify the offset, no line of the pixels determines the fraction of shot noise.
-  projected.SetIllumination(series->line.gamma, offsetDn, !scene.changesStrongly || series->isOffsetTold);
-  const auto fit = [&](double sharedSquares) {
+  projected.SetIllumination(series->line.gamma, offsetDn, !scene.changesStrongly || series->isOffsetIdentifiable);
+  const auto fit = [&](double varianceInflation) {
     return FitStaticVariance(
-      projected, chosen, pixelUse, scene.model.slopeDn, offsetDn, blackDn, parallelFor, sharedSquares);
+      projected, chosen, pixelUse, scene.model.slopeDn, offsetDn, blackDn, parallelFor, varianceInflation);
   };
   PixelNoise noise{ fit(1.0), {}, {}, lines };
   if (!noise.variance.line.isDetermined)
@@ -254,21 +255,21 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   };
   allowForFrames();
   noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
-  const double sharedSquares = SharedSquares(noise.correlation.space);
-  if (noise.correlation.IsShared() && sharedSquares > InRefined.leastSharedSquares)
+  const double varianceInflation = VarianceInflation(noise.correlation.space);
+  if (noise.correlation.IsCorrelated() && varianceInflation > InRefined.leastVarianceInflation)
   {
-    noise.variance = fit(sharedSquares);
+    noise.variance = fit(varianceInflation);
     residuals.Take(MaskOfUsed(noise.variance.pixelUse), parallelFor);
     allowForFrames();
     noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
     // Near an edge, the spatial covariance is a mean over both sides, and the pixel's variance is not on the line.
     LeaveOutEdges(scene.frame, noise.variance.line, chosen, pixelUse);
-    noise.variance = fit(sharedSquares);
+    noise.variance = fit(varianceInflation);
   }
-  const double shared = std::max(1.0, SharedSquares(noise.correlation.space));
+  const double shared = std::max(1.0, VarianceInflation(noise.correlation.space));
   compare();
   noise.frames = CompareFrames(noise.variance, comparison, shared, parallelFor);
-  if (!noise.frames.HasSeveralKinds() && !comparison.isLightLocal && IsNearlyStill(comparison))
+  if (!noise.frames.HasSeveralGroups() && !comparison.isIlluminationLocal && MovesLittle(comparison))
   {
     const FrameEnergies energies(residuals, MaskOfUsed(noise.variance.pixelUse), parallelFor);
     noise.variance.parts.frames =
@@ -277,9 +278,9 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   MeasureSettledFrames(noise.correlation, residuals, codesDn2, parallelFor);
   if (noise.correlation.kind != NoiseKind::NotMeasured)
   {
-    noise.lines.left = FindLineLight(residuals, lines.axis, parallelFor);
+    noise.lines.left = EstimateLineIlluminationChange(residuals, lines.axis, parallelFor);
   }
-  NameOtherCauses(noise.correlation, residuals, repeated, IsNearlyStill(comparison), parallelFor);
+  FindOtherCauses(noise.correlation, residuals, repeated, MovesLittle(comparison), parallelFor);
   return noise;
 }
 

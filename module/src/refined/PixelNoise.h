@@ -35,7 +35,7 @@ struct PixelNoise
 SensorNoise_EXPORT PixelNoise
 MeasurePixelNoise(ProjectedVariance &                      projected,
                   FrameSample                              sample,
-                  const StillScene &                       scene,
+                  const StaticScene &                      scene,
                   const std::optional<const SceneSeries> & series,
                   const RefinedSettings &                  settings,
                   double                                   codesDn2,

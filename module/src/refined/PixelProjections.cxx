@@ -31,7 +31,7 @@ PixelProjections::PixelProjections(const FrameGeometry & geometry,
 {
   if (!m_Options.withoutMerging)
   {
-    this->HoldSumsOfNextSlabs();
+    this->AllocateNextSlabs();
   }
 }
 
@@ -43,7 +43,7 @@ PixelProjections::SlabsWithin(double bytes, std::size_t series)
 }
 
 void
-PixelProjections::HoldSumsOfNextSlabs()
+PixelProjections::AllocateNextSlabs()
 {
   const std::size_t pixels = m_Geometry.Pixels();
   const std::size_t series = m_Basis.Size();
@@ -51,7 +51,7 @@ PixelProjections::HoldSumsOfNextSlabs()
   m_NextSlab = std::min(ProjectionSums::NumberOfSlabs(pixels), first + m_Options.slabsAtOnce);
   if (first == 0)
   {
-    GiveBackFreedMemory(); // most memory is needed from here on
+    ReleaseFreedMemory(); // most memory is needed from here on
   }
   if (m_NextSlab - first == ProjectionSums::NumberOfSlabs(pixels))
   {
@@ -82,11 +82,12 @@ struct PixelProjections::Batch
     }
     if (count < frame->frames)
     {
-      to->HoldSumsOfNextSlabs();
+      to->AllocateNextSlabs();
       return;
     }
     const std::size_t pixels = to->m_Geometry.Pixels();
-    light = ProjectionSums(pixels, to->m_Options.keepLight ? to->m_Basis.NumberOfLightFactors() : 0, to->m_ParallelFor);
+    light = ProjectionSums(
+      pixels, to->m_Options.keepIllumination ? to->m_Basis.NumberOfIlluminationFactors() : 0, to->m_ParallelFor);
     to->m_Squares = { MakeMap<double>(pixels, to->m_ParallelFor), MakeMap<float>(pixels, to->m_ParallelFor) };
     to->m_IsProjected = true;
   }
@@ -107,7 +108,7 @@ struct PixelProjections::Batch
   void
   End()
   {
-    if (to->m_IsProjected && to->m_Options.keepLight)
+    if (to->m_IsProjected && to->m_Options.keepIllumination)
     {
       to->m_Coordinates = PixelCoordinates(std::move(light));
     }
@@ -160,7 +161,7 @@ PixelProjections::Forget()
 }
 
 void
-PixelProjections::RequireShared() const
+PixelProjections::RequireMerging() const
 {
   if (m_Options.withoutMerging)
   {
@@ -171,7 +172,7 @@ PixelProjections::RequireShared() const
 void
 PixelProjections::Save(std::ostream & out) const
 {
-  this->RequireShared();
+  this->RequireMerging();
   m_Sums.Save(out);
   if (!m_HasSample)
   {
@@ -182,7 +183,7 @@ PixelProjections::Save(std::ostream & out) const
 void
 PixelProjections::Merge(std::istream & in)
 {
-  this->RequireShared();
+  this->RequireMerging();
   ProjectionSums others = m_Sums;
   others.Restore(in);
   if (!m_HasSample)
@@ -203,7 +204,7 @@ PixelProjections::EndPass(const ReferenceFrame & frame)
     return true;
   }
   const std::size_t pixels = m_Geometry.Pixels();
-  const bool        keepAll = m_Options.keepLight && m_Sums.FirstPixel() == 0 && m_Sums.LastPixel() == pixels;
+  const bool        keepAll = m_Options.keepIllumination && m_Sums.FirstPixel() == 0 && m_Sums.LastPixel() == pixels;
   AppendResidualSquares(frame, m_Basis, m_Sums, keepAll, m_ParallelFor, m_Squares);
   if (keepAll)
   {
@@ -212,22 +213,22 @@ PixelProjections::EndPass(const ReferenceFrame & frame)
   const bool isLast = m_Squares.rss.size() == pixels;
   if (!isLast)
   {
-    this->HoldSumsOfNextSlabs();
+    this->AllocateNextSlabs();
   }
   return isLast;
 }
 
 void
-PixelProjections::StartLight()
+PixelProjections::StartIlluminationPass()
 {
   m_Basis = m_Basis.OfLight();
   m_NextSlab = 0;
   m_Options.slabsAtOnce = ProjectionSums::NumberOfSlabs(m_Geometry.Pixels());
-  this->HoldSumsOfNextSlabs();
+  this->AllocateNextSlabs();
 }
 
 void
-PixelProjections::EndLight(const ReferenceFrame & frame)
+PixelProjections::EndIlluminationPass(const ReferenceFrame & frame)
 {
   m_Coordinates = PixelCoordinates(std::move(m_Sums), m_Basis, frame.mean, m_ParallelFor);
 }

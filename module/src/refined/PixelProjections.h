@@ -37,9 +37,9 @@ class SensorNoise_EXPORT PixelProjections
 public:
   struct Options
   {
-    std::size_t slabsAtOnce{ 1 };        ///< slabs (ProjectionSums) that are projected in a pass
-    bool        keepLight{ false };      ///< whether the coordinates on the illumination components are needed
-    bool        withoutMerging{ false }; ///< whether no sums are saved or merged
+    std::size_t slabsAtOnce{ 1 };          ///< slabs (ProjectionSums) that are projected in a pass
+    bool        keepIllumination{ false }; ///< whether the coordinates on the illumination components are needed
+    bool        withoutMerging{ false };   ///< whether no sums are saved or merged
   };
 
   /** Prepares the first pass over frames of \a geometry. \a sample must be empty, and is filled in the first pass. */
@@ -105,7 +105,7 @@ public:
   Merge(std::istream & in);
 
   /** Ends a pass. Returns whether all pixels have been projected; else the next pass is for the following slabs. The
-   * coordinates are discarded, unless one pass made them for all pixels and Options::keepLight is set. */
+   * coordinates are discarded, unless one pass made them for all pixels and Options::keepIllumination is set. */
   bool
   EndPass(const ReferenceFrame & frame);
 
@@ -117,9 +117,9 @@ public:
   }
   /** Start and end a further pass for the illumination components alone. */
   void
-  StartLight();
+  StartIlluminationPass();
   void
-  EndLight(const ReferenceFrame & frame);
+  EndIlluminationPass(const ReferenceFrame & frame);
 
   /** Return the results of the passes, which are moved out of the object. */
   ResidualSquares
@@ -140,9 +140,9 @@ public:
 
 private:
   void
-  HoldSumsOfNextSlabs();
+  AllocateNextSlabs();
   void
-  RequireShared() const;
+  RequireMerging() const;
   template <typename TPixel>
   struct Batch;
 

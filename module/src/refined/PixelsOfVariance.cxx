@@ -16,13 +16,13 @@ namespace sensornoise
 {
 
 double
-BlackLevel(const RefinedSettings & settings, const StillScene & scene, const std::optional<const SceneSeries> & series)
+BlackLevel(const RefinedSettings & settings, const StaticScene & scene, const std::optional<const SceneSeries> & series)
 {
   if (settings.offset)
   {
     return settings.offset->valueDn;
   }
-  if (series && series->isOffsetTold)
+  if (series && series->isOffsetIdentifiable)
   {
     return std::min(series->offset + scene.model.centreDn, scene.model.darkestDn);
   }
@@ -30,7 +30,7 @@ BlackLevel(const RefinedSettings & settings, const StillScene & scene, const std
 }
 
 std::vector<std::uint8_t>
-PixelsOfVariance(const StillScene & scene, const RefinedSettings & settings, std::vector<std::uint8_t> & pixelUse)
+PixelsOfVariance(const StaticScene & scene, const RefinedSettings & settings, std::vector<std::uint8_t> & pixelUse)
 {
   std::vector<std::uint8_t> chosen = scene.frame.usable;
   const DarkMaps *          dark = settings.offset ? settings.offset->maps.get() : nullptr;

@@ -20,11 +20,13 @@ namespace sensornoise
  * lower clip level, or 0 if there is none. The latter two are limited to the darkest level. The black level separates
  * signal and offset approximately where the frames do not determine the offset. */
 SensorNoise_EXPORT double
-BlackLevel(const RefinedSettings & settings, const StillScene & scene, const std::optional<const SceneSeries> & series);
+BlackLevel(const RefinedSettings &                  settings,
+           const StaticScene &                      scene,
+           const std::optional<const SceneSeries> & series);
 
 /** Returns the variance of the quantization noise [DN^2]. */
 inline double
-CodesVariance(const StillScene & scene)
+CodesVariance(const StaticScene & scene)
 {
   const double step = scene.summary.codes.quantisationStepDn;
   return step * step / 12.0;
@@ -33,7 +35,7 @@ CodesVariance(const StillScene & scene)
 /** Returns the mask of the usable pixels that have levels within the range of the settings, and that the dark frames do
  * not show as defective. The reasons for other pixels are written to \a pixelUse. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
-PixelsOfVariance(const StillScene & scene, const RefinedSettings & settings, std::vector<std::uint8_t> & pixelUse);
+PixelsOfVariance(const StaticScene & scene, const RefinedSettings & settings, std::vector<std::uint8_t> & pixelUse);
 
 /** Removes pixels from \a chosen whose surroundings have another level, and marks them in \a pixelUse. Where frames
  * were filtered, the variance of these pixels is a mean over other neighbours than their level, and lies on no line.

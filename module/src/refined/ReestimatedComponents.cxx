@@ -48,47 +48,47 @@ NoiseOfLine(const FrameRegressors & regressors,
 }
 } // namespace
 
-PolishedSeries
-PolishSceneSeries(const FrameSums &        sums,
-                  const SceneSeries &      series,
-                  const PixelCoordinates & coordinates,
-                  const StaticVariance &   variance,
-                  const ParallelFor &      parallelFor)
+ReestimatedComponents
+ReestimateComponents(const FrameSums &        sums,
+                     const SceneSeries &      series,
+                     const PixelCoordinates & coordinates,
+                     const StaticVariance &   variance,
+                     const ParallelFor &      parallelFor)
 {
-  const ProvisionalModel &    model = sums.GetRegressors().GetModel();
+  const InitialNoiseModel &   model = sums.GetRegressors().GetModel();
   const std::vector<double> & gamma = series.line.gamma;
   const RegressorNoise        noise =
     NoiseOfLine(sums.GetRegressors(), variance.line, series.offset + model.centreDn, parallelFor);
-  PolishedSeries polished;
-  polished.line = FitOffsetLine(sums, noise, gamma).value_or(series.line);
-  if (!polished.line.TellsOffset())
+  ReestimatedComponents reestimated;
+  reestimated.line = FitOffsetLine(sums, noise, gamma).value_or(series.line);
+  if (!reestimated.line.DeterminesOffset())
   {
-    polished.line.UseOffset(series.offset);
+    reestimated.line.UseOffset(series.offset);
   }
   const FrameEquations            equations = MakeFrameEquations(sums, noise, GradientClasses - 1, gamma);
   const std::optional<OffsetLine> everywhere = FitOffsetLine(equations);
-  polished.motionPhi = everywhere ? everywhere->Widening() : 1.0;
-  polished.motion = SolveMotion(equations, polished.line.gamma, polished.line.offset);
-  polished.shifts = SolveShifts(sums,
-                                equations,
-                                polished.motion,
-                                sums.NoiseOfInstruments(variance.line.gain, variance.line.intercept),
-                                polished.line.gamma,
-                                polished.line.offset);
+  reestimated.motionPhi = everywhere ? everywhere->Widening() : 1.0;
+  reestimated.motion = SolveMotion(equations, reestimated.line.gamma, reestimated.line.offset);
+  reestimated.shifts = SolveShifts(sums,
+                                   equations,
+                                   reestimated.motion,
+                                   sums.NoiseOfInstruments(variance.line.gain, variance.line.intercept),
+                                   reestimated.line.gamma,
+                                   reestimated.line.offset);
   if (series.local.series.cols() > 0)
   {
-    const PixelLight light{
-      sums.GetFrame(), coordinates,     series.basis.NumberOfLightFactors(), variance.line, variance.mask,
+    const IlluminationResponses light{
+      sums.GetFrame(), coordinates,     series.basis.NumberOfIlluminationFactors(), variance.line, variance.mask,
       model.centreDn,  model.darkestDn, model.brightestDn - model.darkestDn
     };
-    polished.isOffsetDrift = IsOffsetDrift(light);
-    if (!polished.isOffsetDrift)
+    reestimated.isOffsetDrift = IsOffsetDrift(light);
+    if (!reestimated.isOffsetDrift)
     {
-      polished.localOffset = FindLocalOffset(light, parallelFor);
+      reestimated.localOffset = FindLocalOffset(light, parallelFor);
     }
-    polished.localFlicker = SumLocalFlicker(light);
+    reestimated.localFlicker = SumLocalFlicker(light);
   }
-  return polished;
+  return reestimated;
 }
 
 } // namespace sensornoise

@@ -21,7 +21,7 @@ namespace sensornoise
 
 /** Temporal components that are re-estimated with the noise of the third pass: illumination and motion in the report.
  */
-struct PolishedSeries
+struct ReestimatedComponents
 {
   OffsetLine                      line; ///< offset and flicker
   MotionSeries                    motion;
@@ -34,12 +34,12 @@ struct PolishedSeries
 
 /** Estimates offset, flicker and shifts again, with the noise that is now known. Reads no frames. The pixels'
  * \a coordinates on the temporal components are needed only under local illumination. */
-SensorNoise_EXPORT PolishedSeries
-PolishSceneSeries(const FrameSums &        sums,
-                  const SceneSeries &      series,
-                  const PixelCoordinates & coordinates,
-                  const StaticVariance &   variance,
-                  const ParallelFor &      parallelFor);
+SensorNoise_EXPORT ReestimatedComponents
+ReestimateComponents(const FrameSums &        sums,
+                     const SceneSeries &      series,
+                     const PixelCoordinates & coordinates,
+                     const StaticVariance &   variance,
+                     const ParallelFor &      parallelFor);
 
 } // namespace sensornoise
 

@@ -57,7 +57,7 @@ RefinedPasses<TPixel>::RefinedPasses(const RefinedSettings &           settings,
                                      ParallelFor                       parallelFor)
   : Passes("RefinedMethod", geometry, frames, mask, std::move(parallelFor))
   , m_Settings(settings)
-  , m_Scene(std::make_unique<StillScene>())
+  , m_Scene(std::make_unique<StaticScene>())
 {
   settings.Validate();
   RequireExposuresOfFrames(settings.exposures, frames);
@@ -164,9 +164,9 @@ RefinedPasses<TPixel>::Finish(TFunction function)
   {
     function();
   }
-  catch (const NothingToMeasure & obstacle)
+  catch (const NothingToMeasure & failureReason)
   {
-    m_Obstacle.emplace(obstacle);
+    m_FailureReason.emplace(failureReason);
     m_FrameSums.reset();
     m_Projections.reset();
   }
@@ -251,18 +251,18 @@ RefinedPasses<TPixel>::MakeScene(StackMaps maps, std::vector<double> rawVariance
   {
     darkestNoiseDn2 = this->NoiseOfDarkestFrame();
   }
-  m_Scene = std::make_unique<StillScene>(MakeStillScene(maps.summary,
-                                                        std::move(maps.mean),
-                                                        std::move(maps.variance),
-                                                        std::move(maps.valid),
-                                                        m_UserMask,
-                                                        m_Geometry,
-                                                        m_Distinct.Count(),
-                                                        m_Distinct.OfDistinct(m_Moments.GetFrameMeans()),
-                                                        m_ParallelFor,
-                                                        darkestNoiseDn2));
+  m_Scene = std::make_unique<StaticScene>(MakeStaticScene(maps.summary,
+                                                          std::move(maps.mean),
+                                                          std::move(maps.variance),
+                                                          std::move(maps.valid),
+                                                          m_UserMask,
+                                                          m_Geometry,
+                                                          m_Distinct.Count(),
+                                                          m_Distinct.OfDistinct(m_Moments.GetFrameMeans()),
+                                                          m_ParallelFor,
+                                                          darkestNoiseDn2));
   std::unique_ptr<FrameSums> sums;
-  if (!m_Scene->obstacle)
+  if (!m_Scene->failureReason)
   {
     sums = std::make_unique<FrameSums>(MakeSceneRegressors(*m_Scene, m_ParallelFor), m_ParallelFor);
     sums->SetLayout(m_Layout);
@@ -271,9 +271,9 @@ RefinedPasses<TPixel>::MakeScene(StackMaps maps, std::vector<double> rawVariance
   {
     m_Scene->frame.variance = std::move(rawVariance); // for the variance map and the squares of the third pass
   }
-  if (m_Scene->obstacle)
+  if (m_Scene->failureReason)
   {
-    throw NothingToMeasure(*m_Scene->obstacle);
+    throw NothingToMeasure(*m_Scene->failureReason);
   }
   if (std::is_floating_point_v<TPixel>)
   {
@@ -298,7 +298,7 @@ RefinedPasses<TPixel>::EndFrameSums()
                                    knownOffsetDn,
                                    BlackLevel(m_Settings, *m_Scene, std::nullopt),
                                    m_Scene->changesStrongly));
-  if (this->StartAgainWithout(m_Series->frameOffsets.unlike, FrameFault::OtherOffset))
+  if (this->RestartWithoutFrames(m_Series->frameOffsets.unlike, FrameFault::OtherOffset))
   {
     this->ForgetFindings();
     return;
@@ -319,10 +319,10 @@ template <typename TPixel>
 bool
 RefinedPasses<TPixel>::EndProjections()
 {
-  const bool isLightLocal = m_Series->local.series.cols() > 0; // the report needs the coordinates then
+  const bool isIlluminationLocal = m_Series->local.series.cols() > 0; // the report needs the coordinates then
   if (m_Variance)
   {
-    m_Projections->EndLight(m_Scene->frame);
+    m_Projections->EndIlluminationPass(m_Scene->frame);
   }
   else if (!m_Projections->EndPass(m_Scene->frame))
   {
@@ -331,8 +331,8 @@ RefinedPasses<TPixel>::EndProjections()
   else
   {
     this->MeasureVariance();
-    const double most = m_FrameNoise.areFramesEqual ? InMoments.largestOtherGroup : InMoments.largestLeftOutShare;
-    if (this->StartAgainWithout(m_FrameNoise.unlike, FrameFault::OtherNoise, most))
+    const double most = m_FrameNoise.areFramesEqual ? InMoments.largestOtherGroup : InMoments.largestLeftOutFraction;
+    if (this->RestartWithoutFrames(m_FrameNoise.unlike, FrameFault::OtherNoise, most))
     {
       this->ForgetFindings();
       return false;
@@ -344,16 +344,16 @@ RefinedPasses<TPixel>::EndProjections()
         return counted[place];
       });
     }
-    if (isLightLocal && !m_Projections->HasCoordinates())
+    if (isIlluminationLocal && !m_Projections->HasCoordinates())
     {
-      m_Projections->StartLight();
+      m_Projections->StartIlluminationPass();
       return false;
     }
   }
-  m_Polished.emplace(
-    PolishSceneSeries(*m_FrameSums, *m_Series, m_Projections->TakeCoordinates(), *m_Variance, m_ParallelFor));
+  m_Reestimated.emplace(
+    ReestimateComponents(*m_FrameSums, *m_Series, m_Projections->TakeCoordinates(), *m_Variance, m_ParallelFor));
   m_Projections.reset();
-  TakeOffLine(*m_Variance, CodeNoise(m_Variance->codeNoise)); // the components were weighted with all noise
+  SubtractLine(*m_Variance, CodeNoise(m_Variance->codeNoise)); // the components were weighted with all noise
   return true;
 }
 
@@ -361,7 +361,7 @@ template <typename TPixel>
 void
 RefinedPasses<TPixel>::ForgetFindings()
 {
-  m_Scene = std::make_unique<StillScene>();
+  m_Scene = std::make_unique<StaticScene>();
   m_FrameSums.reset();
   m_Series.reset();
   m_Projections.reset();
@@ -387,9 +387,9 @@ RefinedPasses<TPixel>::MeasureVariance()
                               frame.usable,
                               m_ParallelFor);
   const CodeNoise        codeNoise = this->FindCodeNoise();
-  projected.TakeOffRest(codeNoise);
+  projected.SubtractRemainder(codeNoise);
   PixelNoise noise = MeasurePixelNoise(
-    projected, m_Projections->TakeSample(), *m_Scene, m_Series, m_Settings, codeNoise.inTheDarkDn2, m_ParallelFor);
+    projected, m_Projections->TakeSample(), *m_Scene, m_Series, m_Settings, codeNoise.darkVarianceDn2, m_ParallelFor);
   m_Variance.emplace(std::move(noise.variance));
   m_Variance->codeNoise = codeNoise;
   if (!m_Variance->line.isDetermined)
@@ -411,7 +411,7 @@ RefinedPasses<TPixel>::MeasureVariance()
   }
   m_CorrectedVariance = projected.TakeVariance();
   ForPixels(m_CorrectedVariance.size(), m_ParallelFor, [&](std::size_t p) {
-    m_CorrectedVariance[p] = frame.usable[p] != 0 ? m_CorrectedVariance[p] + codeNoise.RestAt(frame.mean[p])
+    m_CorrectedVariance[p] = frame.usable[p] != 0 ? m_CorrectedVariance[p] + codeNoise.RemainderAt(frame.mean[p])
                                                   : std::numeric_limits<double>::quiet_NaN();
   });
 }
@@ -430,13 +430,13 @@ void
 RefinedPasses<TPixel>::MakeReport()
 {
   m_Report =
-    m_Obstacle
-      ? MakeRefusal(m_Settings, *m_Scene, this->GetPixelUse(), *m_Obstacle)
+    m_FailureReason
+      ? MakeFailedReport(m_Settings, *m_Scene, this->GetPixelUse(), *m_FailureReason)
       : MakeRefinedReport({ m_Settings,
                             *m_Scene,
                             *m_Series,
                             *m_Variance,
-                            *m_Polished,
+                            *m_Reestimated,
                             m_CorrectedVariance,
                             BlackLevel(m_Settings, *m_Scene, m_Series),
                             m_Correlation,
@@ -448,7 +448,7 @@ RefinedPasses<TPixel>::MakeReport()
   ReportLinearity(m_Report, m_ExposureFit);
   FileStatuses(m_Report);
   DivideExcessNoise(m_Report, m_Settings.excessNoiseFactor);
-  UncoverUnknown(m_Scene->frame, m_ParallelFor);
+  RestoreUnknownMeans(m_Scene->frame, m_ParallelFor);
   WarnOfMosaic(m_Report, m_Scene->frame.mean, m_Geometry, m_ParallelFor);
   NoteMask(m_Report, m_Geometry, m_UserMask);
   ReportSceneChange(m_Report, m_Thumbnails.FindChange(m_Distinct.Counted()));

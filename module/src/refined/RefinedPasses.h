@@ -242,22 +242,22 @@ private:
   std::optional<ExposureFit> m_ExposureFit; // from the first pass; none: no exposures were given
 
   // The sums of the passes, and their results. The scene must not move in memory: FrameSums points to its frame.
-  std::unique_ptr<StillScene>           m_Scene;
-  std::unique_ptr<LevelProjection>      m_Levels;    // of the pass after the first one, if there is one
-  std::unique_ptr<FrameSums>            m_FrameSums; // null in that pass, or if the stack cannot be measured
-  std::optional<const SceneSeries>      m_Series;
-  std::optional<PixelProjections>       m_Projections;
-  std::optional<StaticVariance>         m_Variance;
-  std::optional<const PolishedSeries>   m_Polished;
-  NoiseCorrelation                      m_Correlation;
-  FrameNoise                            m_FrameNoise;
-  LineIllumination                      m_Lines;
-  std::vector<double>                   m_CorrectedVariance;
-  std::optional<const NothingToMeasure> m_Obstacle;
-  bool                                  m_HasScene{ false };
-  bool                                  m_IsWithoutMerging{ false };
-  bool                                  m_IsDone{ false };
-  Report                                m_Report;
+  std::unique_ptr<StaticScene>               m_Scene;
+  std::unique_ptr<LevelProjection>           m_Levels;    // of the pass after the first one, if there is one
+  std::unique_ptr<FrameSums>                 m_FrameSums; // null in that pass, or if the stack cannot be measured
+  std::optional<const SceneSeries>           m_Series;
+  std::optional<PixelProjections>            m_Projections;
+  std::optional<StaticVariance>              m_Variance;
+  std::optional<const ReestimatedComponents> m_Reestimated;
+  NoiseCorrelation                           m_Correlation;
+  FrameNoise                                 m_FrameNoise;
+  LineIllumination                           m_Lines;
+  std::vector<double>                        m_CorrectedVariance;
+  std::optional<const NothingToMeasure>      m_FailureReason;
+  bool                                       m_HasScene{ false };
+  bool                                       m_IsWithoutMerging{ false };
+  bool                                       m_IsDone{ false };
+  Report                                     m_Report;
 };
 
 #define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT RefinedPasses<TPixel>

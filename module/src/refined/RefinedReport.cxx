@@ -55,7 +55,7 @@ WarnOfScene(Report & report, const RefinedResults & found)
   else if (found.series.local.series.cols() > 0)
   {
     const auto count = std::to_string(found.series.local.series.cols());
-    if (found.polished.isOffsetDrift)
+    if (found.reestimated.isOffsetDrift)
     {
       report.Warn(WarningCode::OffsetDrift,
                   "the dark offset of all pixels drifts over the burst. Let the camera warm up before the recording");
@@ -68,22 +68,22 @@ WarnOfScene(Report & report, const RefinedResults & found)
                     "): a rolling shutter, several lamps or bleaching, which gain and intercept allow for");
     }
   }
-  if (found.lines.restOfVariance > 0.0)
+  if (found.lines.remainingVariance > 0.0)
   {
     report.Warn(WarningCode::LightSeriesLeft,
                 "the illumination changes in more ways than " + std::to_string(found.scene.frame.frames) +
                   " frames allow to remove, also beside that of whole rows and columns: this adds about " +
-                  Percent(found.lines.restOfVariance) + " to the variance, and the interval of the gain contains " +
-                  Rounded(InRefined.slopeOfRest) +
+                  Percent(found.lines.remainingVariance) + " to the variance, and the interval of the gain contains " +
+                  Rounded(InRefined.slopeOfRemaining) +
                   " times as much. Record more frames, or choose an evenly lit part: --roi");
   }
-  if (static_cast<double>(found.variance.notStatic) > InRefined.reportedShare * total)
+  if (static_cast<double>(found.variance.notStatic) > InRefined.reportedFraction * total)
   {
     report.Warn(WarningCode::NotStatic,
                 percent(found.variance.notStatic) +
                   " of the pixels lie where something moves or changes, and are left out");
   }
-  if (static_cast<double>(found.scene.nearClip + found.scene.summary.clipped) > InRefined.reportedShare * total)
+  if (static_cast<double>(found.scene.nearClip + found.scene.summary.clipped) > InRefined.reportedFraction * total)
   {
     report.Warn(WarningCode::NearClipLevel,
                 percent(found.scene.nearClip + found.scene.summary.clipped) +
@@ -99,7 +99,7 @@ WarnOfScene(Report & report, const RefinedResults & found)
 
 /** Warns of the strips along the borders that were left out. */
 void
-WarnOfBorder(Report & report, const StillScene & scene)
+WarnOfBorder(Report & report, const StaticScene & scene)
 {
   std::string strips;
   for (const MaskedStrip & strip : scene.border.strips)
@@ -139,7 +139,7 @@ WarnOfMotion(Report & report, const RefinedResults & found)
 
 /** Makes a report with the settings and the description of the stack, which do not depend on the results. */
 Report
-DescribeInput(const RefinedSettings & settings, const StillScene & scene, const std::vector<std::uint8_t> & pixelUse)
+DescribeInput(const RefinedSettings & settings, const StaticScene & scene, const std::vector<std::uint8_t> & pixelUse)
 {
   Report report;
   report.method = "refined";
@@ -197,7 +197,7 @@ SettingsOfSensor(const RefinedResults & found, double codesDn2)
   if (settings.offset && settings.offset->variance)
   {
     DarkVariance & dark = *settings.offset->variance;
-    const double   spread = SpreadOfShapes(dark.valueDn2, found.correlation, codesDn2);
+    const double   spread = StandardDeviationOfShapes(dark.valueDn2, found.correlation, codesDn2);
     dark.valueDn2 = VarianceOfSensor(dark.valueDn2, found.correlation, codesDn2);
     dark.standardErrorDn2 = std::hypot(FilterFactor(found.correlation) * dark.standardErrorDn2,
                                        FilterFactor(found.correlation) * found.correlation.LineNoise().standardError,
@@ -218,14 +218,14 @@ SettingsOfSensor(const RefinedResults & found, double codesDn2)
 
 /** Files that there is no gain, because of the illumination that is specific to rows or columns. */
 void
-RefuseLineLight(Report & report, const RefinedResults & found, double effect)
+FailByLineIllumination(Report & report, const RefinedResults & found, double effect)
 {
   SetSensorParameters(report, EstimateStatus::Failed);
   report.Warn(WarningCode::Contradicted,
               "the illumination differs from " + NameOfLine(found.lines.axis) + " to " + NameOfLine(found.lines.axis) +
                 " within a frame by " + Percent(std::sqrt(found.lines.left.value)) + " rms, which adds " +
-                PercentApart(effect, InRefined.largestLineLight) + " to the slope of the variance (expected at most " +
-                Percent(InRefined.largestLineLight) +
+                PercentApart(effect, InRefined.largestLineIllumination) +
+                " to the slope of the variance (expected at most " + Percent(InRefined.largestLineIllumination) +
                 "): a pulsed lamp under a rolling shutter, or interlaced frames. Use a lamp on direct current, expose "
                 "for whole periods of the lamp, or give one field of the frames");
 }
@@ -236,16 +236,18 @@ FillSensor(Report & report, const RefinedResults & found, const GainEstimate & g
 {
   const OffsetLimits   limits = LimitsOf(found, gain, codesDn2);
   const OffsetEstimate flicker = EstimateOffset(found, gain, limits);
-  const UsedOffset     offset = OffsetInUse(found, gain, flicker, limits);
+  const UsedOffset     offset = ChooseOffset(found, gain, flicker, limits);
   const double         offsetFromCentre = offset.valueDn - found.scene.model.centreDn;
   FillFlicker(report, found, offsetFromCentre, offset.errorDn, gain.RelativeModelError());
   FillMotion(report, found, offsetFromCentre, offset.errorDn);
   WarnOfMotion(report, found);
-  if (const double effect = EffectOfLineLight(
-        found.lines.left, found.scene.model.brightestDn - found.blackDn, gain.line.gain, InRefined.largestLineLight);
+  if (const double effect = EffectOfLineIllumination(found.lines.left,
+                                                     found.scene.model.brightestDn - found.blackDn,
+                                                     gain.line.gain,
+                                                     InRefined.largestLineIllumination);
       effect > 0.0)
   {
-    RefuseLineLight(report, found, effect);
+    FailByLineIllumination(report, found, effect);
     FillFromDarkFrames(report, found.settings, codesDn2);
     return;
   }
@@ -318,13 +320,13 @@ FillVariance(Report & report, const RefinedResults & found, const GainEstimate &
 } // namespace
 
 Report
-MakeRefusal(const RefinedSettings &           settings,
-            const StillScene &                scene,
-            const std::vector<std::uint8_t> & pixelUse,
-            const NothingToMeasure &          obstacle)
+MakeFailedReport(const RefinedSettings &           settings,
+                 const StaticScene &               scene,
+                 const std::vector<std::uint8_t> & pixelUse,
+                 const NothingToMeasure &          failureReason)
 {
   Report report = DescribeInput(settings, scene, pixelUse);
-  report.Warn(obstacle.GetCode(), obstacle.what());
+  report.Warn(failureReason.GetCode(), failureReason.what());
   FillFromDarkFrames(report, settings, CodesVariance(scene));
   return report;
 }
@@ -336,14 +338,14 @@ MakeRefinedReport(const RefinedResults & found, const ParallelFor & parallelFor)
   FillCurves(report, found, parallelFor);
   WarnOfScene(report, found);
 
-  const double       codesDn2 = found.variance.codeNoise.inTheDarkDn2;
+  const double       codesDn2 = found.variance.codeNoise.darkVarianceDn2;
   const GainEstimate ofVariance = EstimateGain(found);
-  if (found.correlation.IsShared() || found.correlation.LineNoise().value > 0.0)
+  if (found.correlation.IsCorrelated() || found.correlation.LineNoise().value > 0.0)
   {
     const RefinedSettings settings = SettingsOfSensor(found, codesDn2);
-    const SensorLines     lines = WithSharedNoise(LinesOf(found.variance), found.correlation, found.blackDn, codesDn2);
+    const SensorLines     lines = AddCovariances(LinesOf(found.variance), found.correlation, found.blackDn, codesDn2);
     const RefinedResults  sensor = { settings,       found.scene,       found.series,
-                                     found.variance, found.polished,    found.correctedVariance,
+                                     found.variance, found.reestimated, found.correctedVariance,
                                      found.blackDn,  found.correlation, found.frameNoise,
                                      found.lines,    found.exposures,   found.darkSignal };
     FillSensor(report, sensor, EstimateGain(sensor, lines), codesDn2);

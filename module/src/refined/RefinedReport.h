@@ -24,10 +24,10 @@ MakeRefinedReport(const RefinedResults & found, const ParallelFor & parallelFor 
 /** Makes the report of a stack that cannot be measured: its description and the reason. Every quantity is `failed`.
  * \a pixelUse has the values of PixelUse as far as they were found. */
 SensorNoise_EXPORT Report
-MakeRefusal(const RefinedSettings &           settings,
-            const StillScene &                scene,
-            const std::vector<std::uint8_t> & pixelUse,
-            const NothingToMeasure &          obstacle);
+MakeFailedReport(const RefinedSettings &           settings,
+                 const StaticScene &               scene,
+                 const std::vector<std::uint8_t> & pixelUse,
+                 const NothingToMeasure &          failureReason);
 
 } // namespace sensornoise
 

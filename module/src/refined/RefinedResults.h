@@ -22,16 +22,16 @@ namespace sensornoise
 /** Results of the passes of the refined method, from which its report is made. */
 struct RefinedResults
 {
-  const RefinedSettings &     settings;
-  const StillScene &          scene;             ///< from the first pass
-  const SceneSeries &         series;            ///< from the second pass
-  const StaticVariance &      variance;          ///< from the third pass
-  const PolishedSeries &      polished;          ///< from the sums of the second pass, with the noise from the third
-  const std::vector<double> & correctedVariance; ///< NaN where it was not computed [DN^2]
-  double                      blackDn{ 0.0 };    ///< see BlackLevel()
-  NoiseCorrelation            correlation{};     ///< from the sample of the third pass
-  FrameNoise                  frameNoise{};      ///< groups by the indices of the frames in the stack
-  LineIllumination            lines{};           ///< from the sample of the third pass
+  const RefinedSettings &       settings;
+  const StaticScene &           scene;             ///< from the first pass
+  const SceneSeries &           series;            ///< from the second pass
+  const StaticVariance &        variance;          ///< from the third pass
+  const ReestimatedComponents & reestimated;       ///< from the sums of the second pass, with the noise from the third
+  const std::vector<double> &   correctedVariance; ///< NaN where it was not computed [DN^2]
+  double                        blackDn{ 0.0 };    ///< see BlackLevel()
+  NoiseCorrelation              correlation{};     ///< from the sample of the third pass
+  FrameNoise                    frameNoise{};      ///< groups by the indices of the frames in the stack
+  LineIllumination              lines{};           ///< from the sample of the third pass
   /** Results from the frames' exposures; null: none were given. */
   const ExposureFit * exposures{ nullptr };
   /** Fraction of the signal in the dark frames, see FindDarkSignal() [1]; null: none. */
@@ -63,9 +63,9 @@ struct RefinedResults
   }
   /** Returns whether the illumination changes differently over the frame. */
   bool
-  HasLocalLight() const
+  HasLocalIllumination() const
   {
-    return series.local.series.cols() > 0 && !polished.isOffsetDrift;
+    return series.local.series.cols() > 0 && !reestimated.isOffsetDrift;
   }
 
 private:

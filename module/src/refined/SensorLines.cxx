@@ -11,11 +11,11 @@ namespace sensornoise
 namespace
 {
 /** Returns the mean of all shapes of the covariance, weighted with their probabilities and coefficients. */
-SharedShape
+WeightedShape
 MeanShape(const NoiseCorrelation & correlation)
 {
-  SharedShape mean;
-  for (const SharedShape & shape : correlation.shapes)
+  WeightedShape mean;
+  for (const WeightedShape & shape : correlation.shapes)
   {
     const double weight = shape.probability * shape.coefficient.value;
     mean.ofVariance += weight * shape.ofVariance;
@@ -27,10 +27,10 @@ MeanShape(const NoiseCorrelation & correlation)
 }
 
 /** Total covariance over lags as a function of the level, applied to a variance or a line. */
-class SharedVariance
+class TotalCovariance
 {
 public:
-  SharedVariance(const NoiseCorrelation & correlation, double blackDn, double codesDn2)
+  TotalCovariance(const NoiseCorrelation & correlation, double blackDn, double codesDn2)
     : m_Mean(MeanShape(correlation))
     , m_Time(correlation.timeFactor.value)
     , m_BlackDn(blackDn)
@@ -67,16 +67,16 @@ public:
     sensor.curvature = line.curvature * factor + m_Time * m_Mean.ofSquare;
     sensor.curvatureSd = line.curvatureSd * factor;
     sensor.weightSum = line.weightSum / (factor * factor);
-    sensor.noiseSpreadDn4 = line.noiseSpreadDn4 * factor * factor;
+    sensor.noiseDispersionDn4 = line.noiseDispersionDn4 * factor * factor;
     return sensor;
   }
 
 private:
-  SharedShape m_Mean;
-  double      m_Time;
-  double      m_BlackDn;
-  double      m_CodesDn2;
-  double      m_LinesDn2;
+  WeightedShape m_Mean;
+  double        m_Time;
+  double        m_BlackDn;
+  double        m_CodesDn2;
+  double        m_LinesDn2;
 };
 
 /** Returns slope and intercept of the line through the squared signal, with the weights of the curve. */
@@ -118,7 +118,7 @@ LineOfSquare(const VarianceCurve & curve, double blackDn)
 }
 
 VarianceCurve
-CurveOfSensor(const VarianceCurve & curve, const SharedVariance & shared, const VarianceLine & line)
+CurveOfSensor(const VarianceCurve & curve, const TotalCovariance & shared, const VarianceLine & line)
 {
   VarianceCurve sensor{ line, {} };
   for (const CurveBin & bin : curve.bins)
@@ -148,7 +148,7 @@ ErrorOf(const NoiseCorrelation & correlation,
         double                   codesDn2)
 {
   const double time = correlation.timeFactor.value;
-  const auto   unitOf = [&](const SharedShape & shape) {
+  const auto   unitOf = [&](const WeightedShape & shape) {
     return Eigen::Vector2d(time * (shape.ofVariance * Eigen::Vector2d(line.gain, line.intercept - codesDn2) +
                                    shape.ofLight * Eigen::Vector2d(1.0, -blackDn) + shape.ofSquare * lineOfSquare +
                                    Eigen::Vector2d(0.0, shape.constantDn2)));
@@ -157,7 +157,7 @@ ErrorOf(const NoiseCorrelation & correlation,
   // The remaining probability is that the covariance is a constant, which does not grow with the signal.
   double          constant = 1.0;
   Eigen::Matrix2d error = Eigen::Matrix2d::Zero();
-  for (const SharedShape & shape : correlation.shapes)
+  for (const WeightedShape & shape : correlation.shapes)
   {
     const Eigen::Vector2d unit = unitOf(shape);
     const Eigen::Vector2d own = shape.coefficient.value * unit - mean;
@@ -180,8 +180,8 @@ ErrorOf(const NoiseCorrelation & correlation,
 SensorLines
 LinesOf(const StaticVariance & variance)
 {
-  return { variance.line,  variance.fromLight,      variance.fromFrames,
-           variance.curve, Eigen::Matrix2d::Zero(), variance.ofOwnLevels };
+  return { variance.line,  variance.instrumentalLine, variance.fromFrames,
+           variance.curve, Eigen::Matrix2d::Zero(),   variance.ofOwnLevels };
 }
 
 double
@@ -193,18 +193,18 @@ FilterFactor(const NoiseCorrelation & correlation)
 double
 VarianceOfSensor(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2)
 {
-  return SharedVariance(correlation, 0.0, codesDn2).SensorOf(varianceDn2, 0.0);
+  return TotalCovariance(correlation, 0.0, codesDn2).SensorOf(varianceDn2, 0.0);
 }
 
 double
-SpreadOfShapes(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2)
+StandardDeviationOfShapes(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2)
 {
   const double noise = varianceDn2 - codesDn2 - correlation.LineNoise().value;
-  const auto   sharedOf = [noise](const SharedShape & shape) { return shape.ofVariance * noise + shape.constantDn2; };
+  const auto   sharedOf = [noise](const WeightedShape & shape) { return shape.ofVariance * noise + shape.constantDn2; };
   const double mean = sharedOf(MeanShape(correlation));
   double       square = 0.0;
   double       left = 1.0;
-  for (const SharedShape & shape : correlation.shapes)
+  for (const WeightedShape & shape : correlation.shapes)
   {
     const double own = shape.coefficient.value * sharedOf(shape) - mean;
     square += shape.probability * own * own;
@@ -214,17 +214,17 @@ SpreadOfShapes(double varianceDn2, const NoiseCorrelation & correlation, double 
 }
 
 SensorLines
-WithSharedNoise(const SensorLines & lines, const NoiseCorrelation & correlation, double blackDn, double codesDn2)
+AddCovariances(const SensorLines & lines, const NoiseCorrelation & correlation, double blackDn, double codesDn2)
 {
-  const SharedVariance  shared(correlation, blackDn, codesDn2);
+  const TotalCovariance shared(correlation, blackDn, codesDn2);
   const Eigen::Vector2d square = LineOfSquare(lines.curve, blackDn);
   SensorLines           sensor;
   sensor.all = shared.SensorOf(lines.all, square);
-  sensor.fromLight = shared.SensorOf(lines.fromLight, square);
+  sensor.instrumentalLine = shared.SensorOf(lines.instrumentalLine, square);
   sensor.fromFrames = CurveOfSensor(lines.fromFrames, shared, shared.SensorOf(lines.fromFrames.line, square));
   sensor.curve = CurveOfSensor(lines.curve, shared, shared.SensorOf(lines.curve.line, square));
   sensor.ofOwnLevels = CurveOfSensor(lines.ofOwnLevels, shared, shared.SensorOf(lines.ofOwnLevels.line, square));
-  sensor.errorOfShared = ErrorOf(correlation, lines.all, sensor.all, square, blackDn, codesDn2);
+  sensor.covarianceOfCorrelation = ErrorOf(correlation, lines.all, sensor.all, square, blackDn, codesDn2);
   return sensor;
 }
 

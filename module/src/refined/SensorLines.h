@@ -17,12 +17,12 @@ namespace sensornoise
  * correlated. */
 struct SensorLines
 {
-  VarianceLine  all;        ///< through all pixels that fit a static scene
-  VarianceLine  fromLight;  ///< instrumental-variable fit, see FitLightLine(); may be not determined
-  VarianceCurve fromFrames; ///< see FitFramePhotonTransfer(); may be not determined
-  VarianceCurve curve;      ///< deviations of the variance from its line
+  VarianceLine  all;              ///< through all pixels that fit a static scene
+  VarianceLine  instrumentalLine; ///< instrumental-variable fit, see FitInstrumental(); may be not determined
+  VarianceCurve fromFrames;       ///< see FitFramePhotonTransfer(); may be not determined
+  VarianceCurve curve;            ///< deviations of the variance from its line
   /** Covariance of gain and intercept by the uncertainty of the noise correlation [DN/e-, DN^2]. */
-  Eigen::Matrix2d errorOfShared{ Eigen::Matrix2d::Zero() };
+  Eigen::Matrix2d covarianceOfCorrelation{ Eigen::Matrix2d::Zero() };
   /** Curve by the pixels' own levels, see StaticVariance::ofOwnLevels. */
   VarianceCurve ofOwnLevels;
 };
@@ -45,13 +45,13 @@ VarianceOfSensor(double varianceDn2, const NoiseCorrelation & correlation, doubl
 /** Returns the standard deviation of VarianceOfSensor() over the shapes of the correlation: the filter may lie before
  * the read-out or after it [DN^2]. */
 SensorNoise_EXPORT double
-SpreadOfShapes(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2);
+StandardDeviationOfShapes(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2);
 
 /** Returns the lines of the sensor's variance: with the covariances summed over all lags, and without the noise of
  * whole rows and columns. The signal is measured from \a blackDn [DN]; \a codesDn2 is the variance of the quantization
  * noise [DN^2]. */
 SensorNoise_EXPORT SensorLines
-WithSharedNoise(const SensorLines & lines, const NoiseCorrelation & correlation, double blackDn, double codesDn2);
+AddCovariances(const SensorLines & lines, const NoiseCorrelation & correlation, double blackDn, double codesDn2);
 
 } // namespace sensornoise
 

@@ -46,7 +46,7 @@ RatiosOfFrames(const FrameEnergies &   energies,
     std::vector<double>   known;
     for (Eigen::Index t = 0; t < frames; ++t)
     {
-      const bool isLeft = energies.LeftShare()(t) > InRefined.leastLeftShare && expected(t) > 0.0;
+      const bool isLeft = energies.RemainingFraction()(t) > InRefined.leastRemainingFraction && expected(t) > 0.0;
       ratios.push_back(isLeft ? energies.SquaresDn2()(i, t) * noise(t) / expected(t) : Unknown);
       if (isLeft)
       {
@@ -208,7 +208,7 @@ NoiseOfFrames(const FrameEnergies &   energies,
 }
 
 FrameNoise
-JudgeFrameNoise(const Eigen::VectorXd & ofFrames, double chance, double least)
+GroupFramesByNoise(const Eigen::VectorXd & ofFrames, double chance, double least)
 {
   std::vector<NoiseOfFrame> sorted;
   std::vector<double>       differences;

@@ -20,7 +20,7 @@ namespace sensornoise
  * except for statistical scatter.
  *
  * The ratios are medians over the tiles, so that motion in some of them has no influence. NaN where the projection
- * leaves less than InRefined.leastLeftShare of a frame; empty if there are too few tiles. \a slopeError is the
+ * leaves less than InRefined.leastRemainingFraction of a frame; empty if there are too few tiles. \a slopeError is the
  * standard error of the slope of \a line [DN/e-]; it may be infinite. Among the slopes within Significance.hint of
  * these errors that a sensor may have, the ratio nearest to 1 is taken. \a known has the ratios found before: the
  * projection leaves some of the noise of a frame in the others, which is corrected by them. Default: all are 1. */
@@ -55,7 +55,7 @@ struct FrameNoise
 
   /** Returns whether there are several groups, or the noise varies. */
   bool
-  HasSeveralKinds() const
+  HasSeveralGroups() const
   {
     return scatter > 0.0 || groups.size() > 1;
   }
@@ -74,7 +74,7 @@ struct FrameNoise
  * of NoiseOfFrames(), \a chance its standard deviation by the number of pixels [1], \a least the threshold, as
  * InRefined.leastUnlikeNoise [1]. */
 SensorNoise_EXPORT FrameNoise
-JudgeFrameNoise(const Eigen::VectorXd & ofFrames, double chance, double least);
+GroupFramesByNoise(const Eigen::VectorXd & ofFrames, double chance, double least);
 
 } // namespace sensornoise
 

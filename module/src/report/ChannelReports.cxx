@@ -71,16 +71,16 @@ JoinOffsets(const std::array<Report, 4> & channels)
     best = std::min(best, offset.error);
   }
   const double mean = sum / weights;
-  const double freedom = static_cast<double>(offsets.size()) - 1.0;
+  const double dof = static_cast<double>(offsets.size()) - 1.0;
   double       chi2 = 0.0;
   for (const Measurement & offset : offsets)
   {
     chi2 += (offset.value - mean) * (offset.value - mean) / (offset.error * offset.error);
   }
   JointOffset joint;
-  joint.reducedChi2 = chi2 / freedom;
+  joint.reducedChi2 = chi2 / dof;
   // More than chance: whatever it is that makes them differ is in the mean, too.
-  const bool   isMore = chi2 > ChiSquareQuantile(0.95, freedom);
+  const bool   isMore = chi2 > ChiSquareQuantile(0.95, dof);
   const double error = std::sqrt((isMore ? joint.reducedChi2 : 1.0) / weights);
   if (error < best)
   {

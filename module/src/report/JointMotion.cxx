@@ -51,7 +51,7 @@ MeanOf(const Motion & first, const Motion & second)
 /** Sums of products over time, over the frames less one, of R and B's motion with G1 and G2's. */
 struct JointProducts
 {
-  double freedom{ 0.0 };        ///< frames that differ, less one
+  double dof{ 0.0 };            ///< frames that differ, less one
   double square[2]{ 0.0, 0.0 }; ///< along each axis: the noise is not in it [pixel^2]
   double noise[2]{ 0.0, 0.0 };  ///< the variance of what both differ by [pixel^2]
   double covariance{ 0.0 };     ///< of the axes [pixel^2]
@@ -59,13 +59,13 @@ struct JointProducts
   double
   ErrorOfSquare(std::size_t axis) const
   {
-    return std::sqrt((std::max(0.0, square[axis]) * noise[axis] + 0.25 * noise[axis] * noise[axis]) / freedom);
+    return std::sqrt((std::max(0.0, square[axis]) * noise[axis] + 0.25 * noise[axis] * noise[axis]) / dof);
   }
   double
   ErrorOfCovariance() const
   {
     const double both = std::max(0.0, square[0]) * noise[1] + std::max(0.0, square[1]) * noise[0];
-    return 0.5 * std::sqrt((both + 0.5 * noise[0] * noise[1]) / freedom);
+    return 0.5 * std::sqrt((both + 0.5 * noise[0] * noise[1]) / dof);
   }
 };
 
@@ -73,7 +73,7 @@ JointProducts
 ProductsOf(const Motion & a, const Motion & b, std::size_t framesDistinct)
 {
   JointProducts products;
-  products.freedom = static_cast<double>(std::max<std::size_t>(framesDistinct, 2) - 1);
+  products.dof = static_cast<double>(std::max<std::size_t>(framesDistinct, 2) - 1);
   const auto   known = static_cast<std::size_t>(std::count_if(a.begin(), a.end(), IsKnown));
   const double scale = 1.0 / static_cast<double>(std::max<std::size_t>(known, 2) - 1);
   for (std::size_t t = 0; t < a.size(); ++t)

@@ -39,9 +39,9 @@ ReportSceneChange(Report & report, const SceneChange & change)
     warnings.end());
   const Warning warning{ WarningCode::SceneChanges,
                          "the frames do not show one static scene: " +
-                           PercentApart(change.share, InMoments.sceneChangeShare) +
+                           PercentApart(change.share, InMoments.sceneChangeFraction) +
                            " of the differences between areas change from frame to frame (expected less than " +
-                           Percent(InMoments.sceneChangeShare) +
+                           Percent(InMoments.sceneChangeFraction) +
                            "). Check whether another axis was taken for time, the scene or camera moves, a pulsed lamp "
                            "is off in some frames "
                            "(leave them out: --frames), or the bytes of each pixel are swapped (--raw WxH:uint16be)" };

@@ -27,7 +27,7 @@ struct SceneConstants
   double startRatioRough{ 30.0 };
   /** Lower bound of the predicted variance, as a fraction of the variance of the darkest levels [1]. Chosen
    * empirically: a fit may become negative. */
-  double leastShareOfDarkest{ 0.2 };
+  double leastFractionOfDarkest{ 0.2 };
   /** The intercept is at least this fraction of this quantile of the raw variances [1]. Chosen empirically, for the
    * same reason. */
   double leastIntercept{ 0.3 };
@@ -48,7 +48,7 @@ struct SceneConstants
   /** Largest fraction of pixels whose noise is hidden by quantization [1]. Chosen empirically: 8-bit frames have 4 to
    * 10 %. With half, the gain was 5 to 8 % too high for a quantization step of 2.3 standard deviations of the noise of
    * the brightest pixels. */
-  double largestCoarseShare{ 0.2 };
+  double largestCoarseFraction{ 0.2 };
   ///@}
 
   /** \name Moving objects that cross the frame */
@@ -64,27 +64,27 @@ struct SceneConstants
    * changes a median by 3 %, and the illumination may change locally. With 1.2 the result for moving objects is the
    * same, but the margin for the illumination is small. With 1.8 more cells that an object crosses faintly are left. */
   double largestMedianRatio{ 1.4 };
-  /** Score of the model, see Candidate in CrossedRegion.cxx, from which no object is searched [1]. Chosen empirically:
-   * static scenes, rolling shutters and vibration give 0.98 to 1, a disk that crosses a quarter of the frame gives
-   * 0.75. With 0.7 that disk is left to the later passes. The gain is then the same, from a tenth more pixels, but
-   * flicker and offset are wrong under strong vibration. With 0.92 objects that cross a tenth of the frame are
-   * excluded here. */
+  /** Score of the model, see Candidate in TransientRegion.cxx, from which no object is searched [1]. Chosen
+   * empirically: static scenes, rolling shutters and vibration give 0.98 to 1, a disk that crosses a quarter of the
+   * frame gives 0.75. With 0.7 that disk is left to the later passes. The gain is then the same, from a tenth more
+   * pixels, but flicker and offset are wrong under strong vibration. With 0.92 objects that cross a tenth of the frame
+   * are excluded here. */
   double enoughScore{ 0.85 };
   /** Cost in the score of a fraction of cells below a model, in units of a fraction that fits [1]. No cell is below a
    * model of the static scene. A model of the object itself may fit two thirds of the frame and exceed the variance of
    * the rest. Chosen empirically: half and twice find the same regions. Without a cost, local changes of the
    * illumination are taken for an object. */
-  double costOfBelow{ 2.0 };
+  double penaltyOfBelow{ 2.0 };
   /** Cells above the model are due to the illumination if a separate flicker of every cell explains at least this
    * fraction of them [1]. The relative rms of the flicker must be at most the second number [1]. Chosen empirically:
    * where half of the signal bleaches by 20 % the two numbers are 1.0 and 0.06. For objects on charts and textures
    * they are 0.35 to 0.95 and 0.2 to 0.6. With 0.2 for the second number a faint object is taken for a lamp, with 0.05
    * this bleaching is taken for an object. */
-  double leastLightShare{ 0.8 };
+  double leastIlluminationFraction{ 0.8 };
   double largestLight{ 0.1 };
   /** Least fraction of pixels outside of the region [1]. If fewer are left, the whole frame moves, and all pixels are
    * left to the later passes. Chosen empirically. */
-  double leastStill{ 0.05 };
+  double leastStaticFraction{ 0.05 };
   ///@}
 
   /** \name Masked borders */
@@ -97,7 +97,7 @@ struct SceneConstants
   std::size_t pixelsOfBorderLine{ 128 };
   std::size_t leastPixelsOfBorderLine{ 8 };
   /** Fraction of the pixels beside a strip that must differ from it [1]: parts of a scene may have the same level. */
-  double leastBorderShare{ 0.95 };
+  double leastBorderFraction{ 0.95 };
   /** Largest median difference between the pixels of the lines after a strip, and largest difference between its last
    * and its first line. Both are relative to the step at its end [1]. The image of an edge is not as sharp: with a
    * Gaussian of 0.4 pixels, 0.16 of the step falls into the pixel before. The first was chosen empirically. */

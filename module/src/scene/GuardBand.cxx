@@ -41,7 +41,7 @@ LevelsOf(const CodeRange & codes, double brightest, double darkest, double sds)
  * they could alias the output, which prevents vectorization. */
 void
 MarkGuarded(const ReferenceFrame & frame,
-            ProvisionalModel       model,
+            InitialNoiseModel      model,
             GuardedLevels          guard,
             std::size_t            begin,
             std::size_t            end,
@@ -72,7 +72,7 @@ void
 MarkGuardedAbout(double                 offsetDn,
                  double                 lowestNoiseDn2,
                  const ReferenceFrame & frame,
-                 ProvisionalModel       model,
+                 InitialNoiseModel      model,
                  GuardedLevels          guard,
                  std::size_t            begin,
                  std::size_t            end,
@@ -101,13 +101,13 @@ MarkGuardedAbout(double                 offsetDn,
 } // namespace
 
 std::vector<std::uint8_t>
-FindGuardBand(const ReferenceFrame &   frame,
-              const ProvisionalModel & model,
-              const CodeRange &        codes,
-              double                   brightest,
-              double                   darkest,
-              const ParallelFor &      parallelFor,
-              double                   sds)
+FindGuardBand(const ReferenceFrame &    frame,
+              const InitialNoiseModel & model,
+              const CodeRange &         codes,
+              double                    brightest,
+              double                    darkest,
+              const ParallelFor &       parallelFor,
+              double                    sds)
 {
   std::vector<std::uint8_t> guarded(frame.mean.size(), 0);
   if (!codes.clipLowDn && !codes.clipHighDn)
@@ -123,7 +123,7 @@ FindGuardBand(const ReferenceFrame &   frame,
 
 std::vector<std::uint8_t>
 FindGuardBand(const ReferenceFrame &    frame,
-              const ProvisionalModel &  model,
+              const InitialNoiseModel & model,
               const CodeRange &         codes,
               const IlluminationRange & range,
               const ParallelFor &       parallelFor,

@@ -23,13 +23,13 @@ namespace sensornoise
  * small (estimator.md, 3.2). \a brightest and \a darkest are the extreme relative changes of the brightness of a
  * frame, above -1 [1]; 0 is the brightness of the mean frame. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
-FindGuardBand(const ReferenceFrame &   frame,
-              const ProvisionalModel & model,
-              const CodeRange &        codes,
-              double                   brightest,
-              double                   darkest,
-              const ParallelFor &      parallelFor,
-              double                   sds = InScene.guardBandSds);
+FindGuardBand(const ReferenceFrame &    frame,
+              const InitialNoiseModel & model,
+              const CodeRange &         codes,
+              double                    brightest,
+              double                    darkest,
+              const ParallelFor &       parallelFor,
+              double                    sds = InScene.guardBandSds);
 
 /** Range of the illumination and the offset, estimated from the levels of the frames and a rough model. */
 struct IlluminationRange
@@ -45,7 +45,7 @@ struct IlluminationRange
  * a clip level with the lowest or the highest offset, with the noise at the level that is reached. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
 FindGuardBand(const ReferenceFrame &    frame,
-              const ProvisionalModel &  model,
+              const InitialNoiseModel & model,
               const CodeRange &         codes,
               const IlluminationRange & range,
               const ParallelFor &       parallelFor,

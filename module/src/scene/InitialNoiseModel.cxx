@@ -22,7 +22,7 @@ namespace sensornoise
 namespace
 {
 void
-SetLevels(ProvisionalModel & model, const ReferenceFrame & frame, const std::vector<std::size_t> & pixels)
+SetLevels(InitialNoiseModel & model, const ReferenceFrame & frame, const std::vector<std::size_t> & pixels)
 {
   const std::size_t   n = pixels.size();
   std::vector<double> level(n);
@@ -36,7 +36,7 @@ SetLevels(ProvisionalModel & model, const ReferenceFrame & frame, const std::vec
 }
 
 void
-SetCoefficients(ProvisionalModel & model, const VarianceSample::Coefficients & theta, const VarianceSample & sample)
+SetCoefficients(InitialNoiseModel & model, const VarianceSample::Coefficients & theta, const VarianceSample & sample)
 {
   model.interceptDn2 = std::max(theta(0), InScene.leastIntercept * QuantileOf(sample.raw, InScene.quantileOfIntercept));
   const double averageRaw = QuantileOf(sample.raw, 0.5);
@@ -49,8 +49,8 @@ SetCoefficients(ProvisionalModel & model, const VarianceSample::Coefficients & t
 }
 } // namespace
 
-ProvisionalModel
-FitProvisionalModel(const ReferenceFrame & frame)
+InitialNoiseModel
+FitInitialNoiseModel(const ReferenceFrame & frame)
 {
   const std::vector<std::size_t> pixels = SamplePixels(frame.usable);
   if (pixels.size() < InScene.fewestPixels)
@@ -60,7 +60,7 @@ FitProvisionalModel(const ReferenceFrame & frame)
                            std::to_string(InScene.fewestPixels) +
                            ". Record a scene between the clip levels, or correct --mask, --roi or --clip");
   }
-  ProvisionalModel model;
+  InitialNoiseModel model;
   SetLevels(model, frame, pixels);
   model.largestRatio = std::max(InScene.largestRatio,
                                 1.0 + Significance.everyPixel * std::sqrt(2.0 / static_cast<double>(frame.frames - 1)));

@@ -11,7 +11,7 @@
 namespace sensornoise
 {
 
-/** \class ProvisionalModel
+/** \class InitialNoiseModel
  * \brief Initial noise model: the uncorrected temporal variance, from the maps of the first pass alone. It is (2.20)
  * of Sur & Gredi\'ac 2015, fitted robustly and with weights.
  *
@@ -20,7 +20,7 @@ namespace sensornoise
  * with x the neighbours' mean above the darkest level, gx and gy the derivatives of the mean. The model yields the
  * weights of all later steps, the guard band at the clip levels, and the pixels that are no part of a static scene. No
  * estimate of it is reported. Estimator.md, 3.2. */
-struct ProvisionalModel
+struct InitialNoiseModel
 {
   double darkestDn{ 0.0 };   ///< darkest quantile of the mean of the usable pixels [DN]
   double brightestDn{ 0.0 }; ///< brightest quantile of the mean of the usable pixels [DN]
@@ -62,8 +62,8 @@ struct ProvisionalModel
 /** Fits the model. It starts from the medians of 32 intensity bins of the smoother half of the pixels. Then it excludes
  * pixels whose variance is far above the model and fits again, five times. Throws NothingToMeasure if fewer than 100
  * pixels are usable. */
-SensorNoise_EXPORT ProvisionalModel
-FitProvisionalModel(const ReferenceFrame & frame);
+SensorNoise_EXPORT InitialNoiseModel
+FitInitialNoiseModel(const ReferenceFrame & frame);
 
 } // namespace sensornoise
 

@@ -25,7 +25,7 @@ ForInnerBlocks(const FrameGeometry & geometry, const ParallelFor & parallelFor, 
   {
     const std::size_t first = StencilMargin * geometry.width;
     ForBlocks(geometry.Pixels() - 2 * first, parallelFor, [&function, first](std::size_t begin, std::size_t end) {
-      WithWideVectors([&] { function(first + begin, first + end); });
+      CallWithAvx2([&] { function(first + begin, first + end); });
     });
   }
 }

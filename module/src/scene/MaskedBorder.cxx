@@ -50,7 +50,7 @@ struct BorderLines
 
 /** Returns the centre of the levels of a line [DN]; null: too few of its pixels are valid. */
 std::optional<RobustCentre>
-LevelsOfLine(std::vector<double> levels)
+LevelsAlongLine(std::vector<double> levels)
 {
   levels.erase(std::remove_if(levels.begin(), levels.end(), [](double level) { return !std::isfinite(level); }),
                levels.end());
@@ -79,7 +79,7 @@ MedianDifference(const std::vector<double> & levels, const std::vector<double> &
 
 /** Returns the fraction of the levels whose distance from \a level exceeds \a distance [1]. */
 double
-ShareBeyond(const std::vector<double> & levels, double level, double distance)
+FractionBeyond(const std::vector<double> & levels, double level, double distance)
 {
   std::size_t beyond = 0;
   std::size_t counted = 0;
@@ -99,8 +99,8 @@ EndsSharply(const BorderLines & border, const RobustCentre & outermost, std::siz
   const double                      distance = Significance.severalTests * outermost.sd;
   const std::vector<double>         beside = border.LevelsOf(count);
   const std::vector<double>         next = border.LevelsOf(count + 1);
-  const std::optional<RobustCentre> first = LevelsOfLine(beside);
-  if (!first || ShareBeyond(beside, outermost.median, distance) < InScene.leastBorderShare)
+  const std::optional<RobustCentre> first = LevelsAlongLine(beside);
+  if (!first || FractionBeyond(beside, outermost.median, distance) < InScene.leastBorderFraction)
   {
     return false;
   }
@@ -112,7 +112,7 @@ EndsSharply(const BorderLines & border, const RobustCentre & outermost, std::siz
   }
   if (count > 1)
   {
-    const auto last = LevelsOfLine(border.LevelsOf(count - 1));
+    const auto last = LevelsAlongLine(border.LevelsOf(count - 1));
     if (!last || std::abs(last->median - outermost.median) > InScene.largestBlur * step)
     {
       return false;
@@ -139,7 +139,7 @@ CountLines(const BorderLines & border, const RobustCentre & outermost)
   const auto largest = static_cast<std::size_t>(InScene.largestBorder * static_cast<double>(border.lines));
   for (std::size_t k = 1; k <= largest && k + 3 <= border.lines; ++k)
   {
-    const std::optional<RobustCentre> own = LevelsOfLine(border.LevelsOf(k));
+    const std::optional<RobustCentre> own = LevelsAlongLine(border.LevelsOf(k));
     if (!own)
     {
       return 0;
@@ -161,13 +161,13 @@ CountLines(const BorderLines & border, const RobustCentre & outermost)
 std::optional<MaskedStrip>
 FindStrip(const BorderLines & border, const char * words)
 {
-  const std::optional<RobustCentre> outermost = LevelsOfLine(border.LevelsOf(0));
+  const std::optional<RobustCentre> outermost = LevelsAlongLine(border.LevelsOf(0));
   const std::size_t                 count = outermost && outermost->sd > 0.0 ? CountLines(border, *outermost) : 0;
   if (count == 0)
   {
     return std::nullopt;
   }
-  return MaskedStrip{ words, count, outermost->median, LevelsOfLine(border.LevelsOf(count))->median };
+  return MaskedStrip{ words, count, outermost->median, LevelsAlongLine(border.LevelsOf(count))->median };
 }
 } // namespace
 

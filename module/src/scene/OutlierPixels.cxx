@@ -19,18 +19,18 @@ namespace
 /** Marks the pixels [begin, end) whose variance \a model does not explain. The model is passed by value: by reference
  * it could alias the output, which prevents vectorization. */
 void
-MarkUnexplained(const ReferenceFrame & frame,
-                ProvisionalModel       model,
-                std::size_t            begin,
-                std::size_t            end,
-                std::uint8_t *         unexplained)
+MarkOutlierPixels(const ReferenceFrame & frame,
+                  InitialNoiseModel      model,
+                  std::size_t            begin,
+                  std::size_t            end,
+                  std::uint8_t *         unexplained)
 {
   const double * const       mean = frame.mean.data();
   const double * const       level = frame.neighbourMean.data();
   const double * const       variance = frame.variance.data();
   const std::uint8_t * const usable = frame.usable.data();
   const std::size_t          width = frame.geometry.width;
-  const double               leastDn2 = InScene.leastShareOfDarkest * model.interceptDn2;
+  const double               leastDn2 = InScene.leastFractionOfDarkest * model.interceptDn2;
   for (std::size_t p = begin; p < end; ++p)
   {
     const auto [gx, gy] = ApplyGradient(mean, width, p);
@@ -42,17 +42,17 @@ MarkUnexplained(const ReferenceFrame & frame,
 } // namespace
 
 std::vector<std::uint8_t>
-FindUnexplained(const ReferenceFrame & frame, const ProvisionalModel & model, const ParallelFor & parallelFor)
+FindOutlierPixels(const ReferenceFrame & frame, const InitialNoiseModel & model, const ParallelFor & parallelFor)
 {
   std::vector<std::uint8_t> unexplained(frame.mean.size(), 0);
   ForInnerBlocks(frame.geometry, parallelFor, [&](std::size_t begin, std::size_t end) {
-    MarkUnexplained(frame, model, begin, end, unexplained.data());
+    MarkOutlierPixels(frame, model, begin, end, unexplained.data());
   });
   const std::size_t         width = frame.geometry.width;
   const auto                rows = [&] { return RowsOf(unexplained, width); };
   std::vector<std::uint8_t> crowded(unexplained.size());
   ForBoxRows(rows, width, frame.geometry.height, 3, parallelFor, [&](std::size_t y, const double * crowd) {
-    const double most = InCommon.largestFarShare * 49.0;
+    const double most = InCommon.largestOutlierFraction * 49.0;
     std::transform(crowd,
                    crowd + width,
                    unexplained.data() + y * width,

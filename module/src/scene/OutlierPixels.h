@@ -17,7 +17,7 @@ namespace sensornoise
 /** Marks outlier pixels, which are no part of a static scene as far as one pass determines it. Returns 1 where the
  * variance is far above the model, 2 where this is true of many of the 7 x 7 neighbours, else 0. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
-FindUnexplained(const ReferenceFrame & frame, const ProvisionalModel & model, const ParallelFor & parallelFor);
+FindOutlierPixels(const ReferenceFrame & frame, const InitialNoiseModel & model, const ParallelFor & parallelFor);
 
 } // namespace sensornoise
 

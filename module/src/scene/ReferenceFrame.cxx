@@ -103,7 +103,7 @@ MakeReferenceFrame(std::vector<double>               mean,
   parallelFor(geometry.height, [&](std::size_t y) {
     if (y >= StencilMargin && y + StencilMargin < geometry.height)
     {
-      WithWideVectors([&] { FillUsable(frame.variance, valid, width, y, frame.usable.data() + y * width); });
+      CallWithAvx2([&] { FillUsable(frame.variance, valid, width, y, frame.usable.data() + y * width); });
     }
   });
   FillNeighbourMean(frame, parallelFor);
@@ -111,7 +111,7 @@ MakeReferenceFrame(std::vector<double>               mean,
 }
 
 void
-UncoverUnknown(ReferenceFrame & frame, const ParallelFor & parallelFor)
+RestoreUnknownMeans(ReferenceFrame & frame, const ParallelFor & parallelFor)
 {
   ForBlocks(frame.mean.size(), parallelFor, [&frame](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
@@ -124,11 +124,11 @@ UncoverUnknown(ReferenceFrame & frame, const ParallelFor & parallelFor)
 void
 FillNeighbourMean(ReferenceFrame & frame, const ParallelFor & parallelFor)
 {
-  UncoverUnknown(frame, parallelFor); // a value filled in for a pixel must not enter the mean of its neighbours
+  RestoreUnknownMeans(frame, parallelFor); // a value filled in for a pixel must not enter the mean of its neighbours
   frame.neighbourMean = MakeMap<double>(frame.mean.size(), parallelFor);
   parallelFor(frame.geometry.height, [&](std::size_t y) {
     double * const means = frame.neighbourMean.data() + y * frame.geometry.width;
-    WithWideVectors([&] { FillNeighbourMeans(frame.mean, frame.geometry, y, means); });
+    CallWithAvx2([&] { FillNeighbourMeans(frame.mean, frame.geometry, y, means); });
   });
   ForBlocks(frame.mean.size(), parallelFor, [&frame](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)

@@ -48,7 +48,7 @@ FillNeighbourMean(ReferenceFrame & frame, const ParallelFor & parallelFor = Seri
 
 /** Sets the unknown means to NaN again, as in a map for display. */
 SensorNoise_EXPORT void
-UncoverUnknown(ReferenceFrame & frame, const ParallelFor & parallelFor = SerialFor);
+RestoreUnknownMeans(ReferenceFrame & frame, const ParallelFor & parallelFor = SerialFor);
 
 } // namespace sensornoise
 

@@ -28,7 +28,7 @@ LeaveOutBorder(std::vector<std::uint8_t> & valid, const MaskedBorder & border, c
 
 /** Sets the use of the pixels of the masked border, and of the pixels beside it, which have no centred difference. */
 void
-NameBorder(StillScene & scene)
+MarkBorder(StaticScene & scene)
 {
   const FrameGeometry & geometry = scene.frame.geometry;
   const auto            widened = [](std::size_t lines) { return lines > 0 ? lines + StencilMargin : 0; };
@@ -52,9 +52,9 @@ NameBorder(StillScene & scene)
 
 /** Excludes the region that a moving object crosses. Returns false if there is none. */
 bool
-LeaveOutCrossed(StillScene & scene)
+ExcludeTransientRegion(StaticScene & scene)
 {
-  const std::vector<std::uint8_t> crossed = FindCrossedRegion(scene.frame, scene.model);
+  const std::vector<std::uint8_t> crossed = FindTransientRegion(scene.frame, scene.model);
   for (std::size_t p = 0; p < crossed.size(); ++p)
   {
     if (crossed[p] != 0 && scene.frame.usable[p] != 0)
@@ -67,26 +67,26 @@ LeaveOutCrossed(StillScene & scene)
 }
 } // namespace
 
-StillScene
-MakeStillScene(const StackSummary &              summary,
-               std::vector<double>               mean,
-               std::vector<double>               variance,
-               std::vector<std::uint8_t>         valid,
-               const std::vector<std::uint8_t> & userMask,
-               const FrameGeometry &             geometry,
-               std::size_t                       frames,
-               const std::vector<double> &       frameMeans,
-               const ParallelFor &               parallelFor,
-               const std::optional<double> &     darkestNoiseDn2)
+StaticScene
+MakeStaticScene(const StackSummary &              summary,
+                std::vector<double>               mean,
+                std::vector<double>               variance,
+                std::vector<std::uint8_t>         valid,
+                const std::vector<std::uint8_t> & userMask,
+                const FrameGeometry &             geometry,
+                std::size_t                       frames,
+                const std::vector<double> &       frameMeans,
+                const ParallelFor &               parallelFor,
+                const std::optional<double> &     darkestNoiseDn2)
 {
-  StillScene scene;
+  StaticScene scene;
   scene.summary = summary;
   scene.changesStrongly = darkestNoiseDn2.has_value();
   scene.border = FindMaskedBorder(mean, valid, geometry);
   LeaveOutBorder(valid, scene.border, geometry);
   scene.frame = MakeReferenceFrame(std::move(mean), std::move(variance), valid, geometry, frames, parallelFor);
   scene.pixelUse = FindPixelUse(scene.frame, valid, userMask, parallelFor);
-  NameBorder(scene);
+  MarkBorder(scene);
   // After the reference frame: a masked pixel may serve as a neighbour.
   for (std::size_t p = 0; p < userMask.size(); ++p)
   {
@@ -97,26 +97,26 @@ MakeStillScene(const StackSummary &              summary,
   try
   {
     RequireDistinctFrames(frames, valid);
-    scene.model = FitProvisionalModel(scene.frame);
-    if (LeaveOutCrossed(scene))
+    scene.model = FitInitialNoiseModel(scene.frame);
+    if (ExcludeTransientRegion(scene))
     {
-      scene.model = FitProvisionalModel(scene.frame);
+      scene.model = FitInitialNoiseModel(scene.frame);
     }
     // Under strong changes of the illumination the range of a pixel is known only roughly: in a flat field all pixels
     // or none are in the guard band.
     const CodeRange codes = scene.changesStrongly ? summary.AttainedCodes() : summary.codes;
-    UsablePixels    found = LeaveOutCoarseAndGuarded(
+    UsablePixels    found = ExcludeCoarseAndGuarded(
       scene.frame, scene.model, codes, frameMeans, std::move(scene.pixelUse), parallelFor, darkestNoiseDn2);
     scene.frame.usable = std::move(found.usable);
     scene.pixelUse = std::move(found.pixelUse);
     scene.usable = found.count;
     scene.nearClip = found.nearClip;
     scene.coarse = found.coarse;
-    RequireFineCodes(found, summary.codes.quantisationStepDn);
+    RequireFineQuantization(found, summary.codes.quantisationStepDn);
   }
-  catch (const NothingToMeasure & obstacle)
+  catch (const NothingToMeasure & failureReason)
   {
-    scene.obstacle = obstacle;
+    scene.failureReason = failureReason;
   }
   return scene;
 }

@@ -20,14 +20,14 @@ namespace sensornoise
 {
 
 /** Static scene, the result of the first pass: the mean image, a rough model of its noise, and the usable pixels. */
-struct StillScene
+struct StaticScene
 {
   StackSummary summary;
   MaskedBorder border;             ///< strips that are not part of the scene, which are excluded
   std::size_t  valid{ 0 };         ///< number of pixels that are finite, never at a clip level, and not masked by
                                    ///< the user
   ReferenceFrame            frame; ///< its `usable` pixels are the usable ones of the scene
-  ProvisionalModel          model;
+  InitialNoiseModel         model;
   std::vector<std::uint8_t> pixelUse;      ///< values of PixelUse, as far as one pass determines them
   double                    usable{ 0.0 }; ///< number of usable pixels
   std::size_t               nearClip{ 0 }; ///< number of pixels that clipping could affect
@@ -36,7 +36,7 @@ struct StillScene
   bool changesStrongly{ false };           ///< whether the illumination changes strongly
 
   /** Reason why the stack cannot be measured; the model may then be missing. Null: it can be measured. */
-  std::optional<NothingToMeasure> obstacle;
+  std::optional<NothingToMeasure> failureReason;
 };
 
 /** Makes the scene from the maps of a stack.
@@ -46,17 +46,17 @@ struct StillScene
  * \param frameMeans means of the frames [DN]
  * \param darkestNoiseDn2 if given, the illumination changes strongly and \a variance is without these changes
  * (LevelProjection); it is an upper bound of the noise variance in the darkest frame [DN^2] */
-SensorNoise_EXPORT StillScene
-MakeStillScene(const StackSummary &              summary,
-               std::vector<double>               mean,
-               std::vector<double>               variance,
-               std::vector<std::uint8_t>         valid,
-               const std::vector<std::uint8_t> & userMask,
-               const FrameGeometry &             geometry,
-               std::size_t                       frames,
-               const std::vector<double> &       frameMeans,
-               const ParallelFor &               parallelFor = SerialFor,
-               const std::optional<double> &     darkestNoiseDn2 = std::nullopt);
+SensorNoise_EXPORT StaticScene
+MakeStaticScene(const StackSummary &              summary,
+                std::vector<double>               mean,
+                std::vector<double>               variance,
+                std::vector<std::uint8_t>         valid,
+                const std::vector<std::uint8_t> & userMask,
+                const FrameGeometry &             geometry,
+                std::size_t                       frames,
+                const std::vector<double> &       frameMeans,
+                const ParallelFor &               parallelFor = SerialFor,
+                const std::optional<double> &     darkestNoiseDn2 = std::nullopt);
 
 } // namespace sensornoise
 

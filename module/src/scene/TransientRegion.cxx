@@ -23,12 +23,12 @@ using Coefficients = VarianceSample::Coefficients;
 struct Candidate
 {
   VariancePrediction prediction;
-  JudgedCells        judged;
+  TileComparison     judged;
 
   double
   Score() const
   {
-    return judged.fitting - InScene.costOfBelow * judged.below;
+    return judged.fitting - InScene.penaltyOfBelow * judged.below;
   }
 };
 
@@ -44,7 +44,7 @@ NotNegative(Coefficients theta)
 }
 
 Coefficients
-CoefficientsOf(const ProvisionalModel & model, double scaleDn)
+CoefficientsOf(const InitialNoiseModel & model, double scaleDn)
 {
   Coefficients theta;
   theta << model.interceptDn2, model.slopeDn * scaleDn, model.flickerVariance * scaleDn * scaleDn,
@@ -96,7 +96,7 @@ PixelsOfPart(const std::vector<std::size_t> & pixels, const FrameGeometry & geom
 /** Fits a model to \a part of the frame, extends it several times to all cells that fit it, and returns the best of
  * these models. */
 Candidate
-FollowPart(const VarianceSample & part, const VarianceSample & whole, const VarianceCells & cells, double largestRatio)
+FollowPart(const VarianceSample & part, const VarianceSample & whole, const VarianceTiles & cells, double largestRatio)
 {
   VariancePrediction drawn = StartFromMedians(part);
   Coefficients       theta = Coefficients::Zero();
@@ -131,7 +131,7 @@ FollowPart(const VarianceSample & part, const VarianceSample & whole, const Vari
 
 /** Returns the number of cells of \a region within \a radius of a cell, and the number of all cells there. */
 std::pair<std::size_t, std::size_t>
-CountNear(const std::vector<std::uint8_t> & region, const VarianceCells & cells, std::size_t c, std::size_t radius)
+CountNear(const std::vector<std::uint8_t> & region, const VarianceTiles & cells, std::size_t c, std::size_t radius)
 {
   const std::size_t x = c % cells.Columns();
   const std::size_t y = c / cells.Columns();
@@ -151,7 +151,7 @@ CountNear(const std::vector<std::uint8_t> & region, const VarianceCells & cells,
 /** Adds the neighbours, which the object touches. Then adds cells most of whose 5 x 5 neighbours belong to the region,
  * until none is left. Where an object is as bright as its background, its variance is not visible. */
 std::vector<std::uint8_t>
-Close(const std::vector<std::uint8_t> & region, const VarianceCells & cells)
+Close(const std::vector<std::uint8_t> & region, const VarianceTiles & cells)
 {
   std::vector<std::uint8_t> closed(region.size());
   for (std::size_t c = 0; c < region.size(); ++c)
@@ -178,10 +178,10 @@ Close(const std::vector<std::uint8_t> & region, const VarianceCells & cells)
 Candidate
 FindBest(Candidate                        best,
          const ReferenceFrame &           frame,
-         const ProvisionalModel &         model,
+         const InitialNoiseModel &        model,
          const std::vector<std::size_t> & pixels,
          const VarianceSample &           whole,
-         const VarianceCells &            cells)
+         const VarianceTiles &            cells)
 {
   for (const FramePart & part : PartsOfFrame())
   {
@@ -200,11 +200,11 @@ FindBest(Candidate                        best,
 } // namespace
 
 std::vector<std::uint8_t>
-FindCrossedRegion(const ReferenceFrame & frame, const ProvisionalModel & model)
+FindTransientRegion(const ReferenceFrame & frame, const InitialNoiseModel & model)
 {
   const std::vector<std::size_t> pixels = SamplePixels(frame.usable);
   const VarianceSample           sample = SampleVariance(frame, pixels, model);
-  const VarianceCells            cells(sample, pixels, frame.geometry, frame.frames);
+  const VarianceTiles            cells(sample, pixels, frame.geometry, frame.frames);
   Candidate                      best;
   best.prediction.lowest = model.interceptDn2;
   Predict(sample, CoefficientsOf(model, sample.scale), model.largestRatio, best.prediction);
@@ -214,8 +214,8 @@ FindCrossedRegion(const ReferenceFrame & frame, const ProvisionalModel & model)
     return {};
   }
   best = FindBest(std::move(best), frame, model, pixels, sample, cells);
-  const LightOfCells light = cells.FindLight(best.judged, best.prediction, model.largestRatio);
-  if (light.explained >= InScene.leastLightShare && light.modulation <= InScene.largestLight)
+  const IlluminationTest light = cells.FindLight(best.judged, best.prediction, model.largestRatio);
+  if (light.explained >= InScene.leastIlluminationFraction && light.modulation <= InScene.largestLight)
   {
     return {};
   }
@@ -226,7 +226,7 @@ FindCrossedRegion(const ReferenceFrame & frame, const ProvisionalModel & model)
   region = Close(region, cells);
   const auto still =
     std::count_if(pixels.begin(), pixels.end(), [&](std::size_t p) { return region[cells.CellOfPixel(p)] == 0; });
-  if (static_cast<double>(still) < InScene.leastStill * static_cast<double>(pixels.size()))
+  if (static_cast<double>(still) < InScene.leastStaticFraction * static_cast<double>(pixels.size()))
   {
     return {};
   }

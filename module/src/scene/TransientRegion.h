@@ -22,12 +22,12 @@ namespace sensornoise
  * as possible fit it; a third of the frame or less is enough.
  *
  * Nothing is searched where \a model, which was fitted to all usable pixels, explains 85 % of the frame and few cells
- * lie below it. Smaller objects are left to FindUnexplained() and to the third pass. Otherwise models are fitted to
+ * lie below it. Smaller objects are left to FindOutlierPixels() and to the third pass. Otherwise models are fitted to
  * parts of the frame: halves, thirds and ninths. Each is then extended over all cells that fit it. The cells above the
  * best model are the region, with their neighbours and the narrow islands between them. Local changes of the
  * illumination are not an object, see FindLocalIllumination(). */
 SensorNoise_EXPORT std::vector<std::uint8_t>
-FindCrossedRegion(const ReferenceFrame & frame, const ProvisionalModel & model);
+FindTransientRegion(const ReferenceFrame & frame, const InitialNoiseModel & model);
 
 } // namespace sensornoise
 

@@ -47,7 +47,9 @@ UseOf(const ReferenceFrame & frame, const std::vector<std::uint8_t> & valid, std
 /** Returns the smallest and the largest change of the brightness of a frame relative to the average, from the means of
  * the frames or from the model of the variance [1]. */
 std::pair<double, double>
-ExtremesOfLight(const ReferenceFrame & frame, const ProvisionalModel & model, const std::vector<double> & frameMeans)
+BrightnessExtremes(const ReferenceFrame &      frame,
+                   const InitialNoiseModel &   model,
+                   const std::vector<double> & frameMeans)
 {
   const double average = std::accumulate(frameMeans.begin(), frameMeans.end(), 0.0) / static_cast<double>(frame.frames);
   const double flux = std::max(1e-3, model.centreDn - model.darkestDn);
@@ -62,7 +64,7 @@ ExtremesOfLight(const ReferenceFrame & frame, const ProvisionalModel & model, co
  * offset, and the variance at the offset is not negative. */
 IlluminationRange
 RangeOfIllumination(const ReferenceFrame &      frame,
-                    const ProvisionalModel &    model,
+                    const InitialNoiseModel &   model,
                     const std::vector<double> & frameMeans,
                     double                      darkestNoiseDn2)
 {
@@ -89,15 +91,15 @@ FindPixelUse(const ReferenceFrame &            frame,
 }
 
 UsablePixels
-LeaveOutCoarseAndGuarded(const ReferenceFrame &        frame,
-                         const ProvisionalModel &      model,
-                         const CodeRange &             codes,
-                         const std::vector<double> &   frameMeans,
-                         std::vector<std::uint8_t>     pixelUse,
-                         const ParallelFor &           parallelFor,
-                         const std::optional<double> & darkestNoiseDn2)
+ExcludeCoarseAndGuarded(const ReferenceFrame &        frame,
+                        const InitialNoiseModel &     model,
+                        const CodeRange &             codes,
+                        const std::vector<double> &   frameMeans,
+                        std::vector<std::uint8_t>     pixelUse,
+                        const ParallelFor &           parallelFor,
+                        const std::optional<double> & darkestNoiseDn2)
 {
-  const auto [darkest, brightest] = ExtremesOfLight(frame, model, frameMeans);
+  const auto [darkest, brightest] = BrightnessExtremes(frame, model, frameMeans);
   const auto guarded =
     darkestNoiseDn2
       ? FindGuardBand(frame, model, codes, RangeOfIllumination(frame, model, frameMeans, *darkestNoiseDn2), parallelFor)
@@ -123,21 +125,21 @@ LeaveOutCoarseAndGuarded(const ReferenceFrame &        frame,
   });
   pixels.coarse = static_cast<std::size_t>(counts[1]);
   pixels.nearClip = static_cast<std::size_t>(counts[2]);
-  pixels.coarseInLight = static_cast<std::size_t>(counts[3]);
+  pixels.coarseWhereBright = static_cast<std::size_t>(counts[3]);
   pixels.count = counts[0] - counts[1] - counts[2];
   return pixels;
 }
 
 void
-RequireFineCodes(const UsablePixels & pixels, double stepDn)
+RequireFineQuantization(const UsablePixels & pixels, double stepDn)
 {
-  const auto   coarse = static_cast<double>(pixels.coarse - pixels.coarseInLight);
+  const auto   coarse = static_cast<double>(pixels.coarse - pixels.coarseWhereBright);
   const double all = pixels.count + static_cast<double>(pixels.coarse + pixels.nearClip);
-  if (coarse > InScene.largestCoarseShare * all)
+  if (coarse > InScene.largestCoarseFraction * all)
   {
-    throw NothingToMeasure("the noise of " + PercentApart(coarse / all, InScene.largestCoarseShare) +
+    throw NothingToMeasure("the noise of " + PercentApart(coarse / all, InScene.largestCoarseFraction) +
                              " of the pixels, the darkest, is below half the quantization step of " + Text(stepDn) +
-                             " DN, which hides it (expected at most " + Percent(InScene.largestCoarseShare) +
+                             " DN, which hides it (expected at most " + Percent(InScene.largestCoarseFraction) +
                              " of the pixels). Use more bits, or a higher analogue gain",
                            WarningCode::CodesTooCoarse);
   }

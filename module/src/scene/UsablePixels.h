@@ -34,7 +34,7 @@ struct UsablePixels
   std::size_t               nearClip{ 0 }; ///< number of excluded pixels in the guard band
   std::size_t               coarse{ 0 };   ///< number of excluded pixels whose noise is below half a quantization step
   /** Number of the coarse pixels of companded codes that are brighter than the centre; the fit does not need them. */
-  std::size_t coarseInLight{ 0 };
+  std::size_t coarseWhereBright{ 0 };
 };
 
 /** Excludes the pixels that clipping could affect (FindGuardBand), and pixels whose noise is below half a quantization
@@ -44,18 +44,18 @@ struct UsablePixels
  * \param darkestNoiseDn2 if given, the illumination changes strongly and the variance of \a frame is without these
  * changes; it is an upper bound of the noise variance in the darkest frame [DN^2] */
 SensorNoise_EXPORT UsablePixels
-LeaveOutCoarseAndGuarded(const ReferenceFrame &        frame,
-                         const ProvisionalModel &      model,
-                         const CodeRange &             codes,
-                         const std::vector<double> &   frameMeans,
-                         std::vector<std::uint8_t>     pixelUse,
-                         const ParallelFor &           parallelFor,
-                         const std::optional<double> & darkestNoiseDn2 = std::nullopt);
+ExcludeCoarseAndGuarded(const ReferenceFrame &        frame,
+                        const InitialNoiseModel &     model,
+                        const CodeRange &             codes,
+                        const std::vector<double> &   frameMeans,
+                        std::vector<std::uint8_t>     pixelUse,
+                        const ParallelFor &           parallelFor,
+                        const std::optional<double> & darkestNoiseDn2 = std::nullopt);
 
 /** Throws NothingToMeasure, CodesTooCoarse, if the quantization step \a stepDn [DN] hides the noise of more than a
  * fifth of the pixels, without the bright ones of companded codes. */
 SensorNoise_EXPORT void
-RequireFineCodes(const UsablePixels & pixels, double stepDn);
+RequireFineQuantization(const UsablePixels & pixels, double stepDn);
 
 } // namespace sensornoise
 

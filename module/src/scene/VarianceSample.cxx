@@ -19,7 +19,7 @@ constexpr std::size_t Bins = 32; // number of intensity bins
 } // namespace
 
 VarianceSample
-SampleVariance(const ReferenceFrame & frame, const std::vector<std::size_t> & pixels, const ProvisionalModel & model)
+SampleVariance(const ReferenceFrame & frame, const std::vector<std::size_t> & pixels, const InitialNoiseModel & model)
 {
   const auto &      stencils = MotionStencils();
   const std::size_t n = pixels.size();
@@ -115,7 +115,7 @@ Predict(const VarianceSample &               sample,
   prediction.keep.resize(sample.Size());
   for (std::size_t i = 0; i < sample.Size(); ++i)
   {
-    prediction.variance[i] = std::max(InScene.leastShareOfDarkest * prediction.lowest, sample.TermsOf(i).dot(theta));
+    prediction.variance[i] = std::max(InScene.leastFractionOfDarkest * prediction.lowest, sample.TermsOf(i).dot(theta));
     prediction.keep[i] = sample.raw[i] < largestRatio * prediction.variance[i] ? 1 : 0;
   }
 }

@@ -14,9 +14,9 @@
 namespace sensornoise
 {
 
-struct ProvisionalModel;
+struct InitialNoiseModel;
 
-/** The pixels to which a ProvisionalModel is fitted: their raw variance, and the terms of the model. */
+/** The pixels to which a InitialNoiseModel is fitted: their raw variance, and the terms of the model. */
 struct VarianceSample
 {
   static constexpr int Terms = 6; ///< number of terms: intercept, x, x^2, gx^2, gy^2, gx gy
@@ -44,7 +44,7 @@ struct VarianceSample
 
 /** Samples \a pixels. The darkest and the brightest level are taken from \a model. */
 SensorNoise_EXPORT VarianceSample
-SampleVariance(const ReferenceFrame & frame, const std::vector<std::size_t> & pixels, const ProvisionalModel & model);
+SampleVariance(const ReferenceFrame & frame, const std::vector<std::size_t> & pixels, const InitialNoiseModel & model);
 
 /** Variance that a fit predicts for every pixel, and the pixels that the fit keeps. */
 struct VariancePrediction

@@ -13,7 +13,7 @@
 namespace sensornoise
 {
 
-VarianceCells::VarianceCells(const VarianceSample &           sample,
+VarianceTiles::VarianceTiles(const VarianceSample &           sample,
                              const std::vector<std::size_t> & pixels,
                              const FrameGeometry &            geometry,
                              std::size_t                      frames)
@@ -23,14 +23,14 @@ VarianceCells::VarianceCells(const VarianceSample &           sample,
   , m_Rows(std::clamp<std::size_t>(geometry.height / InScene.leastCellWidth, 1, InScene.mostCells))
   , m_CellOf(pixels.size())
 {
-  const auto freedom = static_cast<double>(frames - 1);
-  m_MedianRatio = ChiSquareQuantile(0.5, freedom) / freedom;
+  const auto dof = static_cast<double>(frames - 1);
+  m_MedianRatio = ChiSquareQuantile(0.5, dof) / dof;
   std::transform(
     pixels.begin(), pixels.end(), m_CellOf.begin(), [this](std::size_t p) { return this->CellOfPixel(p); });
 }
 
-JudgedCells
-VarianceCells::Judge(const VariancePrediction & prediction) const
+TileComparison
+VarianceTiles::Judge(const VariancePrediction & prediction) const
 {
   const std::size_t                count = m_Columns * m_Rows;
   std::vector<std::vector<double>> ratios(count);
@@ -41,8 +41,8 @@ VarianceCells::Judge(const VariancePrediction & prediction) const
     ratios[c].push_back(m_Sample.raw[i] / (m_MedianRatio * prediction.variance[i]));
     far[c] += prediction.keep[i] != 0 ? 0.0 : 1.0;
   }
-  JudgedCells judged;
-  double      all = 0.0;
+  TileComparison judged;
+  double         all = 0.0;
   for (std::size_t c = 0; c < count; ++c)
   {
     const auto pixels = static_cast<double>(ratios[c].size());
@@ -52,7 +52,7 @@ VarianceCells::Judge(const VariancePrediction & prediction) const
       continue;
     }
     const double median = Quantile(ratios[c], 0.5);
-    const bool   isAbove = median > InScene.largestMedianRatio || far[c] > InCommon.largestFarShare * pixels;
+    const bool   isAbove = median > InScene.largestMedianRatio || far[c] > InCommon.largestOutlierFraction * pixels;
     const bool   isBelow = median < 1.0 / InScene.largestMedianRatio;
     judged.fits.push_back(isAbove ? CellFit::Above : isBelow ? CellFit::Below : CellFit::Fits);
     (isAbove ? judged.above : isBelow ? judged.below : judged.fitting) += pixels;
@@ -65,8 +65,10 @@ VarianceCells::Judge(const VariancePrediction & prediction) const
   return judged;
 }
 
-LightOfCells
-VarianceCells::FindLight(const JudgedCells & judged, const VariancePrediction & prediction, double largestRatio) const
+IlluminationTest
+VarianceTiles::FindLight(const TileComparison &     judged,
+                         const VariancePrediction & prediction,
+                         double                     largestRatio) const
 {
   std::vector<std::vector<std::size_t>> pixels(judged.fits.size());
   for (std::size_t i = 0; i < m_Sample.Size(); ++i)
@@ -99,7 +101,7 @@ VarianceCells::FindLight(const JudgedCells & judged, const VariancePrediction & 
       off += ratio > largestRatio || ratio < 1.0 / largestRatio ? 1.0 : 0.0;
     }
     cells += own.empty() ? 0.0 : 1.0;
-    explained += !own.empty() && off <= InCommon.largestFarShare * static_cast<double>(own.size()) ? 1.0 : 0.0;
+    explained += !own.empty() && off <= InCommon.largestOutlierFraction * static_cast<double>(own.size()) ? 1.0 : 0.0;
   }
   return { explained / std::max(1.0, cells), std::sqrt(std::max(0.0, excess / std::max(1e-30, signal))) };
 }

@@ -24,7 +24,7 @@ enum class CellFit : std::uint8_t
 };
 
 /** All cells, compared with a model. The fractions are of the pixels of the known cells, and add up to 1. */
-struct JudgedCells
+struct TileComparison
 {
   std::vector<CellFit> fits;           ///< row by row
   double               fitting{ 0.0 }; ///< fraction that fits [1]
@@ -34,21 +34,21 @@ struct JudgedCells
 
 /** Test whether changes of the illumination explain the cells above a model: the signal of every pixel changes by the
  * same factor. */
-struct LightOfCells
+struct IlluminationTest
 {
   double explained{ 0.0 };  ///< fraction of the cells whose pixels are explained by one flicker per cell [1]
   double modulation{ 0.0 }; ///< square root of the ratio of the variance above the model to the squared level above the
                             ///< darkest one [1]
 };
 
-/** \class VarianceCells
+/** \class VarianceTiles
  * \brief Rectangles of the frame, at most 24 x 24 and at least 8 pixels wide, by which the raw variance is compared
  * with a model. The median of some 60 pixels yields the variance of a cell to a few per cent. */
-class SensorNoise_EXPORT VarianceCells
+class SensorNoise_EXPORT VarianceTiles
 {
 public:
   /** \a pixels are the pixels of \a sample, which must outlive the object; \a frames is the number of frames T. */
-  VarianceCells(const VarianceSample &           sample,
+  VarianceTiles(const VarianceSample &           sample,
                 const std::vector<std::size_t> & pixels,
                 const FrameGeometry &            geometry,
                 std::size_t                      frames);
@@ -78,13 +78,13 @@ public:
     return m_CellOf[i];
   }
   /** Compares the cells with the variance that a model predicts. */
-  JudgedCells
+  TileComparison
   Judge(const VariancePrediction & prediction) const;
 
   /** Tests whether changes of the illumination explain the cells of \a judged that are above the model: a separate
    * flicker in every cell. A pixel is not explained if its variance differs by more than the factor \a largestRatio. */
-  LightOfCells
-  FindLight(const JudgedCells & judged, const VariancePrediction & prediction, double largestRatio) const;
+  IlluminationTest
+  FindLight(const TileComparison & judged, const VariancePrediction & prediction, double largestRatio) const;
 
 private:
   const VarianceSample & m_Sample;

@@ -53,10 +53,10 @@ WithConstant(const Eigen::MatrixXd & basis)
 double
 DevianceOf(const WhitenedCell & cell, Eigen::Index columns)
 {
-  const Eigen::Index freedom = cell.rotated.size() - columns;
-  const double       squares = std::max(1e-300, cell.rotated.tail(freedom).squaredNorm());
+  const Eigen::Index dof = cell.rotated.size() - columns;
+  const double       squares = std::max(1e-300, cell.rotated.tail(dof).squaredNorm());
   const double ofColumns = cell.decomposition.matrixQR().diagonal().head(columns).array().abs().max(1e-300).log().sum();
-  return static_cast<double>(freedom) * std::log(squares) - 2.0 * cell.weight.array().log().sum() + 2.0 * ofColumns;
+  return static_cast<double>(dof) * std::log(squares) - 2.0 * cell.weight.array().log().sum() + 2.0 * ofColumns;
 }
 
 Eigen::VectorXd

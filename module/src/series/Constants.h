@@ -21,11 +21,11 @@ struct SeriesConstants
   std::array<double, 5> classEdges{ { 0.4, 0.6, 0.75, 0.87, 0.95 } };
   /** A derivative is a column only if at least this fraction of its sum of squares is signal, not noise of the mean
    * [1]. Chosen empirically. Half: the same results; twice: no derivative is left, and gains are up to 1.3 % off. */
-  double leastSignalShare{ 0.5 };
+  double leastSignalFraction{ 0.5 };
   /** Fraction of a column that must remain beside the other columns for it to be identifiable [1]. Chosen empirically:
    * a smaller fraction is within the effect of vignetting on a ramp, and the offset would be ten times as uncertain as
    * from levels. */
-  double leastOwnShare{ 0.01 };
+  double leastDistinctFraction{ 0.01 };
   /** Number of frames from which derivatives of the third order are tried. Chosen empirically. */
   std::size_t framesForThirdOrder{ 20 };
   ///@}
@@ -93,7 +93,7 @@ struct SeriesConstants
   int largestShotPower{ 20 };
   /** Least degrees of freedom that the known series must leave for a search of local illumination. Chosen empirically.
    */
-  std::ptrdiff_t leastFreedomOfCells{ 4 };
+  std::ptrdiff_t leastDofOfCells{ 4 };
   /** Ratio to the edge of the noise, by Marchenko and Pastur, above which an eigenvalue is due to the illumination [1].
    * Chosen empirically. Half: spatially correlated noise is taken for illumination, and gains of smoothed frames are 2
    * % low; twice: the same results. */

@@ -102,7 +102,7 @@ struct FrameSums::Batch
           const TPixel * const frame =
             layout.SideBySide(frames + (t + k) * layout.frame, band.First(), band.First() + band.Pixels(), room.data());
           double * const series = band.Series(k);
-          WithWideVectors([&] {
+          CallWithAvx2([&] {
             std::transform(frame, frame + band.Pixels(), mean, series, [](TPixel value, double expected) {
               return static_cast<double>(value) - expected;
             });

@@ -58,7 +58,7 @@ FindCandidates(const Eigen::MatrixXd & rawGram, const Eigen::MatrixXd & gram, in
   for (std::size_t k = 2; k < FrameColumns; ++k)
   {
     const auto i = static_cast<Eigen::Index>(k);
-    if (stencils[k - 2].order <= largestOrder && gram(i, i) > InSeries.leastSignalShare * rawGram(i, i))
+    if (stencils[k - 2].order <= largestOrder && gram(i, i) > InSeries.leastSignalFraction * rawGram(i, i))
     {
       active.push_back(k);
     }
@@ -70,10 +70,10 @@ FindCandidates(const Eigen::MatrixXd & rawGram, const Eigen::MatrixXd & gram, in
  * a statistical error in the Gram matrix: relative to their signal, sqrt(3 / pixels) of the noise, because neighbours
  * have half of their noise in common. */
 double
-LeastShareBeside(const Eigen::MatrixXd &          rawGram,
-                 const Eigen::MatrixXd &          gram,
-                 const std::vector<std::size_t> & active,
-                 double                           pixels)
+LeastDistinctFraction(const Eigen::MatrixXd &          rawGram,
+                      const Eigen::MatrixXd &          gram,
+                      const std::vector<std::size_t> & active,
+                      double                           pixels)
 {
   double noise = 0.0;
   for (const std::size_t k : active)
@@ -84,17 +84,17 @@ LeastShareBeside(const Eigen::MatrixXd &          rawGram,
       noise += (rawGram(i, i) - gram(i, i)) / gram(i, i);
     }
   }
-  return std::max(InSeries.leastOwnShare,
+  return std::max(InSeries.leastDistinctFraction,
                   noise > 0.0 ? Significance.severalTests * noise * std::sqrt(3.0 / pixels) : 0.0);
 }
 
 /** Removes the weaker of the first derivatives if both are proportional: then only motion along the gradient is
  * identifiable. */
 void
-DropTwin(const Eigen::MatrixXd &    rawGram,
-         const Eigen::MatrixXd &    gram,
-         double                     pixels,
-         std::vector<std::size_t> & active)
+RemoveProportionalDerivative(const Eigen::MatrixXd &    rawGram,
+                             const Eigen::MatrixXd &    gram,
+                             double                     pixels,
+                             std::vector<std::size_t> & active)
 {
   constexpr auto x = static_cast<Eigen::Index>(2 + StencilX);
   constexpr auto y = static_cast<Eigen::Index>(2 + StencilY);
@@ -102,7 +102,7 @@ DropTwin(const Eigen::MatrixXd &    rawGram,
     return std::find(active.begin(), active.end(), static_cast<std::size_t>(k)) != active.end();
   };
   if (isActive(x) && isActive(y) &&
-      1.0 - gram(x, y) * gram(x, y) / (gram(x, x) * gram(y, y)) < LeastShareBeside(rawGram, gram, active, pixels))
+      1.0 - gram(x, y) * gram(x, y) / (gram(x, x) * gram(y, y)) < LeastDistinctFraction(rawGram, gram, active, pixels))
   {
     const auto weaker = static_cast<std::size_t>(gram(x, x) < gram(y, y) ? x : y);
     active.erase(std::remove(active.begin(), active.end(), weaker), active.end());
@@ -208,7 +208,7 @@ FindActiveColumns(const Eigen::MatrixXd & rawGram,
                   double                  pixels)
 {
   std::vector<std::size_t> active = FindCandidates(rawGram, gram, largestOrder);
-  DropTwin(rawGram, gram, pixels, active);
+  RemoveProportionalDerivative(rawGram, gram, pixels, active);
   for (;;)
   {
     const Eigen::MatrixXd a = Select(gram, active, active);
@@ -247,7 +247,7 @@ PartialOutMotion(FrameEquations & equations)
 
 /** Removes the level from the equations of the illumination, where it cannot be distinguished from motion. */
 void
-PartialOutLevel(FrameEquations & equations, double leastShare)
+RemoveLevel(FrameEquations & equations, double leastShare)
 {
   Eigen::Matrix2d & light = equations.light;
   equations.isLevelMotion =
@@ -312,7 +312,7 @@ MakeFrameEquations(const FrameSums &           sums,
   equations.gram = Select(gram, equations.active, equations.active);
   equations.right = Select(right, rows, equations.active);
   PartialOutMotion(equations);
-  PartialOutLevel(equations, LeastShareBeside(rawGram, gram, equations.active, pixels));
+  RemoveLevel(equations, LeastDistinctFraction(rawGram, gram, equations.active, pixels));
   equations.allRawGram = rawGram;
   equations.allGram = gram;
   equations.allRight = std::move(right);

@@ -21,7 +21,7 @@ using Edges = std::array<double, GradientClasses - 1>;
  * Small arguments are passed by value: by reference they could alias the output, which prevents vectorization. */
 void
 FillClasses(const ReferenceFrame & frame,
-            ProvisionalModel       model,
+            InitialNoiseModel      model,
             Edges                  edges,
             const std::uint8_t *   take,
             std::size_t            first,
@@ -46,7 +46,7 @@ FillClasses(const ReferenceFrame & frame,
 } // namespace
 
 FrameRegressors::FrameRegressors(const ReferenceFrame &            frame,
-                                 const ProvisionalModel &          model,
+                                 const InitialNoiseModel &         model,
                                  const std::vector<std::uint8_t> & take,
                                  ShiftInstruments                  instruments,
                                  const ParallelFor &               parallelFor)

@@ -40,13 +40,13 @@ public:
   /** \a take has a nonzero value at the pixels to be used; they must be usable. The object and its copies hold the
    * address of \a frame, which must outlive them without being moved. */
   FrameRegressors(const ReferenceFrame &            frame,
-                  const ProvisionalModel &          model,
+                  const InitialNoiseModel &         model,
                   const std::vector<std::uint8_t> & take,
                   ShiftInstruments                  instruments,
                   const ParallelFor &               parallelFor = SerialFor);
   /** Deleted: a temporary frame would be destroyed at once. */
   FrameRegressors(const ReferenceFrame &&,
-                  const ProvisionalModel &,
+                  const InitialNoiseModel &,
                   const std::vector<std::uint8_t> &,
                   ShiftInstruments,
                   const ParallelFor & = SerialFor) = delete;
@@ -56,7 +56,7 @@ public:
   {
     return *m_Frame;
   }
-  const ProvisionalModel &
+  const InitialNoiseModel &
   GetModel() const
   {
     return m_Model;
@@ -90,7 +90,7 @@ private:
   ClassifyPixels(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor);
 
   const ReferenceFrame *              m_Frame;
-  ProvisionalModel                    m_Model;
+  InitialNoiseModel                   m_Model;
   std::vector<std::uint8_t>           m_ClassOf;
   std::array<double, GradientClasses> m_PixelsOfClass{};
   ShiftInstruments                    m_Instruments;

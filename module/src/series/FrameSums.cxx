@@ -150,7 +150,7 @@ FrameSums::SumInstruments(const ParallelFor & parallelFor)
       InstrumentRun run{};
       for (std::size_t first = begin; first < end; first += InstrumentRun::Pixels)
       {
-        WithWideVectors([&, last = std::min(end, first + InstrumentRun::Pixels)] {
+        CallWithAvx2([&, last = std::min(end, first + InstrumentRun::Pixels)] {
           run.Fill(m_Regressors, first, last);
           run.AddTo(total);
         });

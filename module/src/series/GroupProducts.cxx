@@ -73,7 +73,7 @@ auto
 FindMultiplyGroup()
 {
 #if defined(__GNUC__) && defined(__x86_64__)
-  return HasWideVectors() ? MultiplyGroupAvx2 : MultiplyGroupAnywhere;
+  return HasAvx2() ? MultiplyGroupAvx2 : MultiplyGroupAnywhere;
 #else
   return MultiplyGroupAnywhere;
 #endif

@@ -45,7 +45,7 @@ FindUsedCells(const FrameSums & sums, double offset)
   {
     const double p = cells[c].sumI[1] - 2.0 * offset * cells[c].sum[1] + offset * offset * cells[c].sum[0];
     if (static_cast<double>(cells[c].pixels) >
-          std::max(InSeries.fewestPixelsOfCell, InCommon.leastCoveredShare * pixels) &&
+          std::max(InSeries.fewestPixelsOfCell, InCommon.leastCoveredFraction * pixels) &&
         p > 0.0)
     {
       used.cells.push_back(c);
@@ -123,10 +123,10 @@ struct Eigenvalues
   double              noise{ 0.0 };
   double              edge{ 0.0 };
 
-  Eigenvalues(const Eigen::VectorXd & rising, Eigen::Index freedom, Eigen::Index count)
+  Eigenvalues(const Eigen::VectorXd & rising, Eigen::Index dof, Eigen::Index count)
   {
-    const auto shorter = std::min(freedom, count);
-    const auto longer = static_cast<double>(std::max(freedom, count));
+    const auto shorter = std::min(dof, count);
+    const auto longer = static_cast<double>(std::max(dof, count));
     for (Eigen::Index i = 0; i < shorter; ++i)
     {
       values.push_back(rising(rising.size() - 1 - i));
@@ -149,7 +149,7 @@ GramOf(const Eigen::MatrixXd & rest)
  * are scaled to a typical size. A few frames of another gain exceed the edge by the size of their noise alone, but
  * have no factor in common. */
 bool
-DoFramesShareFactors(Eigen::MatrixXd rest, Eigen::Index freedom)
+HaveFramesCommonFactors(Eigen::MatrixXd rest, Eigen::Index dof)
 {
   std::vector<double> sizes(static_cast<std::size_t>(rest.rows()));
   for (Eigen::Index t = 0; t < rest.rows(); ++t)
@@ -165,20 +165,20 @@ DoFramesShareFactors(Eigen::MatrixXd rest, Eigen::Index freedom)
     rest.row(t) *= size > InSeries.noisyFrame * typical ? typical / size : 1.0;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(GramOf(rest), Eigen::EigenvaluesOnly);
-  const Eigenvalues                                    found(eigen.eigenvalues(), freedom, rest.cols());
+  const Eigenvalues                                    found(eigen.eigenvalues(), dof, rest.cols());
   return found.values.front() > found.edge;
 }
 
 /** Finds the factors of \a rest above the edge of the noise, at most \a most; \a freedom is its degrees of freedom over
  * the frames. */
 LocalIllumination
-FindFactors(const Eigen::MatrixXd & rest, const Eigen::MatrixXd & whole, Eigen::Index freedom, std::size_t most)
+FindFactors(const Eigen::MatrixXd & rest, const Eigen::MatrixXd & whole, Eigen::Index dof, std::size_t most)
 {
   const Eigen::Index                                   frames = rest.rows();
   const bool                                           isTall = frames > rest.cols();
   const Eigen::MatrixXd                                gram = GramOf(rest);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
-  const auto [values, noise, edge] = Eigenvalues(eigen.eigenvalues(), freedom, rest.cols());
+  const auto [values, noise, edge] = Eigenvalues(eigen.eigenvalues(), dof, rest.cols());
 
   LocalIllumination found;
   found.excess = values.front() / edge;
@@ -188,7 +188,7 @@ FindFactors(const Eigen::MatrixXd & rest, const Eigen::MatrixXd & whole, Eigen::
   {
     ++factors;
   }
-  if (values.front() > edge && !DoFramesShareFactors(rest, freedom))
+  if (values.front() > edge && !HaveFramesCommonFactors(rest, dof))
   {
     factors = 0;
   }
@@ -219,7 +219,7 @@ FindFactorsOfUnequalFrames(const Eigen::MatrixXd & whole,
                            std::size_t             most)
 {
   const Eigen::Index frames = whole.rows();
-  const Eigen::Index largest = frames - 1 - InSeries.leastFreedomOfCells;
+  const Eigen::Index largest = frames - 1 - InSeries.leastDofOfCells;
   Eigen::MatrixXd    columns = basis;
   LocalIllumination  found;
   found.series.resize(frames, 0);
@@ -314,8 +314,8 @@ FindLocalIllumination(const FrameSums &           sums,
   known.col(0) = Eigen::Map<const Eigen::VectorXd>(gamma.data(), frames);
   known.rightCols(motionColumns.cols()) = motionColumns;
   const Eigen::MatrixXd basis = Orthonormalise(known, frames);
-  const Eigen::Index    freedom = frames - 1 - basis.cols();
-  if (freedom < InSeries.leastFreedomOfCells)
+  const Eigen::Index    dof = frames - 1 - basis.cols();
+  if (dof < InSeries.leastDofOfCells)
   {
     return none;
   }
@@ -328,7 +328,7 @@ FindLocalIllumination(const FrameSums &           sums,
   Eigen::MatrixXd rest = whole.rowwise() - whole.colwise().mean();
   rest -= basis * (basis.transpose() * rest);
   ScaleCells(rest, whole);
-  return FindFactors(rest, whole, freedom, most);
+  return FindFactors(rest, whole, dof, most);
 }
 
 } // namespace sensornoise

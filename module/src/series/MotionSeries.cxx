@@ -87,7 +87,7 @@ ThirdDifference(const FrameEquations &      equations,
 {
   const Bounded unknown = WithinThirdDifferences(0.0, 1.0);
   const auto    ofThird = static_cast<Eigen::Index>(2 + third);
-  if (!(equations.allGram(ofThird, ofThird) > InSeries.leastSignalShare * equations.allRawGram(ofThird, ofThird)))
+  if (!(equations.allGram(ofThird, ofThird) > InSeries.leastSignalFraction * equations.allRawGram(ofThird, ofThird)))
   {
     return unknown;
   }
@@ -119,14 +119,14 @@ ThirdDifference(const FrameEquations &      equations,
   const Eigen::MatrixXd inverse = gram.inverse();
   const Eigen::MatrixXd coefficients = right * inverse;
   const Eigen::MatrixXd noise = inverse * rawGram * inverse;
-  const double          freedom = static_cast<double>(frames) - 1.0;
-  const double          square = coefficients.col(0).squaredNorm() - freedom * noise(0, 0);
-  if (!(square > freedom * noise(0, 0)))
+  const double          dof = static_cast<double>(frames) - 1.0;
+  const double          square = coefficients.col(0).squaredNorm() - dof * noise(0, 0);
+  if (!(square > dof * noise(0, 0)))
   {
     return unknown; // more noise than motion
   }
-  const double ratio = (coefficients.col(0).dot(coefficients.col(1)) - freedom * noise(0, 1)) / square;
-  const double residual = (coefficients.col(1) - ratio * coefficients.col(0)).squaredNorm() / freedom;
+  const double ratio = (coefficients.col(0).dot(coefficients.col(1)) - dof * noise(0, 1)) / square;
+  const double residual = (coefficients.col(1) - ratio * coefficients.col(0)).squaredNorm() / dof;
   return WithinThirdDifferences(ratio, std::sqrt(residual / square));
 }
 

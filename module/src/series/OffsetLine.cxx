@@ -165,9 +165,9 @@ FitOffsetLine(const FrameSums & sums, const RegressorNoise & noise, const std::v
   }
   if (!best)
   {
-    const ProvisionalModel & model = sums.GetRegressors().GetModel();
-    const FrameEquations     equations = MakeFrameEquations(sums, noise, GradientClasses - 1, gamma);
-    const double             darkest = model.darkestDn - model.centreDn;
+    const InitialNoiseModel & model = sums.GetRegressors().GetModel();
+    const FrameEquations      equations = MakeFrameEquations(sums, noise, GradientClasses - 1, gamma);
+    const double              darkest = model.darkestDn - model.centreDn;
     best = equations.isLevelMotion ? LineOfRamp(equations, darkest) : LineOfOneLevel(equations, darkest);
   }
   return best;

@@ -46,7 +46,7 @@ struct SensorNoise_EXPORT OffsetLine
 
   /** Returns whether the flicker determines the offset: the flicker is significant, and levels differ. */
   bool
-  TellsOffset() const
+  DeterminesOffset() const
   {
     return flickerZ > Significance.everyPixel && contrast > InSeries.leastContrast && std::isfinite(low);
   }

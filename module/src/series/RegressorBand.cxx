@@ -80,7 +80,7 @@ RegressorBand::MoveTo(std::size_t firstRow, std::size_t rows)
   m_Rows.resize(NumberOfRows * m_Pixels);
   m_Series.resize(Together * m_Pixels);
   this->FindOrder();
-  WithWideVectors([this] {
+  CallWithAvx2([this] {
     this->FillValues();
     this->FillWeights();
     this->FillColumns();
@@ -138,7 +138,7 @@ RegressorBand::FillValues()
 void
 RegressorBand::FillWeights()
 {
-  const ProvisionalModel   model = m_Regressors.GetModel(); // a copy: it cannot alias the numbers written below
+  const InitialNoiseModel  model = m_Regressors.GetModel(); // a copy: it cannot alias the numbers written below
   const ShiftInstruments & instruments = m_Regressors.GetInstruments();
   const double * const     level = m_Regressors.GetFrame().neighbourMean.data() + m_First;
   const double * const     gx = this->RowOf(2 + StencilX);

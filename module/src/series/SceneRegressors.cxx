@@ -15,9 +15,9 @@ namespace sensornoise
 {
 
 FrameRegressors
-MakeSceneRegressors(const StillScene & scene, const ParallelFor & parallelFor)
+MakeSceneRegressors(const StaticScene & scene, const ParallelFor & parallelFor)
 {
-  const std::vector<std::uint8_t> unexplained = FindUnexplained(scene.frame, scene.model, parallelFor);
+  const std::vector<std::uint8_t> unexplained = FindOutlierPixels(scene.frame, scene.model, parallelFor);
   const std::size_t               pixels = unexplained.size();
   std::vector<std::uint8_t>       take(pixels);
   std::vector<std::uint8_t>       whole(pixels); // missing single pixels would roughen the instruments

@@ -11,10 +11,10 @@
 namespace sensornoise
 {
 
-/** Makes the regressors of the second pass, over all usable pixels except outlier pixels, see FindUnexplained(). They
+/** Makes the regressors of the second pass, over all usable pixels except outlier pixels, see FindOutlierPixels(). They
  * hold the address of the frame of \a scene, which must outlive them without being moved. */
 SensorNoise_EXPORT FrameRegressors
-MakeSceneRegressors(const StillScene & scene, const ParallelFor & parallelFor);
+MakeSceneRegressors(const StaticScene & scene, const ParallelFor & parallelFor);
 
 } // namespace sensornoise
 

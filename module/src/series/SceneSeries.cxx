@@ -64,7 +64,7 @@ FindSceneSeries(const FrameSums &             sums,
   }
   SceneSeries found;
   found.line = *line;
-  const ProvisionalModel & model = sums.GetRegressors().GetModel();
+  const InitialNoiseModel & model = sums.GetRegressors().GetModel();
   if (!changesStrongly) // the deviations of a non-linear response from the line are larger then
   {
     found.frameOffsets =
@@ -76,15 +76,15 @@ FindSceneSeries(const FrameSums &             sums,
   // Fixed-pattern noise of a flat field has contrast, too.
   const bool isPrecise =
     line->standardError < InCommon.largestRelativeError * std::max(0.0, -line->offset) || !changesStrongly;
-  found.isOffsetTold = line->TellsOffset() && isPrecise;
+  found.isOffsetIdentifiable = line->DeterminesOffset() && isPrecise;
   const bool   hasLevels = line->contrast > InSeries.leastContrast;
   const double fallbackDn = hasLevels ? model.darkestDn : std::min(blackDn, model.darkestDn);
-  found.offset = found.isOffsetTold ? line->offset : knownOffsetDn.value_or(fallbackDn) - model.centreDn;
-  if (!found.isOffsetTold && !knownOffsetDn && changesStrongly)
+  found.offset = found.isOffsetIdentifiable ? line->offset : knownOffsetDn.value_or(fallbackDn) - model.centreDn;
+  if (!found.isOffsetIdentifiable && !knownOffsetDn && changesStrongly)
   {
     found.offset = LevelOfDarkestFrame(found.line, found.offset);
   }
-  if (!found.isOffsetTold)
+  if (!found.isOffsetIdentifiable)
   {
     found.line.UseOffset(found.offset);
   }

@@ -26,10 +26,10 @@ struct SceneSeries
   MotionSeries      motion;        ///< coefficients of the motion
   LocalIllumination local;         ///< local changes of the illumination
   double            offset{ 0.0 }; ///< offset minus the centre: from the line, or as given, or the darkest level [DN]
-  bool              isOffsetTold{ false }; ///< whether the flicker determines the offset, so that it is the offset of
-                                           ///< the line
-  TemporalBasis basis;                     ///< temporal basis of the third pass
-  FrameOffsets  frameOffsets;              ///< frames of another dark offset
+  bool isOffsetIdentifiable{ false }; ///< whether the flicker determines the offset, so that it is the offset of
+                                      ///< the line
+  TemporalBasis basis;                ///< temporal basis of the third pass
+  FrameOffsets  frameOffsets;         ///< frames of another dark offset
 };
 
 /** Returns the noise according to the initial noise model, for which w V = 1. */

@@ -120,7 +120,7 @@ SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelF
 
 std::vector<double>
 InstrumentWeight(const ReferenceFrame &            frame,
-                 const ProvisionalModel &          model,
+                 const InitialNoiseModel &         model,
                  const std::vector<std::uint8_t> & mask,
                  const ParallelFor &               parallelFor)
 {
@@ -141,8 +141,8 @@ InstrumentWeight(const ReferenceFrame &            frame,
   };
   const auto noiseRows = [&] {
     return [&, row = std::vector<double>(width)](std::size_t y) mutable {
-      const ProvisionalModel own = model; // a copy: it cannot alias the row, so that the loop is vectorized
-      const double * const   level = frame.neighbourMean.data() + y * width;
+      const InitialNoiseModel own = model; // a copy: it cannot alias the row, so that the loop is vectorized
+      const double * const    level = frame.neighbourMean.data() + y * width;
       std::transform(level, level + width, row.begin(), [&own](double mean) { return own.NoiseVariance(mean); });
       return row.data();
     };
@@ -172,7 +172,7 @@ InstrumentWeight(const ReferenceFrame &            frame,
 
 ShiftInstruments
 MakeShiftInstruments(const ReferenceFrame &            frame,
-                     const ProvisionalModel &          model,
+                     const InitialNoiseModel &         model,
                      const std::vector<std::uint8_t> & mask,
                      const ParallelFor &               parallelFor)
 {

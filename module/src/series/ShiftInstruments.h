@@ -25,7 +25,7 @@ SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelF
  * missing from \a mask. Rough weights, or an edge that is half missing, would add short wavelengths. */
 SensorNoise_EXPORT std::vector<double>
 InstrumentWeight(const ReferenceFrame &            frame,
-                 const ProvisionalModel &          model,
+                 const InitialNoiseModel &         model,
                  const std::vector<std::uint8_t> & mask,
                  const ParallelFor &               parallelFor);
 
@@ -40,7 +40,7 @@ struct ShiftInstruments
 /** Makes the instruments over the pixels of \a mask. */
 SensorNoise_EXPORT ShiftInstruments
 MakeShiftInstruments(const ReferenceFrame &            frame,
-                     const ProvisionalModel &          model,
+                     const InitialNoiseModel &         model,
                      const std::vector<std::uint8_t> & mask,
                      const ParallelFor &               parallelFor);
 

@@ -72,7 +72,7 @@ TemporalBasis::TemporalBasis(const std::vector<double> & gamma,
   Eigen::MatrixXd all(frames, light.cols() + motion.cols());
   all << light, motion;
   const Eigen::MatrixXd basis = Orthonormalise(all, std::max(light.cols(), MostSeries(frames)));
-  m_LightFactors = static_cast<std::size_t>(std::min(basis.cols(), Orthonormalise(light, frames).cols()));
+  m_IlluminationFactors = static_cast<std::size_t>(std::min(basis.cols(), Orthonormalise(light, frames).cols()));
   m_Rounded = (basis * Unit).array().round();
   m_Series = m_Rounded / Unit;
   const Eigen::MatrixXd             centred = m_Series.rowwise() - m_Series.colwise().mean();
@@ -85,9 +85,9 @@ TemporalBasis::TemporalBasis(const std::vector<double> & gamma,
 TemporalBasis
 TemporalBasis::OfLight() const
 {
-  const auto    light = static_cast<Eigen::Index>(m_LightFactors);
+  const auto    light = static_cast<Eigen::Index>(m_IlluminationFactors);
   TemporalBasis basis;
-  basis.m_LightFactors = m_LightFactors;
+  basis.m_IlluminationFactors = m_IlluminationFactors;
   basis.m_Rounded = m_Rounded.leftCols(light);
   basis.m_Series = m_Series.leftCols(light);
   basis.m_Basis = m_Basis.leftCols(light);
@@ -100,7 +100,7 @@ void
 TemporalBasis::ToCoordinates(double * sums, std::size_t stride, const double * means, std::size_t pixels) const
 {
   const auto frames = static_cast<double>(m_Basis.rows());
-  WithWideVectors([&] {
+  CallWithAvx2([&] {
     for (std::size_t j = 0; j < this->Size(); ++j)
     {
       const double taken = m_Means(static_cast<Eigen::Index>(j)) * frames;

@@ -24,7 +24,7 @@ MotionColumns(const MotionSeries & motion, const std::vector<double> & gamma);
  * orthogonal to the constant.
  *
  * They are held as integers of 20 bits, so that their products with integer pixels are summed exactly; the basis spans
- * the rounded series. The first NumberOfLightFactors() components are illumination. */
+ * the rounded series. The first NumberOfIlluminationFactors() components are illumination. */
 class SensorNoise_EXPORT TemporalBasis
 {
 public:
@@ -41,9 +41,9 @@ public:
     return static_cast<std::size_t>(m_Series.cols());
   }
   std::size_t
-  NumberOfLightFactors() const
+  NumberOfIlluminationFactors() const
   {
-    return m_LightFactors;
+    return m_IlluminationFactors;
   }
   /** Returns the basis of the illumination alone. The coordinates on its series are the same as in the whole basis,
    * because of its triangular form. */
@@ -69,7 +69,7 @@ public:
   ToCoordinates(double * sums, std::size_t stride, const double * means, std::size_t pixels) const;
 
 private:
-  std::size_t        m_LightFactors{ 0 };
+  std::size_t        m_IlluminationFactors{ 0 };
   Eigen::MatrixXd    m_Rounded;
   Eigen::MatrixXd    m_Series;
   Eigen::MatrixXd    m_Basis;

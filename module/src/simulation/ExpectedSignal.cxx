@@ -31,10 +31,10 @@ RequireReference(const std::vector<double> & reference, std::size_t width, std::
 }
 } // namespace
 
-SceneLight::SceneLight(const std::vector<double> & reference,
-                       std::size_t                 width,
-                       std::size_t                 height,
-                       const SimulationSettings &  settings)
+ExpectedSignal::ExpectedSignal(const std::vector<double> & reference,
+                               std::size_t                 width,
+                               std::size_t                 height,
+                               const SimulationSettings &  settings)
   : m_Width(width)
   , m_Height(height)
   , m_IsDark(settings.isDark)
@@ -46,10 +46,10 @@ SceneLight::SceneLight(const std::vector<double> & reference,
 }
 
 void
-SceneLight::ExpectedElectronsRow(const SimulationTruth & truth,
-                                 std::size_t             frame,
-                                 std::size_t             y,
-                                 double *                electrons) const
+ExpectedSignal::ExpectedElectronsRow(const SimulationTruth & truth,
+                                     std::size_t             frame,
+                                     std::size_t             y,
+                                     double *                electrons) const
 {
   if (m_IsDark)
   {
@@ -73,7 +73,7 @@ SceneLight::ExpectedElectronsRow(const SimulationTruth & truth,
 }
 
 double
-SceneLight::ElectronsAtRest(std::size_t pixel, double brightness) const
+ExpectedSignal::ElectronsAtRest(std::size_t pixel, double brightness) const
 {
   const double efficiency = m_Efficiency.empty() ? 1.0 : m_Efficiency[pixel];
   return m_IsDark ? 0.0 : std::max(0.0, m_Electrons[pixel] * brightness * efficiency);

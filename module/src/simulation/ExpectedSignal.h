@@ -12,20 +12,20 @@
 namespace sensornoise
 {
 
-/** \class SceneLight
+/** \class ExpectedSignal
  * \brief Expected number of electrons of each pixel.
  *
  * The reference image is blurred by the optics, and scaled to [0, electrons] (a constant image: `electrons`
  * everywhere). It is then shifted and brightened as in the truth of the stack, and multiplied by the efficiency of the
  * pixel. The number is 0 where the shutter is closed. */
-class SensorNoise_EXPORT SceneLight
+class SensorNoise_EXPORT ExpectedSignal
 {
 public:
   /** \throws std::invalid_argument if the size or a reference value cannot be used. */
-  SceneLight(const std::vector<double> & reference,
-             std::size_t                 width,
-             std::size_t                 height,
-             const SimulationSettings &  settings);
+  ExpectedSignal(const std::vector<double> & reference,
+                 std::size_t                 width,
+                 std::size_t                 height,
+                 const SimulationSettings &  settings);
 
   /** Computes (1 + gamma) p(x + alpha, y + beta) for row \a y of frame \a frame, times the efficiency, at least 0;
    * linear between pixels, edge pixels replicated [e-]. */

@@ -31,7 +31,7 @@ DivideByMean(std::vector<double> & values)
 }
 
 void
-RequireRelativeSpread(double sd, const char * name)
+RequireRelativeSd(double sd, const char * name)
 {
   // Beyond it, a normal number may be near -1, and a pixel would have no gain.
   RequireSetting(sd >= 0.0 && sd < 0.2, name, sd, "0 or more and below 0.2");
@@ -41,9 +41,9 @@ RequireRelativeSpread(double sd, const char * name)
 void
 CheckSettings(const PatternSettings & settings)
 {
-  RequireRelativeSpread(settings.gainSd, "spread of the pixels' gain");
-  RequireRelativeSpread(settings.columnGainSd, "spread of the columns' gain");
-  RequireRelativeSpread(settings.columnEfficiencySd, "spread of the columns' efficiency");
+  RequireRelativeSd(settings.gainSd, "spread of the pixels' gain");
+  RequireRelativeSd(settings.columnGainSd, "spread of the columns' gain");
+  RequireRelativeSd(settings.columnEfficiencySd, "spread of the columns' efficiency");
   RequireNotNegative(settings.columnOffsetSdDn, "spread of the columns' offset");
 }
 

@@ -32,7 +32,7 @@ ReadOut::ReadRow(std::size_t frame, std::size_t y, const double * electrons, con
   {
     const std::size_t pixel = y * m_Width + x;
     const double      gain = m_Camera.gainDnPerElectron * RelativeGain(pixel);
-    if (m_Response.IsStraight())
+    if (m_Response.IsLinear())
     {
       const double noiseDn = RelativeGain(pixel) * ReadNoiseDn(pixel) * normals[x];
       codesDn[x] = gain * electrons[x] + OffsetDn(pixel) + noiseDn;
@@ -61,7 +61,7 @@ ReadOut::InTheDark(std::size_t pixel) const
 double
 ReadOut::PixelReadNoiseDn(std::size_t pixel) const
 {
-  return m_Response.IsStraight()
+  return m_Response.IsLinear()
            ? RelativeGain(pixel) * ReadNoiseDn(pixel)
            : m_Camera.gainDnPerElectron * RelativeGain(pixel) * m_FullScaleElectrons * InTheDark(pixel).sd;
 }

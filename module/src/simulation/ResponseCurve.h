@@ -26,7 +26,7 @@ public:
   explicit ResponseCurve(const ResponseSettings & settings = {});
 
   bool
-  IsStraight() const
+  IsLinear() const
   {
     return m_Shape == ResponseShape::Straight;
   }

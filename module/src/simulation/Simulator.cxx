@@ -30,7 +30,7 @@ namespace sensornoise
 /** The scene on the sensor, the read-out, and the state of the temporal filter. */
 struct StackSimulator::Sensor
 {
-  SceneLight                      light;
+  ExpectedSignal                  light;
   ReadOut                         readOut;
   std::shared_ptr<TemporalFilter> temporalFilter;
 };
@@ -42,7 +42,7 @@ StackSimulator::StackSimulator(const std::vector<double> & reference,
   : m_Width(width)
   , m_Height(height)
   , m_Truth(DrawTruth(settings, height))
-  , m_Sensor(std::make_shared<const Sensor>(Sensor{ SceneLight(reference, width, height, settings),
+  , m_Sensor(std::make_shared<const Sensor>(Sensor{ ExpectedSignal(reference, width, height, settings),
                                                     ReadOut(settings, width, height),
                                                     std::make_shared<TemporalFilter>(settings.flaws.temporalFilter) }))
 {

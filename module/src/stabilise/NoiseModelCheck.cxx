@@ -36,11 +36,11 @@ constexpr double MedianOfSquare = 0.4549364;
 std::vector<double>
 RelativeErrors2(const Report & frames)
 {
-  const double        freedom = std::max(1.0, static_cast<double>(frames.framesDistinct) - 1.0);
+  const double        dof = std::max(1.0, static_cast<double>(frames.framesDistinct) - 1.0);
   std::vector<double> errors2;
   for (const std::size_t count : frames.scatter.count)
   {
-    errors2.push_back(2.0 / (static_cast<double>(count) * freedom));
+    errors2.push_back(2.0 / (static_cast<double>(count) * dof));
   }
   return errors2;
 }
