@@ -10,21 +10,25 @@
 namespace sensornoise
 {
 
-/** What a file says of the camera that took its frames. Every member is a default, which the user can overrule; what a
- * file does not say is empty, 0 or NaN, as given here. */
+/** Settings of the camera, as the file of the frames records them. Each member is a default that the user can overrule.
+ * A setting that the file does not record is empty, 0 or NaN, as in the initial value of its member. */
 struct CameraSettings
 {
-  std::string  camera;                                                   ///< maker and model
-  std::string  bayerPattern;                                             ///< "RGGB", "GRBG", "GBRG" or "BGGR"
-  unsigned int bitDepth{ 0 };                                            ///< of the codes [bit]
-  double       blackLevelDn{ std::numeric_limits<double>::quiet_NaN() }; ///< level without light, as the maker says
-  double       whiteLevelDn{ std::numeric_limits<double>::quiet_NaN() }; ///< level at which the sensor saturates
-  double       isoSpeed{ std::numeric_limits<double>::quiet_NaN() };     ///< [1]
-  double       exposureSeconds{ std::numeric_limits<double>::quiet_NaN() };
-  double       opticalBlackDn{ std::numeric_limits<double>::quiet_NaN() };      ///< mean of the frame's masked pixels
-  double       opticalBlackErrorDn{ std::numeric_limits<double>::quiet_NaN() }; ///< its standard error, rows apart
+  std::string  camera;        ///< maker and model; "": not recorded
+  std::string  bayerPattern;  ///< "RGGB", "GRBG", "GBRG" or "BGGR"; "": not recorded
+  unsigned int bitDepth{ 0 }; ///< bit depth of the digital numbers [bit]; 0: not recorded
+  /** Dark offset (black level) by the maker of the camera [DN]. */
+  double blackLevelDn{ std::numeric_limits<double>::quiet_NaN() };
+  /** Level at which the sensor saturates, by the maker of the camera [DN]. */
+  double whiteLevelDn{ std::numeric_limits<double>::quiet_NaN() };
+  double isoSpeed{ std::numeric_limits<double>::quiet_NaN() };        ///< ISO speed [1]
+  double exposureSeconds{ std::numeric_limits<double>::quiet_NaN() }; ///< exposure time [s]
+  /** Mean of the masked (optical-black) pixels of the frame [DN]; NaN also if they lie in fewer than 8 rows. */
+  double opticalBlackDn{ std::numeric_limits<double>::quiet_NaN() };
+  /** Standard error of opticalBlackDn, from the scatter of the means of rows [DN]. It contains the noise of rows. */
+  double opticalBlackErrorDn{ std::numeric_limits<double>::quiet_NaN() };
 
-  /** Whether a file says anything. */
+  /** Returns whether the file records any setting. */
   bool
   IsKnown() const
   {

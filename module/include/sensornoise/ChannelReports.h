@@ -17,70 +17,72 @@
 namespace sensornoise
 {
 
-/** How the pattern of a mosaic is known. */
+/** Source of the pattern of a mosaic. */
 enum class BayerSource : std::uint8_t
 {
-  Given, ///< by the user
-  File,  ///< by what the frames' file says
-  Levels ///< by the levels of the frames: red and blue may be exchanged
+  Given, ///< the user gave it
+  File,  ///< the file of the frames records it
+  Levels ///< it was found from the levels of the frames: red and blue may be exchanged
 };
 
+/** Returns the name of the source in the JSON record: "given", "file" or "levels". */
 SensorNoise_EXPORT const char *
 NameOf(BayerSource source);
 
-/** The offset that the four channels of one sensor have together. */
+/** Joint dark offset of the four channels of one sensor. */
 struct JointOffset
 {
-  /** The mean, weighed by the channels' errors [DN]. Failed where they differ by so much more than their errors that
-   * their mean is known no better than the best of them. */
+  /** Mean of the offsets of the channels, weighted with their inverse squared standard errors [DN]. It has failed if
+   * the channels differ so much more than their errors that the mean is not more precise than the best channel. */
   Quantity offset;
-  /** Standard error of the channel that knows it best, over that of the mean [1]: above 1. */
+  /** Standard error of the most precise channel over the standard error of the mean [1], above 1; null: the offset has
+   * failed. */
   std::optional<double> precisionGain;
-  /** Mean square difference of the channels from their mean, in units of their errors, over the degrees of freedom [1].
-   */
+  /** Sum of the squared deviations of the channels from their mean, in units of their standard errors, over the degrees
+   * of freedom [1]. 1 is expected. */
   double reducedChi2{ 0.0 };
 };
 
-/** The motion of a sensor, of the four planes of its mosaic together. In pixels of a plane, as each plane's own.
+/** Joint motion of the four planes of a mosaic, in pixels of a plane.
  *
- * A plane sees edges through every second pixel, and what lies between is missing: where an edge stands, the square of
- * the shift is taken for a shift, with one sign by the even columns and with the other by the odd ones. Of R and B
- * together, and of G1 and G2, every column and row is seen once, and what they do not agree in is gone from their mean.
- */
+ * A plane samples an edge at every second pixel only. At an edge the square of the shift then appears as a shift, with
+ * one sign in the even columns and with the opposite sign in the odd ones. R and B together sample every column and row
+ * once, and so do G1 and G2. These errors cancel in the mean of each pair. */
 struct JointMotion
 {
-  Quantity                           sdX;        ///< [pixel]
-  Quantity                           sdY;        ///< [pixel]
-  Quantity                           covariance; ///< [pixel^2]
-  std::vector<std::array<double, 2>> series;     ///< (alpha_t, beta_t) of every frame, mean 0 [pixel]
+  Quantity                           sdX;        ///< standard deviation of the motion along x [pixel]
+  Quantity                           sdY;        ///< standard deviation of the motion along y [pixel]
+  Quantity                           covariance; ///< covariance of the motions along x and along y [pixel^2]
+  std::vector<std::array<double, 2>> series;     ///< (alpha_t, beta_t) of every frame, mean 0 [pixel]; NaN: left out
 };
 
-/** What was measured of a stack behind a Bayer mosaic: a report for each of its four planes. Widths, heights and
- * vibration are in pixels of the plane, each of them 2 x 2 of the mosaic; the errors of a channel's vibration are wide
- * enough for what it differs by from that of all. */
+/** Reports of the four planes of a Bayer mosaic. Widths, heights and vibration are in pixels of the plane; a pixel of a
+ * plane is 2 x 2 pixels of the mosaic. The errors of the vibration of a channel contain its deviation from the joint
+ * vibration. */
 struct ChannelReports
 {
   BayerPattern               pattern{ BayerPattern::RGGB };
   BayerSource                source{ BayerSource::Given };
-  std::array<Report, 4>      channels; ///< in the order of BayerPlanes
-  std::optional<JointOffset> joint;    ///< null: fewer than two channels found an offset of their own
-  std::optional<JointMotion> motion;   ///< null: not all channels found one
-  std::vector<Warning>       warnings; ///< of all channels together; each has its own, too
-  std::optional<InputRecord> input;    ///< null: not asked for; not in the channels
+  std::array<Report, 4>      channels; ///< the reports of the planes, in the order of BayerPlanes
+  std::optional<JointOffset> joint;    ///< null: fewer than two channels measured an offset, without a given one
+  std::optional<JointMotion> motion;   ///< null: not all channels measured a motion
+  std::vector<Warning>       warnings; ///< warnings about all channels together; each report has its own, too
+  std::optional<InputRecord> input;    ///< record of the frames read; null: not asked for; not in the channels
 
+  /** Returns the report of a plane. */
   const Report &
   Of(BayerPlane plane) const
   {
     return channels.at(static_cast<std::size_t>(plane));
   }
-  /** Whether anything was estimated in any of them. */
+  /** Returns whether the report of any channel is usable, see Report::IsUsable(). */
   bool
   IsUsable() const;
 };
 
-/** Puts together the reports of the planes, in the order of BayerPlanes: names the channels, joins their offsets and
- * their motion, and warns where the two greens, which are alike, have different gains, or levels that contradict the
- * pattern. */
+/** Joins the reports of the planes, which are in the order of BayerPlanes. Names the channels, gives all of them the
+ * largest bit depth, and joins their offsets and their motion. Adds a warning if the gains of the two greens differ, if
+ * the offsets differ, if the levels contradict the pattern, or if the pattern was found from the levels. */
 SensorNoise_EXPORT ChannelReports
 MakeChannelReports(BayerPattern pattern, BayerSource source, std::array<Report, 4> channels);
 

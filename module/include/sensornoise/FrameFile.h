@@ -21,29 +21,30 @@ namespace sensornoise
 
 class FrameReader; // private
 
-/** What is wrong with a file: one sentence that begins with the file's name and says what was found and what was
- * expected. It is one line of UTF-8, whatever is in the file: other characters are shown as "?". */
+/** Error in a file. The message is one sentence that begins with the name of the file and says what was found and what
+ * was expected. It is one line of UTF-8: other characters of the file are shown as "?". */
 class SensorNoise_EXPORT FileError : public std::runtime_error
 {
 public:
+  /** Makes the message of the name of the \a file and of \a what, the rest of the sentence. */
   FileError(const std::string & file, const std::string & what);
 };
 
-/** Which file a name stands for, and in which state: while it stays equal, nobody has replaced the file or written to
- * it (to the resolution of the file system's clock). */
+/** Identity and state of a file. While it stays equal, the file was neither replaced nor written to, within the
+ * resolution of the clock of the file system. */
 struct FileIdentity
 {
   std::string   name{};
-  std::uint64_t device{ 0 };
-  std::uint64_t inode{ 0 };
-  std::uint64_t size{ 0 };         // [bytes]
-  std::int64_t  modified{ 0 };     // the contents [ns since the file system's epoch]
-  std::int64_t  statusChange{ 0 }; // contents or rights; unlike `modified` it cannot be set back [ns]
+  std::uint64_t device{ 0 };       ///< number of the device; 0 where the operating system has none
+  std::uint64_t inode{ 0 };        ///< number of the file on its device; 0 where the operating system has none
+  std::uint64_t size{ 0 };         ///< size of the contents [bytes]
+  std::int64_t  modified{ 0 };     ///< last change of the contents [ns since the file system's epoch]
+  std::int64_t  statusChange{ 0 }; ///< last change of contents or rights, which cannot be set back [ns]; 0: not known
 };
 
 struct FrameFormat;
 
-/** The component types that a stack may have. */
+/** Types of the pixels of a stack. */
 enum class FramePixel
 {
   UnsignedChar,
@@ -53,16 +54,16 @@ enum class FramePixel
   Double
 };
 
-/** The numbers that a file holds: those of FramePixel, or integers of 32 bits, which are read as double, that holds
- * each exactly. Integers of 64 bits are refused. */
+/** Types of the numbers in a file: the type of the pixels, or integers of 32 bits. These are read as double, which
+ * represents them exactly. Integers of 64 bits are not accepted. */
 enum class StoredNumber
 {
-  SameAsPixel,
-  UnsignedInt,
-  Int
+  SameAsPixel, ///< the type of FrameFile::pixel
+  UnsignedInt, ///< unsigned integers of 32 bits; FrameFile::pixel is Double
+  Int          ///< signed integers of 32 bits; FrameFile::pixel is Double
 };
 
-/** An axis along which the frames of a file differ. */
+/** Axis along which the frames of a file differ. */
 struct FrameAxis
 {
   enum class Kind
@@ -72,73 +73,77 @@ struct FrameAxis
     Time
   };
   Kind        kind{ Kind::Time };
-  std::size_t size{ 1 };
+  std::size_t size{ 1 }; ///< number of positions along the axis, at least 1
 };
 
-/** What a file of a frame or of a stack says of itself, after it was found to be whole. */
+/** Description of a file with a frame or a stack, as InspectFrameFile() returns it. */
 struct FrameFile
 {
   std::string name{};
-  /** What it is by its contents, a line of FrameFormats(); never null after InspectFrameFile(). */
+  /** Format of the contents, an entry of FrameFormats(); never null after InspectFrameFile(). */
   const FrameFormat * format{ nullptr };
-  std::size_t         width{ 0 };  // [pixels]
-  std::size_t         height{ 0 }; // [pixels]
-  std::size_t         frames{ 0 }; // 1 where the file is a single frame
-  FramePixel          pixel{ FramePixel::UnsignedChar };
-  StoredNumber        stored{ StoredNumber::SameAsPixel };
-  std::uint64_t       bytes{ 0 }; // of its pixels as they are read; StoredBytesOf(): as they are in the file
+  std::size_t         width{ 0 };                          ///< columns of a frame [pixel]
+  std::size_t         height{ 0 };                         ///< rows of a frame [pixel]
+  std::size_t         frames{ 0 };                         ///< number of frames; 1: a single frame
+  FramePixel          pixel{ FramePixel::UnsignedChar };   ///< type of the pixels that are read
+  StoredNumber        stored{ StoredNumber::SameAsPixel }; ///< type of the numbers in the file
+  std::uint64_t       bytes{ 0 };                          ///< size of all pixels after reading [bytes]
 
-  /** Of a PNG whose sBIT chunk says that fewer bits than it has are significant: their number, else 0. ITK shifts such
-   * codes down by the others, which are 0 (or the file is refused): shifted up again they are what the file holds. */
+  /** Number of significant bits of a PNG whose sBIT chunk declares fewer bits than the samples have [bit]; else 0. ITK
+   * shifts these digital numbers down by the other bits. These are 0, or the file is not accepted, so that shifting up
+   * restores the numbers of the file. */
   unsigned significantBits{ 0 };
 
-  /** The axes of its frames, the fastest first, where the file says that they differ in more than time: their sizes,
-   * each above 1, multiply to `frames`. Empty: time alone. ChooseFrames() takes those of one channel and plane. */
+  /** Axes of the frames, the fastest first, if the file declares that the frames differ in more than time. Their sizes,
+   * each above 1, multiply to `frames`. Empty: time alone. ChooseFrames() chooses one channel and plane. */
   std::vector<FrameAxis> axes{};
 
-  CameraSettings camera{};  // what it says of it
-  std::string    warning{}; // what is odd about the file and no error, without its name; empty: nothing
+  CameraSettings camera{};  ///< settings of the camera that the file records
+  std::string    warning{}; ///< an oddity of the file that is no error, without the name of the file; "": none
 
-  /** Reads its pixels; null: ITK does, by the class that `format` names. */
+  /** Reader of the pixels; null: the class of ITK that `format` names reads them. */
   std::shared_ptr<const FrameReader> reader{};
-  std::array<double, 2>              spacing{ { 1.0, 1.0 } }; // along x and y [mm], of files with a `reader`
+  /** Distance of neighbouring pixels along x and y [mm], for files with a `reader`. */
+  std::array<double, 2> spacing{ { 1.0, 1.0 } };
 
-  std::vector<FileIdentity> identities{}; // of the file, then of its data files, each once
+  std::vector<FileIdentity> identities{}; ///< identity of the file, then of each of its data files
 };
 
-/** The size in bytes of a pixel. */
+/** Returns the size of a pixel [bytes]. */
 SensorNoise_EXPORT std::size_t
 SizeOf(FramePixel pixel);
 
-/** The pixel's type, as C++ calls it. */
+/** Returns the name of the pixel type in C++, for example "unsigned short". */
 SensorNoise_EXPORT std::string
 NameOf(FramePixel pixel);
 
-/** Called with what a file says of itself before its compressed pixels are inflated; `frames` and `bytes` are those
- * known so far, which grow page by page in a TIFF. May throw, where they are too many to go on. */
+/** Function that is called with the description of a file before its compressed pixels are inflated. `frames` and
+ * `bytes` are the numbers known so far; in a TIFF they grow page by page. The function may throw if they are too large.
+ */
 using BeforeInflating = std::function<void(const FrameFile &)>;
 
-/** Reads with this library's own code what the file says of itself, and checks that it is whole, before any other
- * library opens it: the whole of its structure, all checksums that it has, and that there is exactly one value for each
- * pixel that it declares. Compressed pixels are inflated for that, and not kept; uncompressed ones are not read. Needs
- * a few MiB of memory at most. Throws FileError for all that cannot be read without conversion, or not be checked. */
+/** Reads the description of a file with the code of this library alone, before any other library opens the file. Checks
+ * the whole structure, all checksums, and that there is exactly one value for each declared pixel. Compressed pixels
+ * are inflated for this check, and not kept. Uncompressed pixels are not read. Needs a few MiB of memory at most.
+ * Throws FileError for a file that is not whole, cannot be checked, or cannot be read without conversion. */
 SensorNoise_EXPORT FrameFile
 InspectFrameFile(const std::string & name, const BeforeInflating & beforeInflating = {});
 
-/** Throws FileError unless the file and its data files are still those, in that state, that were inspected. */
+/** Throws FileError if the file or one of its data files was replaced or changed after its inspection. */
 SensorNoise_EXPORT void
 RequireUnchanged(const FrameFile & file);
 
-/** Which frames of a file are those of a burst, where it holds several channels or planes (FrameFile::axes). */
+/** Choice of the frames of a burst in a file with several channels or planes (FrameFile::axes). */
 struct FrameChoice
 {
-  std::optional<std::size_t> channel{};    ///< from 0
-  std::optional<std::size_t> plane{};      ///< from 0
-  bool                       all{ false }; ///< frames of any channel and plane, one after the other
+  std::optional<std::size_t> channel{};    ///< number of the channel, from 0; null: not chosen
+  std::optional<std::size_t> plane{};      ///< number of the plane, from 0; null: not chosen
+  bool                       all{ false }; ///< true: the frames of all channels and planes, in the order of the file
 };
 
-/** Reduces the frames of the file to those of one channel and one plane, in time order. Throws FileError that names the
- * axes where there are several channels or planes and none is chosen, and where the choice is not in the file. */
+/** Reduces the frames of the file to the frames of one channel and one plane, in time order. Throws FileError if there
+ * are several channels or planes and none is chosen, or if the choice is not in the file. The message names the axes.
+ */
 SensorNoise_EXPORT void
 ChooseFrames(FrameFile & file, const FrameChoice & choice);
 

@@ -11,8 +11,8 @@
 #include <string>
 
 /** \def SensorNoise_FOR_PIXEL_TYPES
- * macro(TPixel) for each type of the pixels of frames, as a statement: with it templates are instantiated in the
- * library alone. */
+ * Expands to the statement macro(TPixel) for each type of the pixels of a frame. Templates are instantiated with it, in
+ * the library alone. */
 #define SensorNoise_FOR_PIXEL_TYPES(macro) \
   macro(unsigned char);                    \
   macro(unsigned short);                   \
@@ -23,25 +23,26 @@
 namespace sensornoise
 {
 
-/** Size of a frame and the axis along which its rows are exposed one after the other. */
+/** Size of a frame, and the axis along which its rows are exposed one after the other. */
 struct FrameGeometry
 {
-  std::size_t  width{ 0 };
-  std::size_t  height{ 0 };
+  std::size_t  width{ 0 };       ///< columns of the frame [pixel]
+  std::size_t  height{ 0 };      ///< rows of the frame [pixel]
   unsigned int shutterAxis{ 1 }; ///< 1: the shutter travels along y, row by row; 0: along x, column by column
 
+  /** Returns the number of pixels of a frame. */
   std::size_t
   Pixels() const
   {
     return width * height;
   }
-  /** Rows as the shutter sees them: columns of the frame where it travels along x. */
+  /** Returns the number of lines that are exposed one after the other: columns if the shutter travels along x. */
   std::size_t
   Rows() const
   {
     return shutterAxis == 0 ? width : height;
   }
-  /** Row of pixel \a p as the shutter sees it. */
+  /** Returns the number of the line of pixel \a p among Rows(), from 0. \a p counts the pixels row by row, from 0. */
   std::size_t
   RowOf(std::size_t p) const
   {
@@ -49,7 +50,7 @@ struct FrameGeometry
   }
 };
 
-/** The colours of the upper left 2 x 2 pixels of a mosaic, row by row. */
+/** Colours of the upper left 2 x 2 pixels of a mosaic, row by row. */
 enum class BayerPattern : std::uint8_t
 {
   RGGB,
@@ -58,8 +59,8 @@ enum class BayerPattern : std::uint8_t
   BGGR
 };
 
-/** A plane of a mosaic: its pixels of one place in each 2 x 2. G1 is the green in the rows of red, G2 that in the rows
- * of blue (Gr and Gb of others). */
+/** Planes of a mosaic. A plane consists of the pixels at one place of each 2 x 2 block. G1 is the green plane in the
+ * rows of red, also called Gr. G2 is the green plane in the rows of blue, also called Gb. */
 enum class BayerPlane : std::uint8_t
 {
   R,
@@ -68,30 +69,32 @@ enum class BayerPlane : std::uint8_t
   B
 };
 
-/** All planes, in the order in which records have them. */
+/** All planes, in the order of the records. */
 inline constexpr std::array<BayerPlane, 4> BayerPlanes{
   { BayerPlane::R, BayerPlane::G1, BayerPlane::G2, BayerPlane::B }
 };
 
+/** Returns the name of the pattern, for example "RGGB". */
 SensorNoise_EXPORT const char *
 NameOf(BayerPattern pattern);
 
+/** Returns the name of the plane: "R", "G1", "G2" or "B". */
 SensorNoise_EXPORT const char *
 NameOf(BayerPlane plane);
 
-/** The pattern by its name, "RGGB" for example. Throws std::invalid_argument for any other. */
+/** Returns the pattern with this name, for example "RGGB". Throws std::invalid_argument for any other name. */
 SensorNoise_EXPORT BayerPattern
 BayerPatternOf(const std::string & name);
 
-/** The plane by its name, "R", "G1", "G2" or "B". Throws std::invalid_argument for any other. */
+/** Returns the plane with this name: "R", "G1", "G2" or "B". Throws std::invalid_argument for any other name. */
 SensorNoise_EXPORT BayerPlane
 BayerPlaneOf(const std::string & name);
 
-/** Column and row of the plane's first pixel in the mosaic, 0 or 1 each. */
+/** Returns column and row of the first pixel of the plane in the mosaic, 0 or 1 each. */
 SensorNoise_EXPORT std::array<std::size_t, 2>
 CornerOf(BayerPattern pattern, BayerPlane plane);
 
-/** The pattern of what is left of a mosaic when \a columns and \a rows were cut off its left and upper side. */
+/** Returns the pattern of a mosaic after \a columns were cut off its left side and \a rows off its upper side. */
 SensorNoise_EXPORT BayerPattern
 CutPattern(BayerPattern pattern, std::size_t columns, std::size_t rows);
 

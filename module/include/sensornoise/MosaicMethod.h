@@ -24,8 +24,8 @@ namespace sensornoise
 /** \class MosaicMethod
  * \brief Runs a method on the four planes of a Bayer mosaic at once: each pass reads the stack once for all of them.
  *
- * It is used as the method itself, see StackMethod. The report of each plane has the bits that the method finds of this
- * plane alone. MakeChannelReports() joins the four reports. May be moved.
+ * Use it as the method itself, see StackMethod. The report of each plane is equal, bit by bit, to the report of the
+ * method for this plane alone. MakeChannelReports() joins the four reports. An object may be moved.
  *
  * \tparam TPixel type of the pixels.
  * \tparam TMethod RefinedMethod<TPixel> or PublishedMethod<TPixel>. */
@@ -37,8 +37,16 @@ public:
 
   using Settings = typename TMethod::Settings;
 
-  /** \a settings are those of all planes, RefinedSettings::memoryLimitBytes for all of them together. \a geometry and
-   * \a mask are those of the mosaic. \a parallelFor has \a threads threads. Throws as the method does. */
+  /** Starts the first pass, with the same \a settings for all planes. RefinedSettings::memoryLimitBytes limits all
+   * planes together.
+   * \param settings settings of the method
+   * \param geometry size of the mosaic
+   * \param pattern pattern of the mosaic
+   * \param frames number of frames of the stack, at least 5
+   * \param mask for each pixel of the mosaic a nonzero value if it is to be used; empty: all
+   * \param parallelFor spreads the work over threads
+   * \param threads number of threads of \a parallelFor
+   * \throws std::invalid_argument as the method does. */
   MosaicMethod(const Settings &                  settings,
                const FrameGeometry &             geometry,
                BayerPattern                      pattern,
@@ -46,8 +54,8 @@ public:
                const std::vector<std::uint8_t> & mask = {},
                const ParallelFor &               parallelFor = SerialFor,
                std::size_t                       threads = 1);
-  /** The same with settings of each plane, in the order of BayerPlanes: offsets from dark frames differ between planes.
-   */
+  /** Starts the first pass, with \a settings for each plane, in the order of BayerPlanes. The offsets from dark frames
+   * differ between planes. A memory limit is the limit of each plane. */
   MosaicMethod(const std::array<Settings, 4> &   settings,
                const FrameGeometry &             geometry,
                BayerPattern                      pattern,
@@ -60,12 +68,13 @@ public:
   operator=(MosaicMethod && other) noexcept;
   ~MosaicMethod();
 
-  /** Adds the next \a count frames of the current pass, mosaics, stored one after the other. */
+  /** Adds the next \a count mosaics of the current pass, stored one after the other, row by row. Throws
+   * std::logic_error if fewer frames are left, or if a frame was added before. */
   void
   AddFrames(const TPixel * frames, std::size_t count);
 
-  /** Makes frame \a frame, from 0, the next one of the current pass. Throws std::logic_error if there is no such frame.
-   */
+  /** Makes frame \a frame, from 0, the next frame of the current pass. Throws std::logic_error if \a frame is not below
+   * the number of frames. */
   void
   GoTo(std::size_t frame);
 
@@ -73,15 +82,15 @@ public:
   const std::vector<std::uint8_t> &
   GetHas() const;
 
-  /** Takes back all that was added in the current pass. */
+  /** Discards all frames that were added or merged in the current pass. */
   void
   ForgetSums();
 
-  /** Writes the sums of the current pass, of all planes. */
+  /** Writes the sums of all planes over the frames of the current pass, as StackMethod::SaveSums(). */
   void
   SaveSums(std::ostream & out) const;
 
-  /** Adds the sums that another object saved in the same pass, as StackMethod::MergeSums(). */
+  /** Adds the sums that another object saved in the same pass, and throws, as StackMethod::MergeSums(). */
   void
   MergeSums(std::istream & in);
 
@@ -89,7 +98,7 @@ public:
   void
   EndPass();
 
-  /** Returns whether the reports of all planes are there. */
+  /** Returns whether all passes have ended, so that the reports of all planes exist. */
   bool
   IsDone() const;
 
@@ -97,8 +106,9 @@ public:
   std::array<Report, 4>
   GetReports() const;
 
-  /** Move a map of the whole frame out, every pixel with the value of its plane: as those of StackMethod. NaN, or for
-   * the pixel use Border, where a plane has no map, and in a last column or row that is in no plane. */
+  /** Move a map of the whole frame out, in which every pixel has the value of its plane. The maps are the maps of
+   * StackMethod. A pixel is NaN (PixelUse::Border in the map of pixel use) if its plane has no map, or if it is in a
+   * last column or row that belongs to no plane. */
   std::vector<double>
   TakeMean();
   std::vector<double>

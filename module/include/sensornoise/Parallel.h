@@ -13,10 +13,11 @@
 namespace sensornoise
 {
 
-/** Calls a function for 0 ... count-1, in any order and possibly at the same time. */
+/** Function that calls \a function for each of 0 ... count-1, in any order and possibly at the same time, and returns
+ * when all calls have ended. */
 using ParallelFor = std::function<void(std::size_t count, const std::function<void(std::size_t)> & function)>;
 
-/** The ParallelFor of one thread. */
+/** ParallelFor with one thread: calls \a function for 0 ... count-1 in ascending order. */
 inline void
 SerialFor(std::size_t count, const std::function<void(std::size_t)> & function)
 {
@@ -26,10 +27,10 @@ SerialFor(std::size_t count, const std::function<void(std::size_t)> & function)
   }
 }
 
-/** Pixels of a block: the unit in which maps are computed and sums are folded. */
+/** Number of pixels of a block. Maps are computed block by block, and sums are folded block by block. */
 inline constexpr std::size_t PixelsPerBlock = 8192;
 
-/** Calls function(begin, end) for blocks of \a count pixels, in any order and possibly at the same time. */
+/** Calls function(begin, end) for each block of \a count pixels, in any order and possibly at the same time. */
 template <typename TFunction>
 void
 ForBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction function)
@@ -38,7 +39,7 @@ ForBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction function
               [&](std::size_t b) { function(b * PixelsPerBlock, std::min(count, (b + 1) * PixelsPerBlock)); });
 }
 
-/** Calls function(pixel) for \a count pixels, block by block, in any order and possibly at the same time. */
+/** Calls function(pixel) for each of \a count pixels, block by block, in any order and possibly at the same time. */
 template <typename TFunction>
 void
 ForPixels(std::size_t count, const ParallelFor & parallelFor, TFunction function)
@@ -51,7 +52,8 @@ ForPixels(std::size_t count, const ParallelFor & parallelFor, TFunction function
   });
 }
 
-/** What function(begin, end, part) makes of each block of \a count pixels, in their order. */
+/** Returns the results of all blocks of \a count pixels, in the order of the blocks. function(begin, end, part)
+ * computes the result of one block in \a part, which is value-initialised before. */
 template <typename TPart, typename TFunction>
 std::vector<TPart>
 PartsOfBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction function)
@@ -65,9 +67,9 @@ PartsOfBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction func
   return parts;
 }
 
-/** Sums over \a count pixels: function(begin, end, sums) adds the share of a block of them to \a sums. Each block is
- * summed on its own and the blocks are folded in order, so that the result has the same bits for any number of threads.
- */
+/** Returns \a VSums sums over \a count pixels. function(begin, end, sums) adds the terms of a block to \a sums. Each
+ * block is summed separately, and the blocks are added in their order: the result has the same bits for any number of
+ * threads. */
 template <std::size_t VSums, typename TFunction>
 std::array<double, VSums>
 SumBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction function)
@@ -83,7 +85,7 @@ SumBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction function
   return total;
 }
 
-/** The same, pixel by pixel: function(pixel, sums). */
+/** Returns the sums of SumBlocks() for a function(pixel, sums), which adds the terms of one pixel. */
 template <std::size_t VSums, typename TFunction>
 std::array<double, VSums>
 SumOverBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction function)
@@ -96,7 +98,8 @@ SumOverBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction func
   });
 }
 
-/** SumBlocks() of sums whose number is known at run time: function(begin, end, double * sums). */
+/** Returns \a size sums over \a count pixels, folded as above. function(begin, end, double * sums) adds the terms of a
+ * block. */
 template <typename TFunction>
 std::vector<double>
 SumBlocks(std::size_t count, const ParallelFor & parallelFor, std::size_t size, TFunction function)
@@ -118,7 +121,7 @@ SumBlocks(std::size_t count, const ParallelFor & parallelFor, std::size_t size, 
   return total;
 }
 
-/** The same, pixel by pixel: function(pixel, double * sums). */
+/** Returns \a size sums over \a count pixels. function(pixel, double * sums) adds the terms of one pixel. */
 template <typename TFunction>
 std::vector<double>
 SumOverBlocks(std::size_t count, const ParallelFor & parallelFor, std::size_t size, TFunction function)

@@ -19,25 +19,30 @@ namespace sensornoise
 /** \class PublishedMethod
  * \brief Runs the algorithm of Figure 2 of Sur & Gredi\'ac 2015 in three passes over the stack.
  *
- * https://doi.org/10.1137/140977035. Pass 1 gathers the temporal moments, which give mean, variance, clip levels, the
- * vibration mask and the iso-intensity sets; pass 2 the sums of each frame over the sets, which give flicker and
- * offset; pass 3 the sums of the corrected variance, which gives gain and intercept. Several processes share sums of 32
- * bytes a frame and 8 a frame and row in pass 2, and of 8 bytes a pixel in pass 3.
+ * The paper is https://doi.org/10.1137/140977035. Pass 1 sums the temporal moments, which give mean, variance, clip
+ * levels, the vibration mask and the iso-intensity sets. Pass 2 sums each frame over these sets, which gives flicker
+ * and offset. Pass 3 sums the corrected variance, which gives gain and intercept. Several processes exchange sums of 32
+ * bytes per frame and 8 bytes per frame and row in pass 2, and of 8 bytes per pixel in pass 3.
  *
- * Equal frames are counted once; the flicker is reported for all of them.
+ * Equal frames are counted once. The flicker is reported for all of them.
  *
- * The bits are the same for any number of threads and any chunks. Memory: 40 bytes a pixel, 8 bytes a frame and row. A
- * stack that cannot be measured ends in a report whose quantities are `failed`, with a warning that says why; wrong use
- * throws std::invalid_argument. */
+ * The result has the same bits for any number of threads and any chunks. The method needs 40 bytes per pixel and 8
+ * bytes per frame and row. A stack that cannot be measured gives a report whose quantities have `failed`, with a
+ * warning that names the reason. Wrong use throws std::invalid_argument. */
 template <typename TPixel>
 class PublishedMethod final : public StackMethod<TPixel>
 {
 public:
   using Settings = PublishedSettings;
 
-  /** \a mask, if given, has a nonzero value at the pixels to be used; \a parallelFor spreads the work over threads.
-   * Throws std::invalid_argument for settings out of range, see PublishedSettings::Validate(), for fewer than 5 frames,
-   * frames under 3 x 3 pixels, and a mask of another size. */
+  /** Starts the first pass.
+   * \param settings settings of the method
+   * \param geometry size of a frame, at least 3 x 3 pixels
+   * \param frames number of frames of the stack, at least 5
+   * \param mask for each pixel a nonzero value if it is to be used; empty: all
+   * \param parallelFor spreads the work over threads
+   * \throws std::invalid_argument for settings out of range, see PublishedSettings::Validate(), for fewer frames or
+   * smaller frames, and for a mask of another size. */
   PublishedMethod(const PublishedSettings &         settings,
                   const FrameGeometry &             geometry,
                   std::size_t                       frames,

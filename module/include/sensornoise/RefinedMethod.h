@@ -19,37 +19,45 @@ namespace sensornoise
 /** \class RefinedMethod
  * \brief Estimates gain, offset and read noise at the theoretical limit, in three passes over the stack.
  *
- * Pass 1 gathers the temporal moments: the mean image, an initial noise model, the clipped pixels. Pass 2 regresses
- * every frame on the mean image and its derivatives: the temporal components of flicker, local illumination and motion,
- * and the offset. Pass 3 projects the time series of every pixel on these components; the rest is sensor noise, whose
- * regression on the mean gives gain and intercept. Where the illumination changes strongly, the stack is read once more
- * between passes 1 and 2. Several processes share sums of 16 kB a frame in pass 2, of 8 bytes a pixel and component in
- * pass 3, and of 8 bytes a pixel in the additional one.
+ * Pass 1 sums the temporal moments, which give the mean image, an initial noise model and the clipped pixels. Pass 2
+ * regresses every frame on the mean image and its derivatives. It gives the offset and the temporal components of
+ * flicker, local illumination and motion. Pass 3 projects the time series of every pixel on these components. The
+ * residual is sensor noise, and the regression of its variance on the mean gives gain and intercept. If the
+ * illumination changes strongly, the stack is read once more between passes 1 and 2. Several processes exchange sums of
+ * 16 kB per frame in pass 2, of 8 bytes per pixel and component in pass 3, and of 8 bytes per pixel in the additional
+ * pass.
  *
- * The result of a stack with repeated frames is that of the distinct frames. The series of the report repeat the values
- * of the first of equal frames.
+ * A stack with repeated frames has the result of its distinct frames. The series of the report have the same value for
+ * equal frames.
  *
- * The bits are the same for any number of threads and any chunks. Memory: 56 bytes a pixel and 8 more for each
- * component of illumination and motion that is found (2 to 20), 20 kB a frame, and 32 MiB. A stack that cannot be
- * measured ends in a report whose quantities are `failed`, with a warning that says why; wrong use throws
- * std::invalid_argument. */
+ * The result has the same bits for any number of threads and any chunks. The method needs 56 bytes per pixel, 8 bytes
+ * per pixel and component of illumination and motion (2 to 20 are found), 20 kB per frame, and 32 MiB. A stack that
+ * cannot be measured gives a report whose quantities have `failed`, with a warning that names the reason. Wrong use
+ * throws std::invalid_argument. */
 template <typename TPixel>
 class RefinedMethod final : public StackMethod<TPixel>
 {
 public:
   using Settings = RefinedSettings;
 
-  /** \a mask, if given, has a nonzero value at the pixels to be used; \a parallelFor spreads the work over threads.
-   * Throws std::invalid_argument for settings out of range, see RefinedSettings::Validate(), for fewer than 5 frames,
-   * frames under 3 x 3 pixels, and a mask of another size. */
+  /** Starts the first pass.
+   * \param settings settings of the method
+   * \param geometry size of a frame, at least 3 x 3 pixels
+   * \param frames number of frames of the stack, at least 5
+   * \param mask for each pixel a nonzero value if it is to be used; empty: all
+   * \param parallelFor spreads the work over threads
+   * \throws std::invalid_argument for settings out of range, see RefinedSettings::Validate(), for fewer frames or
+   * smaller frames, for a mask of another size, for a number of exposures other than \a frames, and for a memory limit
+   * below the least that the method needs. */
   RefinedMethod(const RefinedSettings &           settings,
                 const FrameGeometry &             geometry,
                 std::size_t                       frames,
                 const std::vector<std::uint8_t> & mask = {},
                 ParallelFor                       parallelFor = SerialFor);
 
-  /** Promises that no sums of the third pass will be saved or merged. Where all frames are added to it together, it
-   * then needs no memory for sums. Call it before the third pass. */
+  /** Declares that no sums of the third pass will be saved or merged. If all frames are then added to this pass in one
+   * call of AddFrames(), it needs no memory for sums. Call it before the third pass. If it is called before the first
+   * pass ends, it holds for the additional pass under strongly changing illumination, too. */
   void
   DisableMerging();
 };

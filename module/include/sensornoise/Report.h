@@ -19,81 +19,83 @@
 namespace sensornoise
 {
 
-/** The reason for which a frame is not one of the burst. */
+/** Reason for which a frame is left out. */
 enum class FrameFault : std::uint8_t
 {
-  NotFinite,   ///< most of it is NaN or infinite
-  NoNoise,     ///< neighbouring pixels are equal in most of it: zeros, or saturated
-  OtherShape,  ///< it is not the scene of the others in other light: another scene, a shadow
-  OtherOffset, ///< its level differs by as much in dark places as in bright ones: another dark offset
-  OtherNoise   ///< its noise is not that of the others at its level: another gain, another processing
+  NotFinite,   ///< most of its pixels are NaN or infinite
+  NoNoise,     ///< most of its pixels equal their neighbours: zeros, or saturated
+  OtherShape,  ///< it does not show the scene of the other frames at another illumination: another scene, a shadow
+  OtherOffset, ///< its level differs by the same amount in dark and in bright areas: another dark offset
+  OtherNoise   ///< its noise differs from the noise of the other frames at its level: another gain or processing
 };
 
-/** Its name in the JSON record; stable, for programs. */
+/** Returns the name of the reason in the JSON record. The names are stable, for programs. */
 SensorNoise_EXPORT const char *
 NameOf(FrameFault fault);
 
-/** A frame of the stack as given that is not counted. */
+/** Frame of the given stack that is left out of the measurement. */
 struct LeftOutFrame
 {
-  std::size_t frame{ 0 }; ///< from 0
+  std::size_t frame{ 0 }; ///< number of the frame in the stack, from 0
   FrameFault  fault{ FrameFault::OtherShape };
 };
 
-/** Why a pixel takes part in the estimate of the gain or not: the values of the pixel-use map. */
+/** Use of a pixel in the estimate of the gain, or the reason for which it is left out: the values of the pixel-use map.
+ */
 enum class PixelUse : std::uint8_t
 {
   Used = 0,
-  Clipped = 1,        ///< a frame holds a clip level
-  NotFinite = 2,      ///< a frame holds NaN or infinity
-  Vibration = 3,      ///< its gradient is more than noise explains
+  Clipped = 1,        ///< it attains a clip level in a frame
+  NotFinite = 2,      ///< it is NaN or infinite in a frame
+  Vibration = 3,      ///< its gradient is larger than noise explains (published method)
   Border = 4,         ///< it has no centred difference
-  Constant = 5,       ///< it never varies
-  FlickerUnknown = 6, ///< the bright set does not reach its row
+  Constant = 5,       ///< it has the same value in all frames
+  FlickerUnknown = 6, ///< its row has no pixels of the bright set, so that its flicker is not known
   Masked = 7,         ///< the user left it out
-  NearClip = 8,       ///< it could have come to a clip level, or a neighbour is clipped or not finite
-  NotStatic = 9,      ///< its variance does not fit, nor does that of its surroundings: something moved
-  Outlier = 10,       ///< its variance is too far from the line, or dark frames show it defective
-  CoarseCodes = 11,   ///< its noise is below half a code step
-  OutsideRange = 12,  ///< its level is not one that the user wants
-  Edge = 13,          ///< frames were filtered, and neighbours of another level mixed their noise in
-  MaskedBorder = 14   ///< of a strip along the border that is no part of the scene, as optical-black columns
+  NearClip = 8,       ///< its noise or the flicker could have reached a clip level, or a neighbour is clipped
+  NotStatic = 9,      ///< its variance and the variance around it do not fit a static scene: something moved
+  Outlier = 10,       ///< its variance is too far from the line, or it is defective in the dark frames
+  CoarseCodes = 11,   ///< its noise is below half a quantization step
+  OutsideRange = 12,  ///< its level is outside the range that the user chose
+  Edge = 13,          ///< it is beside an edge of filtered frames: noise of pixels of another level is mixed in
+  MaskedBorder = 14   ///< it is in a strip along the border that is no part of the scene, as optical-black columns
 };
 
-/** What can be said of a quantity. */
+/** Status of an estimated quantity. */
 enum class EstimateStatus : std::uint8_t
 {
-  Identified,      ///< value stands
-  NotIdentifiable, ///< the data cannot give it: value is null, the bracket stands where one exists
-  UpperLimit,      ///< indistinguishable from zero: value is null, the bracket's upper end limits it
-  Failed           ///< the data contradict the model: value is null
+  Identified,      ///< the estimate is valid: value has it
+  NotIdentifiable, ///< the data do not determine the quantity: value is null, bracket has its bounds if there are any
+  UpperLimit,      ///< not distinguished from 0: value is null, interval95 and bracket are from 0 to the limit
+  Failed           ///< the data contradict the model, or there was nothing to measure: value is null
 };
 
-/** The values that a quantity may have, see Filed(). */
+/** Domain of a quantity: the values that it can have. It decides on the status of an estimate. */
 enum class QuantityDomain : std::uint8_t
 {
-  Positive,    ///< 0 is no value of it: a gain, a responsivity
-  NonNegative, ///< 0 is one: a noise, a flicker, a motion
-  Offset,      ///< a level [DN], of which 0 is a value like others
-  AnySign      ///< an intercept, a covariance
+  Positive,    ///< above 0, for example a gain or a responsivity
+  NonNegative, ///< 0 or more, for example a read noise, a flicker or a motion
+  Offset,      ///< a level [DN] of any sign, whose certainty is compared with the signal
+  AnySign      ///< any number, for example an intercept or a covariance
 };
 
-/** Two ends; an end that is not bounded is null. */
+/** Interval between two bounds. A bound that does not exist is null. */
 struct Interval
 {
   std::optional<double> low;
   std::optional<double> high;
 };
 
-/** One estimated quantity: its value only where it is identified. Its unit is in QuantityList(). */
+/** Estimated quantity. Its unit is in QuantityList(); value, standard error and bounds have this unit. */
 struct Quantity
 {
-  std::optional<double>   value;
-  std::optional<double>   standardError; ///< null: the method has none
-  std::optional<Interval> interval95;    ///< null: the method has none
-  EstimateStatus          status{ EstimateStatus::Failed };
-  std::optional<Interval> bracket; ///< physical limits (sigma^2 >= 0, flux >= 0), where they exist
+  std::optional<double>   value;                            ///< the estimate; null unless the status is Identified
+  std::optional<double>   standardError;                    ///< standard error of the value; null: not known
+  std::optional<Interval> interval95;                       ///< 95 % interval; null: not known
+  EstimateStatus          status{ EstimateStatus::Failed }; ///< Failed until an estimate is set
+  std::optional<Interval> bracket; ///< bounds from the data and from physics (sigma^2 >= 0, signal >= 0); null: none
 
+  /** Returns an identified quantity with this value, without standard error. */
   static Quantity
   Identified(double number)
   {
@@ -102,6 +104,7 @@ struct Quantity
     quantity.status = EstimateStatus::Identified;
     return quantity;
   }
+  /** Returns a quantity without a value, with this status and these bounds. */
   static Quantity
   Without(EstimateStatus status, const std::optional<Interval> & bracket = std::nullopt)
   {
@@ -112,91 +115,98 @@ struct Quantity
   }
 };
 
-/** What the noise of pixels, or of frames, has in common. */
+/** Correlation of the noise between pixels and between frames. */
 struct NoiseCorrelationRecord
 {
-  /** Of pixels \a x columns and \a y rows apart, or of frames \a frames apart. */
+  /** Correlation coefficient of the noise at one lag: in space (frames is 0), or between frames (x and y are 0). */
   struct Lag
   {
-    int    x{ 0 };
-    int    y{ 0 };
-    int    frames{ 0 };
-    double value{ 0.0 }; ///< correlation coefficient [1]
-    double standardError{ 0.0 };
+    int    x{ 0 };               ///< distance along a row [pixel]
+    int    y{ 0 };               ///< distance along a column [pixel]
+    int    frames{ 0 };          ///< distance in time [frame]
+    double value{ 0.0 };         ///< correlation coefficient [1]
+    double standardError{ 0.0 }; ///< standard error of the coefficient [1]
   };
-  /** The covariance of pixels \a x columns and \a y rows apart: slope times level + intercept. */
+  /** Covariance of the noise at one lag in space, as a function of the level: slope times level + intercept. */
   struct Line
   {
-    int    x{ 0 };
-    int    y{ 0 };
-    double slope{ 0.0 }; ///< [DN/e-]
-    double slopeStandardError{ 0.0 };
-    double intercept{ 0.0 }; ///< [DN^2]
-    double interceptStandardError{ 0.0 };
+    int    x{ 0 };                        ///< distance along a row [pixel]
+    int    y{ 0 };                        ///< distance along a column [pixel]
+    double slope{ 0.0 };                  ///< slope of the covariance against the level [DN/e-]
+    double slopeStandardError{ 0.0 };     ///< standard error of the slope [DN/e-]
+    double intercept{ 0.0 };              ///< covariance at level 0 [DN^2]
+    double interceptStandardError{ 0.0 }; ///< standard error of the intercept [DN^2]
   };
-  std::string       kind; ///< white, crosstalk, filtered, temporal, enlarged, brighter-fatter, not-linear, not-measured
-  std::vector<Lag>  space;
-  std::vector<Lag>  time;
-  std::vector<Line> covarianceLines; ///< empty: neighbours share nothing
-  Quantity          rowNoise;        ///< common to a row of one frame
-  Quantity          columnNoise;     ///< common to a column
-  Quantity          excessKurtosis;
+  /** Noise class: "white", "crosstalk", "filtered", "temporal", "enlarged", "brighter-fatter", "not-linear" or
+   * "not-measured". */
+  std::string       kind;
+  std::vector<Lag>  space;           ///< coefficients by lag in space; of each pair of opposite lags one is listed
+  std::vector<Lag>  time;            ///< coefficients by lag in time
+  std::vector<Line> covarianceLines; ///< lag 0 and the summed lags in space; empty: no correlation between pixels
+  Quantity          rowNoise;        ///< standard deviation of the noise common to a row of one frame [DN]
+  Quantity          columnNoise;     ///< standard deviation of the noise common to a column of one frame [DN]
+  Quantity          excessKurtosis;  ///< excess kurtosis of the noise of a pixel [1]; 0: normal noise
 };
 
-/** Gains of the parts of the frame, where they differ. */
+/** Gains of parts of the frame or of the burst that differ. */
 struct GainByPartsRecord
 {
   struct Part
   {
     std::string name;
-    double      gain{ 0.0 };          ///< [DN/e-]
-    double      standardError{ 0.0 }; ///< [DN/e-]
-    double      pixelFraction{ 0.0 }; ///< of the pixels used [1]
+    double      gain{ 0.0 };          ///< system gain of the part [DN/e-]
+    double      standardError{ 0.0 }; ///< standard error of the gain [DN/e-]
+    double      pixelFraction{ 0.0 }; ///< fraction of the used pixels that are in the part [1]
   };
   std::string       pattern; ///< name of the partition, as in PartitionTable
   std::vector<Part> parts;
 };
 
-/** Linearity of the response against given exposures. */
+/** Linearity of the response, measured with the given exposures of the frames. */
 struct LinearityRecord
 {
-  /** The level of the brightest never clipped parts of the frames at one exposure. */
+  /** Level of the brightest parts of the frames at one exposure; parts that are clipped in any frame are left out. */
   struct Level
   {
-    double      exposure{ 0.0 }; ///< in the unit in which the exposures were given
-    std::size_t frames{ 0 };
-    double      meanDn{ 0.0 };
-    std::optional<double>
-      deviationPercent; ///< from the line, relative to the line's signal; null: outside of the range
+    double      exposure{ 0.0 }; ///< the exposure, in the unit in which the exposures were given
+    std::size_t frames{ 0 };     ///< number of frames at this exposure
+    double      meanDn{ 0.0 };   ///< mean level [DN]
+    /** Deviation of the level from the line, relative to the signal of the line [%]; null: outside of the range. */
+    std::optional<double> deviationPercent;
   };
-  Quantity              errorPercent{ Quantity::Without(EstimateStatus::NotIdentifiable) }; ///< of EMVA 1288
-  Quantity              offsetDn{ Quantity::Without(EstimateStatus::NotIdentifiable) };
-  Quantity              responsivity{ Quantity::Without(EstimateStatus::NotIdentifiable) }; ///< [DN per exposure]
-  std::string           reason{ "no exposures were given" }; ///< of a missing linearity error; "": there is one
+  /** Linearity error by EMVA 1288 Release 4.0 Linear, 6.7 [%]. */
+  Quantity errorPercent{ Quantity::Without(EstimateStatus::NotIdentifiable) };
+  /** Dark offset: the level at exposure 0 [DN]. */
+  Quantity offsetDn{ Quantity::Without(EstimateStatus::NotIdentifiable) };
+  /** Slope of the line through the levels [DN per unit of exposure]. */
+  Quantity              responsivity{ Quantity::Without(EstimateStatus::NotIdentifiable) };
+  std::string           reason{ "no exposures were given" }; ///< why there is no linearity error; "": there is one
   std::string           offsetSource{ "none" };              ///< "dark frames" (exposure 0), "line" or "none"
-  std::optional<double> saturationDn;
+  std::optional<double> saturationDn;                        ///< level at which the response saturates [DN]
   std::string           saturationSource{ "none" }; ///< "given", "pile-up", "code range", "largest level" or "none"
   std::vector<Level>    levels;                     ///< in the order of the exposures; empty: no exposures were given
 };
 
-/** Something that the user should know. */
+/** Warning of a report. */
 struct Warning
 {
   WarningCode code;
   std::string message; ///< one sentence, for people, with the numbers found and expected
 };
 
-/** Frames that were measured, by which a stored report is known to be of them: their files, or their pixels where they
- * are in no file that this library reads. */
+/** Identification of the measured frames, so that a stored report can be matched with them: by their files, or by their
+ * pixels if they are in no file that this library reads. */
 struct InputFiles
 {
-  /** SHA-256, in hexadecimal digits. Of the bytes of all files, one after the other in the order of the frames, behind
-   * a header the files of its pixels: what `cat FILES | sha256sum` prints. Of pixels: of all their bytes, least
-   * significant first, a frame after the other, row by row. "": not computed, for want of OpenSSL. */
+  /** SHA-256 in hexadecimal digits; "": not computed, because OpenSSL is missing. For files it is the sum over the
+   * bytes of all files in the order of the frames, as `cat FILES | sha256sum` prints it; a header is followed by its
+   * data files. For pixels it is the sum over the bytes of all pixels, least significant byte first, frame by frame and
+   * row by row. */
   std::string   sha256;
-  std::size_t   files{ 0 }; ///< 0: the pixels
-  std::uint64_t bytes{ 0 }; ///< of all files, or of the pixels
+  std::size_t   files{ 0 }; ///< number of files; 0: the frames are identified by their pixels
+  std::uint64_t bytes{ 0 }; ///< size of all files, or of all pixels [bytes]
 
+  /** Returns whether the frames are identified by their pixels. */
   bool
   IsOfPixels() const
   {
@@ -204,111 +214,123 @@ struct InputFiles
   }
 };
 
-/** All that was read. */
+/** Identification of all frames that were read. */
 struct InputRecord
 {
   InputFiles                frames;
-  std::optional<InputFiles> dark; ///< null: no dark frames
+  std::optional<InputFiles> dark; ///< dark frames; null: none
 };
 
 /** \class Report
- * \brief All that was measured from one stack: the record whose JSON is "itk-sensornoise-report/1".
+ * \brief All results for one stack: the record whose JSON is "itk-sensornoise-report/1".
  *
- * The member names are those of the JSON record in camel case; units stand in each quantity.
+ * The members have the names of the JSON record, in camel case. QuantityList() has unit and meaning of each quantity.
  */
 struct Report
 {
   using SettingValue = std::variant<double, bool, std::string, std::vector<double>>;
 
-  std::string                                       method;
-  std::vector<std::pair<std::string, SettingValue>> settings; ///< every parameter as used
-  std::optional<InputRecord>                        input;    ///< null: not asked for
+  std::string                                       method;   ///< "refined" or "published"
+  std::vector<std::pair<std::string, SettingValue>> settings; ///< settings that change a number, by JSON name
+  std::optional<InputRecord>                        input;    ///< record of the frames read; null: not asked for
 
-  std::size_t               frames{ 0 };
-  std::size_t               framesDistinct{ 0 }; ///< equal frames are counted once: what all but the series is made of
-  std::vector<LeftOutFrame> framesLeftOut;       ///< unlike the others; all but the series is measured without them
-  std::size_t               width{ 0 };
-  std::size_t               height{ 0 };
-  std::string               channel{ "mono" };
-  CameraSettings            camera; ///< what the frames' file says of it
-  std::optional<int>        bitDepth;
-  std::string               bitDepthSource{ "none" };
-  std::optional<double>     quantisationStepDn; ///< null: the data have no codes
-  std::optional<double>     clipLowDn;
-  std::optional<double>     clipHighDn;
-  std::string               clipSource{ "none" };
+  std::size_t frames{ 0 }; ///< number of frames that were given
+  /** Number of frames that count: each of equal frames once, without the frames that are left out. All results but the
+   * series are measured from them. */
+  std::size_t               framesDistinct{ 0 };
+  std::vector<LeftOutFrame> framesLeftOut;            ///< frames that are unlike the others
+  std::size_t               width{ 0 };               ///< columns of a frame [pixel]
+  std::size_t               height{ 0 };              ///< rows of a frame [pixel]
+  std::string               channel{ "mono" };        ///< "mono", or the plane of a mosaic: "R", "G1", "G2" or "B"
+  CameraSettings            camera;                   ///< settings of the camera that the file records
+  std::optional<int>        bitDepth;                 ///< bit depth of the digital numbers; null: not known
+  std::string               bitDepthSource{ "none" }; ///< "given", "data" or "none"
+  std::optional<double>     quantisationStepDn;       ///< quantization step [DN]; null: the data are not quantized
+  std::optional<double>     clipLowDn;                ///< a pixel that attains it is clipped [DN]; null: none
+  std::optional<double>     clipHighDn;               ///< a pixel that attains it is clipped [DN]; null: none
+  std::string clipSource{ "none" }; ///< "given", "pile-up", "code range", "none", or "low: ..., high: ..."
 
+  /** Numbers of pixels. */
   struct Pixels
   {
-    std::size_t total{ 0 };
-    std::size_t valid{ 0 };
-    std::size_t used{ 0 };
-    std::size_t clipped{ 0 };
-    std::size_t notFinite{ 0 };
+    std::size_t total{ 0 };     ///< pixels of a frame
+    std::size_t valid{ 0 };     ///< pixels that are finite, never clipped and not masked by the user
+    std::size_t used{ 0 };      ///< pixels that take part in the estimate of the gain
+    std::size_t clipped{ 0 };   ///< pixels that attain a clip level in a frame
+    std::size_t notFinite{ 0 }; ///< pixels that are NaN or infinite in a frame
   } pixels;
 
-  Quantity gain;
-  /** Of a pixel's variance against its level: with totalIntercept what a denoiser needs. The gain where the noise is
-   * white and the codes are even. */
+  Quantity gain; ///< system gain g, from the total covariance over lags, over a given excess noise factor [DN/e-]
+  /** Slope of the variance of a pixel against its level, in the frames as they are [DN/e-]. With totalIntercept it is
+   * the noise model for a denoiser. It equals the gain if the noise is white and the quantization is uniform. */
   Quantity varianceSlope;
-  Quantity offset;
-  Quantity readNoise;
-  /** Of the median pixel, where pixels differ: only dark frames tell it. */
+  Quantity offset;    ///< dark offset mu [DN]
+  Quantity readNoise; ///< read noise sigma, rms over all pixels that are not defective, without quantization noise [DN]
+  /** Read noise of the median pixel [DN], for sensors whose pixels differ. Only dark frames determine it. */
   Quantity readNoiseMedian{ Quantity::Without(EstimateStatus::NotIdentifiable) };
-  Quantity readNoiseElectrons;
-  Quantity intercept;      ///< sigma^2 - g mu
-  Quantity totalIntercept; ///< with the codes' noise
-  /** Of gain, intercept and offset; where there is no offset, NaN in its row and column. */
+  Quantity readNoiseElectrons; ///< read noise over gain [e-]
+  Quantity intercept;          ///< sigma^2 - g mu, without quantization noise [DN^2]
+  Quantity totalIntercept;     ///< variance of a pixel at level 0, in the frames as they are [DN^2]
+  /** Covariance matrix of the errors of gain [DN/e-], intercept [DN^2] and offset [DN], in this order. Without an
+   * offset its row and column are NaN. Null: not known. */
   std::optional<std::array<std::array<double, 3>, 3>> covariance;
 
-  Quantity flickerSd;
-  Quantity vibrationSdX;
-  Quantity vibrationSdY;
-  Quantity vibrationCovariance;
+  Quantity flickerSd;           ///< standard deviation of gamma_t over the frames [1]
+  Quantity vibrationSdX;        ///< standard deviation of the motion along x [pixel]
+  Quantity vibrationSdY;        ///< standard deviation of the motion along y [pixel]
+  Quantity vibrationCovariance; ///< covariance of the motions along x and along y [pixel^2]
 
-  std::vector<double>                flicker;     ///< gamma_t of every frame [1]; of equal ones the same, NaN: left out
-  std::vector<std::vector<double>>   flickerRows; ///< gamma_t(y): frame by frame; empty: null in JSON
-  std::vector<std::array<double, 2>> motion;      ///< (alpha_t, beta_t) [pixel]; empty: the method has none
+  /** gamma_t of every given frame, the illumination factor minus 1 [1]; NaN: left out. Equal frames have equal values.
+   */
+  std::vector<double> flicker;
+  /** gamma_t(y) of every given frame, row by row [1]; NaN: not known. Empty: not measured, null in JSON. */
+  std::vector<std::vector<double>> flickerRows;
+  /** Shift (alpha_t, beta_t) of every given frame [pixel]; NaN: left out, or too dark. Empty: not measured. */
+  std::vector<std::array<double, 2>> motion;
 
+  /** Polynomial of the variance [DN^2] as a function of the level x [DN]: curvature x^2 + gain x + intercept. */
   struct Baseline
   {
-    double curvature{ 0.0 };
-    double gain{ 0.0 };
-    double intercept{ 0.0 };
+    double curvature{ 0.0 }; ///< [1]
+    double gain{ 0.0 };      ///< [DN/e-]
+    double intercept{ 0.0 }; ///< [DN^2]
   };
+  /** Quality of the fits. A member is null if the fit was not made. */
   struct Fit
   {
-    std::optional<double>   reducedChi2;
-    std::optional<double>   curvature;
-    std::optional<double>   curvatureZ;
-    std::optional<double>   nonlinearity; ///< D, departure of the corrected variance from its line [1]
-    std::optional<double>   offsetLinePhi;
-    std::optional<Baseline> line; ///< through the corrected variance: indicative where the gain is not identified
+    std::optional<double>   reducedChi2;  ///< reduced chi-square of the variance about its line [1]
+    std::optional<double>   curvature;    ///< quadratic coefficient of the variance against the level [1]
+    std::optional<double>   curvatureZ;   ///< curvature over its standard error [1]
+    std::optional<double>   nonlinearity; ///< D, largest relative deviation of the corrected variance from its line [1]
+    std::optional<double>   offsetLinePhi; ///< residual variance of the offset line over the variance of its noise [1]
+    std::optional<Baseline> line;          ///< line through the corrected variance; only indicative without a gain
   } fit;
   std::optional<NoiseCorrelationRecord> noiseCorrelation; ///< null: not measured
   std::vector<GainByPartsRecord>        gainByParts;      ///< empty: the gain is uniform, or is not identified
-  LinearityRecord                       linearity;
-  std::optional<Baseline>               affineBaseline; ///< the line through the uncorrected variance: ignores flicker
-  std::optional<Baseline>               quadraticBaseline; ///< the parabola through the uncorrected variance, (2.21)
+  LinearityRecord                       linearity;        ///< linearity of the response, if exposures were given
+  std::optional<Baseline> affineBaseline; ///< line through the uncorrected variance, for comparison; null: not fitted
+  std::optional<Baseline> quadraticBaseline; ///< parabola through the uncorrected variance, (2.21); null: not fitted
 
   std::vector<Warning> warnings;
 
-  /** Figure 4: averages over bins of equal count of the pixels used. */
+  /** Noise curve: averages over intensity bins that hold equal numbers of the used pixels, from dark to bright (Figure
+   * 4 of Sur & Gredi\'ac 2015). All vectors have one value per bin. */
   struct Scatter
   {
-    std::vector<double>      mean;
-    std::vector<double>      variance;
-    std::vector<double>      correctedVariance;
-    std::vector<std::size_t> count;
+    std::vector<double>      mean;              ///< temporal mean [DN]
+    std::vector<double>      variance;          ///< temporal variance [DN^2]
+    std::vector<double>      correctedVariance; ///< variance without flicker and motion [DN^2]
+    std::vector<std::size_t> count;             ///< number of pixels
   } scatter;
 
-  /** Whether anything was estimated. */
+  /** Returns whether the gain or the intercept is identified. */
   bool
   IsUsable() const
   {
     return gain.status == EstimateStatus::Identified || intercept.status == EstimateStatus::Identified;
   }
 
+  /** Adds a warning. */
   void
   Warn(WarningCode code, std::string message)
   {

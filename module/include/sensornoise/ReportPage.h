@@ -14,14 +14,15 @@
 namespace sensornoise
 {
 
-/** The maps of a measurement, row by row; they belong to the caller. */
+/** Maps of a measurement, stored row by row. The caller owns them. */
 struct PageMaps
 {
-  std::size_t          width{ 0 };
-  std::size_t          height{ 0 };
-  const double *       mean{ nullptr };     ///< [DN]; null: none
-  const std::uint8_t * pixelUse{ nullptr }; ///< as PixelUse; null: none
+  std::size_t          width{ 0 };          ///< columns of the maps [pixel]
+  std::size_t          height{ 0 };         ///< rows of the maps [pixel]
+  const double *       mean{ nullptr };     ///< temporal mean [DN]; null: none
+  const std::uint8_t * pixelUse{ nullptr }; ///< values of PixelUse; null: none
 
+  /** Returns whether there is no map. */
   bool
   IsEmpty() const
   {
@@ -29,28 +30,29 @@ struct PageMaps
   }
 };
 
-/** The report as one HTML page that needs nothing else: no network, no script. It says what was found, in a sentence,
- * in a table and in figures, what the warnings mean and what would help, and EMVA 1288's symbols beside ours. \a maps:
- * of the pixels, reduced to at most 256 x 256 points; none: the page is without. */
+/** Returns the report as one HTML page, without network access and scripts. The page has the result in a sentence, in a
+ * table and in figures, the meaning of the warnings and what to do, and the symbols of EMVA 1288. The maps are shown
+ * with at most 256 x 256 points; without \a maps the page has none. */
 SensorNoise_EXPORT std::string
 ToHtml(const Report & report, const PageMaps & maps = {});
 
-/** The same of a mosaic: a table of all channels, then each by itself. The maps are of the whole frame. */
+/** Returns the reports of a mosaic as one HTML page: a table of all channels, followed by the report of each channel.
+ * The maps are maps of the whole frame. */
 SensorNoise_EXPORT std::string
 ToHtml(const ChannelReports & reports, const PageMaps & maps = {});
 
-/** Figure 1 of the page, variance against mean, as an SVG file of its own. */
+/** Returns figure 1 of the page, variance against mean, as an SVG file. */
 SensorNoise_EXPORT std::string
 ToSvg(const Report & report);
 
-/** The numbers of the report's figures, its FigureData, as JSON, for who draws them in another language: one object, an
- * array a member; null for what is not known. `mean`, `variance`, `corrected_variance`; `residual_mean`, `residual`,
- * `residual_spread`; `line_mean`, `line_variance`, `band_low`, `band_high`, `is_indicative`; `flicker`, `motion_x`,
- * `motion_y`; and `lags`, each as in the report. */
+/** Returns the numbers of the figures (FigureData) as a JSON object, for plots in other languages. Its members are
+ * arrays, with null for unknown values: `mean`, `variance` and `corrected_variance`; `residual_mean` and `residual`;
+ * `line_mean`, `line_variance`, `band_low` and `band_high`; `flicker`, `motion_x` and `motion_y`; and `lags`, each as
+ * in the report. `residual_spread` is a number, and `is_indicative` is true or false. */
 SensorNoise_EXPORT std::string
 FigureAsJson(const Report & report);
 
-/** The same of every channel: an object each, by the channel's name. */
+/** Returns the numbers of the figures of every channel: one object per channel, under the name of the channel. */
 SensorNoise_EXPORT std::string
 FigureAsJson(const ChannelReports & reports);
 

@@ -17,83 +17,84 @@
 namespace sensornoise
 {
 
-/** When the table for people has a line for a quantity; the JSON record has all of them. */
+/** Condition for a row of a quantity in the table. The JSON record has all quantities. */
 enum class ShownIn : std::uint8_t
 {
-  EveryTable,
-  TableIfKnown,      ///< where it has a value
-  TableIfNotTheGain, ///< where it has a value that is not the gain's
-  TableIfLimited,    ///< where it has a value or an upper limit
+  EveryTable,        ///< if the report has the quantity, with or without a value
+  TableIfKnown,      ///< if it has a value
+  TableIfNotTheGain, ///< if it has a value that differs from the value of the gain
+  TableIfLimited,    ///< if it has a value or an upper limit
   Record             ///< never
 };
 
-/** One quantity of a report: where it is and what it is called. */
+/** Description of one quantity of a report. */
 struct QuantityEntry
 {
-  const char *   path;    ///< in the JSON record; a dot leads into an object: "vibration.sd_x"
-  const char *   label;   ///< in the table
-  const char *   unit;    ///< "DN", "DN^2", "DN/e-", "e-", "pixel", "pixel^2", "%", "DN/unit", "1"
-  const char *   meaning; ///< one sentence
-  ShownIn        shown;
-  QuantityDomain domain; ///< its possible values, by which FileStatuses() files it
-  /** The quantity; null in a report that has no such object. */
+  const char *   path;    ///< path in the JSON record; a dot leads into an object: "vibration.sd_x"
+  const char *   label;   ///< label in the table
+  const char *   unit;    ///< "DN", "DN^2", "DN/e-", "e-", "pixel", "pixel^2", "%", "DN/unit" or "1"
+  const char *   meaning; ///< description in one or more sentences
+  ShownIn        shown;   ///< condition for a row in the table
+  QuantityDomain domain;  ///< possible values, which decide on the status
+  /** Returns the quantity of a report; null: the report has no object with this quantity. */
   const Quantity * (*of)(const Report & report);
 };
 
-/** Returns all quantities, in the order of the table. JSON, table, Python and documentation/reference/quantities.md are
- * generated from this list, or tested against it. */
+/** Returns all quantities, in the order of the table. JSON, table, Python package and
+ * documentation/reference/quantities.md are generated from this list, or tested against it. */
 SensorNoise_EXPORT const std::vector<QuantityEntry> &
 QuantityList();
 
-/** WarningTable and QuantityList() as JSON, for other languages:
+/** Returns WarningTable and QuantityList() as JSON, for other languages:
  * {"warnings": [{"code", "severity", "sentence"}, ...], "quantities": [{"path", "label", "unit", "meaning"}, ...]}. */
 SensorNoise_EXPORT std::string
 CatalogueAsJson();
 
-/** The version of the record. */
+/** Name and version of the schema of the JSON record. */
 inline constexpr const char * ReportSchema = "itk-sensornoise-report/1";
 
-/** The JSON name of a status. */
+/** Returns the name of the status in the JSON record, for example "not-identifiable". */
 SensorNoise_EXPORT const char *
 NameOf(EstimateStatus status);
 
-/** The record as JSON, schema "itk-sensornoise-report/1": one object, units in each quantity, null for what is unknown.
- */
+/** Returns the report as a JSON object, schema "itk-sensornoise-report/1". Each quantity has its unit; unknown values
+ * are null. */
 SensorNoise_EXPORT std::string
 ToJson(const Report & report);
 
-/** The report as a table that a person can read: what was found, one line a quantity, no warnings. */
+/** Returns the report as a table for people, one line per quantity, without the warnings. */
 SensorNoise_EXPORT std::string
 MakeTable(const Report & report);
 
-/** A warning as a line: "warning: message [code]", with "note" or "error" where its severity is that. */
+/** Returns the warning as a line: "warning: message [code]". "note" or "error" replaces "warning" by the severity. */
 SensorNoise_EXPORT std::string
 TextOf(const Warning & warning);
 
-/** " (3 left out, 50 different)", of the frames given; "" where all are counted. */
+/** Returns how many of the given frames count, for example " (3 left out, 50 different)"; "" if all count. */
 SensorNoise_EXPORT std::string
 TextOfCounted(const Report & report);
 
-/** The table and, a line each, what the user should know: for those who see nothing else. */
+/** Returns the table and the warnings, one line per warning. */
 SensorNoise_EXPORT std::string
 MakeText(const Report & report);
 
-/** The reports of a mosaic's channels as one JSON record, schema "itk-sensornoise-report/1": `bayer` (`pattern`,
- * `source`), `joint` (`offset`, `precision_gain`, `reduced_chi2`; or null), `warnings` of all together, and `channels`,
- * a record each in the order R, G1, G2, B, which says its name in `channel`. */
+/** Returns the reports of a mosaic as one JSON object, schema "itk-sensornoise-report/1". Its members are `bayer`
+ * (`pattern`, `source`), `joint` (`offset`, `precision_gain`, `reduced_chi2`; or null), `joint_vibration`, `warnings`
+ * about all channels, and `channels`: the reports of R, G1, G2 and B, in this order. */
 SensorNoise_EXPORT std::string
 ToJson(const ChannelReports & reports);
 
-/** The same as a table that a person can read: a line a channel, as Table 6 of Sur & Grédiac 2015 has them, after the
- * parameters of the sensor the motion and the flicker; then the joint offset. No warnings. */
+/** Returns the reports of a mosaic as a table for people, one line per channel, as in Table 6 of Sur & Grédiac 2015.
+ * Motion and flicker follow after the parameters of the sensor, then the joint offset. It has no warnings. */
 SensorNoise_EXPORT std::string
 MakeTable(const ChannelReports & reports);
 
-/** The table and, a line each, what the user should know of all channels and of each. */
+/** Returns the table and the warnings of WarningsOf(), one line per warning. */
 SensorNoise_EXPORT std::string
 MakeText(const ChannelReports & reports);
 
-/** All warnings, those of a channel with its name before the sentence; what several say alike is said once. */
+/** Returns all warnings. A warning of a channel has the name of the channel before its message; equal warnings of
+ * several channels are joined. */
 SensorNoise_EXPORT std::vector<Warning>
 WarningsOf(const ChannelReports & reports);
 

@@ -16,139 +16,144 @@
 #include <vector>
 
 /** \file
- * Parameters of both methods, and what is known beforehand of the dark offset and of the digital numbers. */
+ * Parameters of both methods, and prior knowledge of the dark offset and of the digital numbers. */
 
 namespace sensornoise
 {
 
 struct DarkMaps; // private
 
-/** How the flicker may vary inside a frame. */
+/** Variation of the flicker within a frame. */
 enum class RollingShutter : std::uint8_t
 {
-  Off,  ///< one gamma_t a frame
-  Auto, ///< gamma_t(y) where the data show it, sigma_y by cross-validation
-  Fixed ///< gamma_t(y) with the given sigma_y, section 3.5
+  Off,  ///< one gamma_t per frame
+  Auto, ///< gamma_t(y) if the data show it; sigma_y is found by cross-validation
+  Fixed ///< gamma_t(y) with the given sigma_y, section 3.5 of Sur & Gredi\'ac 2015
 };
 
-/** The mode of a name: "off", "auto" or "fixed". Throws std::invalid_argument for others. */
+/** Returns the mode with this name: "off", "auto" or "fixed". Throws std::invalid_argument for any other name. */
 SensorNoise_EXPORT RollingShutter
 RollingShutterOf(const std::string & name);
 
-/** The name of a mode. */
+/** Returns the name of the mode, as RollingShutterOf() reads it. */
 SensorNoise_EXPORT const char *
 NameOf(RollingShutter mode);
 
-/** The largest level that a setting may name, without its sign [DN]: its powers, up to the fourth, are finite. */
+/** Largest absolute level of a setting [DN]. Its powers up to the fourth are finite. */
 inline constexpr double LargestLevelDn = 1e30;
-/** The largest spacing of codes that may be given [DN]: it fits into 32 bits. */
+/** Largest quantization step of a setting [DN]. It fits into 32 bits. */
 inline constexpr double LargestStepDn = 1e9;
 
-/** What the user says about the codes of the data; what is not said is found. */
+/** Given properties of the digital numbers. A property that is null is found from the data. */
 struct CodeSettings
 {
-  std::optional<int>    bitDepth;           ///< bits of the sensor's codes, 1 to 16
-  std::optional<double> clipLowDn;          ///< lowest level that the sensor attains [DN]
-  std::optional<double> clipHighDn;         ///< highest level that the sensor attains [DN]
-  std::optional<double> quantisationStepDn; ///< spacing of the codes [DN]
+  std::optional<int>    bitDepth;           ///< bit depth of the sensor [bit], 1 to 16
+  std::optional<double> clipLowDn;          ///< lowest level that the sensor attains [DN], within LargestLevelDn of 0
+  std::optional<double> clipHighDn;         ///< highest level that the sensor attains [DN], above clipLowDn
+  std::optional<double> quantisationStepDn; ///< quantization step [DN], above 0, at most LargestStepDn
 };
 
-/** Settings from plain numbers: a bit depth or step of 0, and a clip level of NaN, is to be found. */
+/** Returns the settings for plain numbers. A bit depth or step of 0, or a clip level of NaN, is null in the settings.
+ */
 SensorNoise_EXPORT CodeSettings
 MakeCodeSettings(unsigned int bitDepth, double clipLowDn, double clipHighDn, double quantisationStepDn);
 
-/** Throws std::invalid_argument if what the user says of the codes is out of range. */
+/** Throws std::invalid_argument if a given property is out of its range. */
 SensorNoise_EXPORT void
 ValidateCodeSettings(const CodeSettings & codes);
 
-/** Temporal variance of dark frames, that of rounding to whole codes included, and its standard error: the mean over
- * all pixels that are not defective, the noisy ones of the tail among them. */
+/** Temporal variance of dark frames, with quantization noise: the mean over all pixels that are not defective. Noisy
+ * pixels in the tail of the distribution are included. */
 struct DarkVariance
 {
-  double valueDn2{ 0.0 };
-  double standardErrorDn2{ 0.0 };
+  double valueDn2{ 0.0 };         ///< mean variance [DN^2]
+  double standardErrorDn2{ 0.0 }; ///< standard error of the mean variance [DN^2]
 };
 
-/** Read noise of the median pixel, that of rounding to whole codes taken off, and its standard error. */
+/** Read noise of the median pixel, without quantization noise. */
 struct MedianReadNoise
 {
-  double valueDn{ 0.0 };
-  double standardErrorDn{ 0.0 };
+  double valueDn{ 0.0 };         ///< read noise [DN]
+  double standardErrorDn{ 0.0 }; ///< standard error of the read noise [DN]
 };
 
-/** An offset that is known from elsewhere: given, or measured with dark frames, which tell the read noise, too. */
+/** Dark offset that is given, or measured with dark frames. Dark frames determine the read noise, too. */
 struct KnownOffset
 {
-  double                          valueDn{ 0.0 };
-  double                          standardErrorDn{ 0.0 };
-  std::size_t                     darkFrames{ 0 };         ///< frames that it was measured with; 0: it was given
-  std::optional<DarkVariance>     variance{};              ///< null: fewer than two dark frames
-  std::optional<MedianReadNoise>  readNoiseMedian{};       ///< null: not known
-  std::size_t                     numberDefective{ 0 };    ///< pixels left out as defective
-  double                          driftVarianceDn2{ 0.0 }; ///< over time, of the level common to all pixels [DN^2]
-  std::shared_ptr<const DarkMaps> maps{};                  ///< of every pixel; null: fewer than two dark frames
+  double                         valueDn{ 0.0 };         ///< dark offset [DN], finite
+  double                         standardErrorDn{ 0.0 }; ///< standard error of the offset [DN], 0 or more
+  std::size_t                    darkFrames{ 0 };        ///< number of dark frames; 0: the offset is given
+  std::optional<DarkVariance>    variance{};             ///< null: fewer than two dark frames
+  std::optional<MedianReadNoise> readNoiseMedian{};      ///< null: not known
+  std::size_t                    numberDefective{ 0 };   ///< number of pixels left out as defective
+  double driftVarianceDn2{ 0.0 };                        ///< temporal variance of the common level of all pixels [DN^2]
+  std::shared_ptr<const DarkMaps> maps{};                ///< results of every pixel; null: fewer than two dark frames
 };
 
-/** Levels from low to high. */
+/** Range of levels, bounds included. */
 struct LevelRange
 {
-  double lowDn;
-  double highDn;
+  double lowDn;  ///< lower bound [DN]
+  double highDn; ///< upper bound [DN], above lowDn
 };
 
-/** Every parameter of the refined method. */
+/** All parameters of the refined method. */
 struct SensorNoise_EXPORT RefinedSettings
 {
-  /** Off: the light changes everywhere alike. Otherwise light that changes in some places in another way than in
-   * others (a rolling shutter, a second lamp, a patch that bleaches) is looked for, and needs no width. */
+  /** Off: the illumination changes by the same factor everywhere. Auto and Fixed: illumination that changes differently
+   * over the frame is looked for, as with a rolling shutter, a second lamp or bleaching. The method needs no sigma_y.
+   */
   RollingShutter rollingShutter{ RollingShutter::Auto };
-  /** The offset, if it is known: offset and read noise then need no flicker. */
+  /** Dark offset, if it is known. Offset and read noise then need no flicker. Null (default): not known. */
   std::optional<KnownOffset> offset;
-  /** Levels between which the variance is fitted, of a pixel's neighbours [DN]; null: all. For sensors whose response
-   * is straight in a part of its range (EMVA 1288 takes 5 to 95 % of saturation). */
+  /** Range of the levels in which the variance is fitted; both bounds are finite. The level of a pixel is the mean of
+   * its neighbours. For sensors whose response is linear in a part of the range only (EMVA 1288 takes 5 to 95 % of
+   * saturation). Null (default): all levels. */
   std::optional<LevelRange> levelRangeDn;
-  /** Exposure of each frame, in the order of the frames, in any unit: exposure times, or irradiations; 0: a dark frame.
-   * Finite, 0 or more, at least 3 different values. With them the linearity of the response is measured, see
-   * LinearityRecord. Empty (default): not given. */
+  /** Exposure of each frame, in the order of the frames and in any unit, for example exposure times or irradiations; 0:
+   * a dark frame. The values are finite and 0 or more; at least 3 are different. With them the linearity of the
+   * response is measured, see LinearityRecord. Empty (default): not given. */
   std::vector<double> exposures;
-  /** Excess noise factor F of the sensor [1]: what an amplification of single electrons or photons makes of the
-   * variance of their shot noise, 2 in an EMCCD. The gain is the slope of the variance, divided by F. 1 or more; 1
-   * (default): none. */
+  /** Excess noise factor F of the sensor [1], 1 or more: the factor by which an amplification of single electrons or
+   * photons increases the variance of the shot noise, 2 in an EMCCD. The gain is the slope of the variance, divided by
+   * F. 1 (default): no excess noise. */
   double excessNoiseFactor{ 1.0 };
-  /** What is known of the codes; the rest is found. */
+  /** Given properties of the digital numbers; the others are found. */
   CodeSettings codes;
-  /** Most that the method may hold, beside the frames that it is handed [bytes]; infinite: what it needs. The stack is
-   * read more often if it is less, with the same bits. At least 64 bytes a pixel, 20 kB a frame and 32 MiB. */
+  /** Largest memory of the method, without the frames that are added [bytes]; infinite (default): no limit. With less
+   * memory the stack is read more often, and the result has the same bits. At least 64 bytes per pixel, 20 kB per frame
+   * and 32 MiB are needed. */
   double memoryLimitBytes{ std::numeric_limits<double>::infinity() };
 
   /** Throws std::invalid_argument if a parameter is out of its range. */
   void
   Validate() const;
 
-  /** Throws std::invalid_argument if the offset, or its standard error, is further from 0 than \a limitDn [DN], which
-   * is \a whatOf the data. */
+  /** Throws std::invalid_argument if the offset is further from 0 than \a limitDn [DN], or if its standard error is
+   * larger. \a whatOf describes the limit in the message. */
   void
   RequireOffsetWithin(double limitDn, const std::string & whatOf) const;
 };
 
-/** Every parameter of the published method, with the paper's values (Sur & Gredi\'ac 2015). */
+/** All parameters of the published method, with the values of the paper (Sur & Gredi\'ac 2015) as defaults. */
 struct SensorNoise_EXPORT PublishedSettings
 {
-  /** Level of the test that finds pixels moved by vibrations (section 3.1), a probability. Larger: fewer pixels kept.
-   */
+  /** Significance level of the test that finds pixels moved by vibrations (section 3.1), a probability [1]. With a
+   * larger level fewer pixels are kept. */
   double level{ 0.01 };
-  /** Quantiles of the mean at which S^* and S_* lie (section 3.2), 0 to 1. */
+  /** Quantile of the mean at which the bright set S^* lies (section 3.2) [1], above darkQuantile, at most 1. */
   double brightQuantile{ 0.99 };
+  /** Quantile of the mean at which the dark set S_* lies (section 3.2) [1], 0 or more. */
   double darkQuantile{ 0.01 };
-  /** Whether the flicker may differ from row to row (section 3.5). Auto finds out. */
+  /** Variation of the flicker from row to row (section 3.5). */
   RollingShutter rollingShutter{ RollingShutter::Auto };
-  /** sigma_y of (3.28) for RollingShutter::Fixed [rows]. */
+  /** sigma_y of (3.28) for RollingShutter::Fixed [rows], above 0, at most 1e5. */
   double sigmaRows{ 50.0 };
-  /** Axis along which the shutter travels: 1 = y; 0 = x, the rows are then columns of the frame. */
+  /** Axis along which the shutter travels: 1 = y; 0 = x, with the columns of the frame as rows. */
   unsigned int shutterAxis{ 1 };
-  /** Excess noise factor F of the sensor, 1 or more [1]: the gain is the slope of the variance divided by F. */
+  /** Excess noise factor F of the sensor [1], 1 or more. The gain is the slope of the variance, divided by F. */
   double excessNoiseFactor{ 1.0 };
-  /** What is known of the codes; the rest is found. */
+  /** Given properties of the digital numbers; the others are found. */
   CodeSettings codes;
 
   /** Throws std::invalid_argument if a parameter is out of its range. */
@@ -156,12 +161,12 @@ struct SensorNoise_EXPORT PublishedSettings
   Validate() const;
 };
 
-/** Which part of what was recorded a stack is, where it was cut out before: it changes no number of the measurement,
- * and without it nobody could repeat that. */
+/** Selection of the stack from the recorded frames. It is recorded so that a measurement can be repeated; it changes no
+ * number. */
 struct StackSelection
 {
-  std::optional<std::array<std::size_t, 4>>          roi;    ///< x, y, width, height [pixel]
-  std::optional<std::pair<std::size_t, std::size_t>> frames; ///< the first one, and one past the last, from 0
+  std::optional<std::array<std::size_t, 4>>          roi;    ///< x, y, width and height [pixel]; null: whole frames
+  std::optional<std::pair<std::size_t, std::size_t>> frames; ///< first frame, and one past the last; null: all
 };
 
 } // namespace sensornoise

@@ -24,11 +24,10 @@ template <typename TPixel>
 class StackPasses; // private
 
 /** \class StackMethod
- * \brief What both methods share: the passes over a stack, in one process or in several, the report and the maps.
+ * \brief Base class of both methods: the passes over a stack, in one process or in several, the report and the maps.
  *
- * Frames that are equal, bit by bit, are counted once. Frames that are unlike the others are left out. If there are
- any,
- * the next pass repeats the first one without them. Usage, with RefinedMethod for example:
+ * Frames that are equal, bit by bit, are counted once. Frames that are unlike the others are left out. In that case the
+ * next pass repeats the first pass without them. Usage, with RefinedMethod for example:
    \code
    RefinedMethod<unsigned short> method(settings, geometry, frames);
    while (!method.IsDone())
@@ -40,11 +39,11 @@ class StackPasses; // private
    method.GetReport();
    \endcode
  *
- * Several processes, each with a part of the frames, share the sums of every pass and all get the report of the whole
- * stack. With integer pixels it has the bits of a single process. With floating-point pixels it is equal to rounding,
- and
- * has the same bits in all processes. Equal frames must be read by one process, or by one that has merged the other's
- * sums before: where two have counted the same frame, MergeSums() throws and names both.
+ * Several processes can measure one stack. Each reads a part of the frames, and all exchange the sums of every pass and
+ * get the report of the whole stack. With integer pixels this report has the bits of a single process. With
+ * floating-point pixels it is equal within rounding, and has the same bits in all processes. Equal frames must be read
+ * by one process, or by a process that has merged the sums of the other before. If two processes have counted equal
+ * frames, MergeSums() throws and names both.
    \code
    RefinedMethod<unsigned short> method(settings, geometry, frames); // alike in every process
    while (!method.IsDone())
@@ -60,31 +59,33 @@ class StackPasses; // private
    }
    \endcode
  *
- * May be moved, also between and within passes.
+ * An object may be moved, also between and within passes.
  *
  * \tparam TPixel unsigned char, unsigned short, short, float or double. */
 template <typename TPixel>
 class StackMethod
 {
 public:
-  /** Number of times that a stack is read. It is read more often where frames are left out, where the illumination
-   * changes strongly, or where RefinedSettings::memoryLimitBytes asks for it. */
+  /** Least number of passes over the stack. There are more passes if frames are left out, if the illumination changes
+   * strongly, or if RefinedSettings::memoryLimitBytes requires them. */
   static constexpr unsigned int NumberOfPasses = 3;
 
   /** Fingerprint of the bytes of a frame: equal for equal frames. */
   using FrameFingerprint = std::array<std::uint64_t, 2>;
 
   /** Adds the next \a count frames of the current pass, stored one after the other, row by row. Throws std::logic_error
-   * if fewer frames are left. */
+   * if fewer frames are left, or if a frame was added before. */
   void
   AddFrames(const TPixel * frames, std::size_t count);
 
-  /** Leaves the next \a count frames of the current pass to other processes. */
+  /** Leaves the next \a count frames of the current pass to other processes. Throws std::logic_error if fewer frames
+   * are left. */
   void
   SkipFrames(std::size_t count);
 
-  /** Makes frame \a frame, from 0, the next one of the current pass: frames may be added in any order. Floating-point
-   * frames are summed in the order in which they come. Throws std::logic_error if there is no such frame. */
+  /** Makes frame \a frame, from 0, the next frame of the current pass, so that frames may be added in any order.
+   * Floating-point frames are summed in the order in which they are added. Throws std::logic_error if \a frame is not
+   * below the number of frames. */
   void
   GoTo(std::size_t frame);
 
@@ -96,27 +97,29 @@ public:
   const std::map<std::size_t, FrameFingerprint> &
   GetFingerprints() const;
 
-  /** Sets which frames another process counts, as theirs have equal fingerprints: \a areCountedElsewhere has a value
-   * for each frame, 0 where it is counted here. Call it in the first pass, before these frames are added. */
+  /** Sets which frames other processes count, because a frame with an equal fingerprint is there. \a
+   * areCountedElsewhere has one value per frame: 0 if the frame is counted here. Call it in the first pass, before
+   * these frames are added.
+   */
   void
   SetCountedElsewhere(const std::vector<std::uint8_t> & areCountedElsewhere);
 
-  /** Takes back all that was added in the current pass. */
+  /** Discards all frames that were added or merged in the current pass. */
   void
   ForgetSums();
 
-  /** Gives back memory that merged floating-point sums of the first pass take, 32 bytes a pixel each. The bits then
-   * depend on the order of merges. */
+  /** Releases the memory of merged floating-point sums of the first pass, 32 bytes per pixel and merge. The bits of the
+   * result then depend on the order of the merges. */
   void
   FoldSums();
 
-  /** Writes the sums over the frames of the current pass that have been added or merged so far: 20 bytes a pixel
-   * (integers) or 32 (floating point) in the first pass. */
+  /** Writes the sums over all frames that were added or merged in the current pass. In the first pass these are 20
+   * bytes per pixel for integer pixels, and 32 bytes for floating-point pixels. */
   void
   SaveSums(std::ostream & out) const;
 
-  /** Adds the sums that another object, with the same arguments, saved in the same pass. Throws std::runtime_error, and
-   * changes nothing, if the stream holds no such sums, or a frame that is here, too, or equals one that is. */
+  /** Adds the sums that another object with the same arguments saved in the same pass. Throws std::runtime_error, and
+   * changes nothing, if the stream has other sums, or if it contains a frame that was added here or equals one. */
   void
   MergeSums(std::istream & in);
 
@@ -124,7 +127,7 @@ public:
   void
   EndPass();
 
-  /** Returns whether the report is there. */
+  /** Returns whether all passes have ended, so that the report exists. */
   bool
   IsDone() const;
 
@@ -132,21 +135,21 @@ public:
   const Report &
   GetReport() const;
 
-  /** Temporal mean of every pixel [DN], when IsDone(). */
+  /** Returns the temporal mean of every pixel [DN], row by row, when IsDone(). */
   const std::vector<double> &
   GetMean() const;
-  /** Temporal variance of every pixel [DN^2]. */
+  /** Returns the temporal variance of every pixel [DN^2], row by row, when IsDone(). */
   const std::vector<double> &
   GetVariance() const;
-  /** The variance without flicker and motion [DN^2]: NaN where it is not known; empty if the stack cannot be measured.
-   */
+  /** Returns the variance of every pixel without flicker and motion [DN^2], row by row, when IsDone(). It is NaN if it
+   * is not known. The map is empty if the stack cannot be measured. */
   const std::vector<double> &
   GetCorrectedVariance() const;
-  /** Use of every pixel in the estimate: values of PixelUse. */
+  /** Returns the use of every pixel in the estimate, values of PixelUse, row by row, when IsDone(). */
   const std::vector<std::uint8_t> &
   GetPixelUse() const;
 
-  /** Move the maps out. They are empty afterwards. */
+  /** Move the maps of the functions above out, when IsDone(). These maps are empty afterwards. */
   std::vector<double>
   TakeMean();
   std::vector<double>

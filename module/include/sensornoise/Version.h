@@ -8,7 +8,7 @@
 namespace sensornoise
 {
 
-/** The version of the module, that of its CMake project: "major.minor.patch". */
+/** Returns the version of the module, which is the version of its CMake project: "major.minor.patch". */
 SensorNoise_EXPORT const char *
 GetModuleVersion();
 

@@ -64,14 +64,15 @@ enum class WarningCode : std::uint8_t
   LightSeriesLeft
 };
 
-/** Effect of a warning on the measurement. */
+/** Severity of a warning: its effect on the measurement. */
 enum class Severity : std::uint8_t
 {
-  Note,    ///< the effect is allowed for, and every number is valid
+  Note,    ///< the effect is corrected for, and every number is valid
   Warning, ///< a number is missing, or depends on an assumption that was not confirmed or does not fit
-  Error    ///< no gain
+  Error    ///< the report has no gain
 };
 
+/** Returns the name of the severity: "note", "warning" or "error". */
 inline const char *
 NameOf(Severity severity)
 {
@@ -82,9 +83,9 @@ NameOf(Severity severity)
 struct WarningKind
 {
   WarningCode  code;
-  const char * name; ///< in the JSON record; stable, for programs
+  const char * name; ///< name in the JSON record; stable, for programs
   Severity     severity;
-  const char * sentence; ///< its meaning, and what to do
+  const char * sentence; ///< meaning of the warning, and what to do
 };
 
 /** All warnings that a report can have, in the order of WarningCode. documentation/reference/warnings.md and the Python
