@@ -91,7 +91,7 @@ BayerPlaneImageFilter<TImage>::GenerateOutputInformation()
     region.SetSize(axis, region.GetSize(axis) / 2);
     spacing[axis] *= 2.0;
   }
-  // Index 0 of the plane is the corner's pixel; of the other axes index 0 stays where it was.
+  // Index 0 of the plane is the pixel at its corner. Along the other axes the position of index 0 does not change.
   typename TImage::IndexType first = this->InputRegionOf(region).GetIndex();
   for (unsigned int axis = 2; axis < TImage::ImageDimension; ++axis)
   {

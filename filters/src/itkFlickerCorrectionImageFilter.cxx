@@ -119,7 +119,7 @@ template <typename TStack>
 bool
 FlickerCorrectionImageFilter<TStack>::IsEstimateUpToDate() const
 {
-  // An image that a source makes is modified each time a chunk is read: what counts is its pipeline.
+  // An image with a source is modified with each chunk that is read. Therefore the time of its pipeline is compared.
   const auto timeOf = [](const DataObject * data) {
     return data->GetSource() ? data->GetPipelineMTime() : data->GetMTime();
   };
@@ -204,7 +204,7 @@ FlickerCorrectionImageFilter<TStack>::GenerateData()
   const bool isIdentified = m_Flicker.flickerZ > sensornoise::Significance.everyPixel;
   this->GetOffsetOutput()->Set(isIdentified ? m_Flicker.offsetDn : std::numeric_limits<double>::quiet_NaN());
 
-  // The pass above, or the update of the mean from the same reader, left the stack at another chunk.
+  // After the pass above, or after the update of the mean from the same reader, the stack holds another chunk.
   this->UpdateStack(this->GetOutput()->GetRequestedRegion());
   Superclass::GenerateData();
 }
@@ -252,7 +252,7 @@ FlickerCorrectionImageFilter<TStack>::UpdateOutputData(DataObject * output)
   {
     return;
   }
-  // The offset alone needs no corrected frame: without this, whoever asks for it first makes the whole stack.
+  // The offset alone needs no corrected frame. With the whole region an update of the offset would compute the stack.
   const RegionType requested = this->GetOutput()->GetRequestedRegion();
   if (output != this->GetOutput())
   {

@@ -38,12 +38,12 @@
 namespace itk
 {
 
-/** What an update gathers. */
+/** Intermediate results of an update. */
 template <typename TStack>
 struct NoiseCorrelationEstimator<TStack>::Measurement
 {
   sensornoise::CorrelationSettings        settings;
-  sensornoise::TemporalMoments<PixelType> moments; ///< unless mean and mask are given
+  sensornoise::TemporalMoments<PixelType> moments; ///< empty if mean and mask are given
   std::vector<double>                     mean;
   std::vector<std::uint8_t>               mask; ///< empty: not given
   sensornoise::FrameSample                sample;
@@ -118,7 +118,7 @@ NoiseCorrelationEstimator<TStack>::StartPasses()
   {
     m_Measurement->settings.quantisationStepDn = 1.0;
   }
-  // What they are made of may be the same reader: they are made before the stack is read.
+  // Mean and mask may depend on the same reader as the stack. Therefore they are updated before the stack is read.
   const auto pixelsOf = [pixels](const auto * image, auto & values) {
     if (image != nullptr)
     {

@@ -26,15 +26,18 @@
 namespace itk
 {
 
-/** Bytes of a stack that are read at a time: 32 MiB, unless sensornoise::FramesTogether take more. Set by hand: far
- * above the caches, so that half and twice cost the same time, and small beside the maps of a large frame. */
+/** Size of a chunk, the part of a stack that is read at a time: 32 MiB, or sensornoise::FramesTogether frames if these
+ * are larger [bytes]. Chosen empirically: half and twice the size take the same time, as both are far above the caches,
+ * and the chunk is small compared with the maps of a large frame. */
 inline constexpr SizeValueType SensorNoiseChunkBytes = SizeValueType{ 32 } << 20;
 
-/** Bytes of a stack in memory that are worked on at a time, so that observers see the progress grow: 128 MiB. Set by
- * hand: with half of it temporal statistics take 14 % longer, all at once 12 % less. */
+/** Size of the part of a stack in memory that is processed between two progress events: 128 MiB [bytes]. Chosen
+ * empirically on the time of temporal statistics: half the size takes 14 % longer, the whole stack at once 12 % less.
+ */
 inline constexpr SizeValueType SensorNoisePieceBytes = SizeValueType{ 128 } << 20;
 
-/** How many frames of \a frameBytes bytes make a chunk, or another part of \a bytes bytes. */
+/** Returns the number of frames of \a frameBytes bytes in a chunk, or in another part of \a bytes bytes. It is at least
+ * sensornoise::FramesTogether. */
 inline SizeValueType
 SensorNoiseFramesPerChunk(SizeValueType frameBytes, SizeValueType bytes = SensorNoiseChunkBytes)
 {

@@ -37,7 +37,7 @@ namespace itk
 {
 
 /** \class SensorNoiseDarkSink
- * \brief Reads dark frames once, in chunks, for SensorNoiseEstimator: what a pipeline has no use for by itself.
+ * \brief Reads dark frames once, in chunks, for SensorNoiseEstimator. It is not meant for pipelines.
  * \ingroup SensorNoise
  */
 template <typename TStack>
@@ -59,7 +59,7 @@ public:
     return "SensorNoiseDarkSink";
   }
 
-  /** Without outputs ProcessObject would do nothing. */
+  /** Reads the frames. ProcessObject::Update() does nothing for an object without outputs. */
   void
   Update() override
   {
@@ -67,7 +67,7 @@ public:
     this->UpdateOutputData(nullptr);
   }
 
-  /** Nonzero at the pixels to be used; empty (default): all. To be set before Update(). */
+  /** Sets the pixels to be used: nonzero values in \a used; empty (default): all. Call it before Update(). */
   void
   SetUsedPixels(std::vector<std::uint8_t> used)
   {
@@ -75,7 +75,7 @@ public:
     this->Modified();
   }
 
-  /** The frames are mosaics, whose planes are measured each by itself. To be set before Update(). */
+  /** Declares that the frames are mosaics, whose planes are measured separately. Call it before Update(). */
   void
   SetMosaic(const sensornoise::MosaicGeometry & geometry)
   {
@@ -83,8 +83,7 @@ public:
     this->Modified();
   }
 
-  /** Works with the chunks and threads of \a estimator, whose observers are told of the progress; aborts when it is
-   * told to. */
+  /** Uses the chunks and threads of \a estimator, forwards the progress to its observers, and aborts when it aborts. */
   void
   WorkFor(Superclass * estimator)
   {
@@ -96,8 +95,8 @@ public:
     });
   }
 
-  /** Offset and read noise of the frames that were read, see sensornoise::MeasureDarkFrames(), of each plane in the
-   * order of BayerPlanes, or of the only one. To be asked once: the sums are given away. */
+  /** Returns offset and read noise of the frames that were read, see sensornoise::MeasureDarkFrames(): one result per
+   * plane in the order of BayerPlanes, or one for frames that are no mosaics. Call it once, as it consumes the sums. */
   std::vector<sensornoise::KnownOffset>
   Measure(const sensornoise::CodeSettings & codes)
   {
@@ -153,7 +152,7 @@ protected:
   {}
 
 private:
-  /** The sums over the frames, or over one plane of them. */
+  /** Sums over the frames, or over one plane of the frames. */
   struct Part
   {
     Part(std::vector<std::uint8_t> used, std::size_t numberOfPixels)
@@ -180,7 +179,7 @@ private:
   };
 
   std::vector<std::uint8_t>                          m_UsedPixels;
-  std::optional<sensornoise::PlaneFrames<PixelType>> m_Planes; // none: not a mosaic
+  std::optional<sensornoise::PlaneFrames<PixelType>> m_Planes; // null: not a mosaic
   std::vector<Part>                                  m_Parts;
 };
 

@@ -49,24 +49,25 @@
 namespace itk
 {
 
-/** The mosaic that a stack is, and how that is known. */
+/** Mosaic of a stack, with the source of its pattern. */
 struct SensorNoiseMosaic
 {
   sensornoise::MosaicGeometry geometry;
   sensornoise::BayerSource    source{ sensornoise::BayerSource::Given };
 };
 
-/** What SensorNoiseEstimator measures, and what it knows beforehand. */
+/** Description of the stack that SensorNoiseEstimator measures, with the known offsets. */
 struct SensorNoiseStack
 {
   sensornoise::FrameGeometry                           frame;
   std::size_t                                          frames{ 0 };
-  std::vector<std::uint8_t>                            mask;    ///< nonzero: to be used; empty: all pixels are
-  std::optional<SensorNoiseMosaic>                     mosaic;  ///< none: not a mosaic
-  std::vector<std::optional<sensornoise::KnownOffset>> offsets; ///< of each plane, or of the only one
+  std::vector<std::uint8_t>                            mask;    ///< nonzero: the pixel is used; empty: all pixels are
+  std::optional<SensorNoiseMosaic>                     mosaic;  ///< null: not a mosaic
+  std::vector<std::optional<sensornoise::KnownOffset>> offsets; ///< offset of each plane, or of the frame alone
 };
 
-/** The method at work in SensorNoiseEstimator, on a frame or on the planes of a mosaic: all have one interface. */
+/** Method that SensorNoiseEstimator runs, on frames or on the planes of mosaics, with one interface for both. A part is
+ * the frame, or a plane of the mosaic. */
 template <typename TPixel>
 struct SensorNoiseEstimation
 {
@@ -81,10 +82,11 @@ struct SensorNoiseEstimation
 
   std::variant<Refined, Published, MosaicRefined, MosaicPublished> method;
   std::optional<SensorNoiseMosaic>                                 mosaic{};
-  std::vector<DarkMapsPointer> dark{}; ///< of each plane; null: fewer than two frames
+  std::vector<DarkMapsPointer> dark{}; ///< maps of the dark frames of each part; null: fewer than two frames
 
-  /** The method that has the \a settings, before its first pass. A memory limit is that of all planes. \a parallelFor
-   * has \a threads threads. \a withoutMerging: no sums are saved or merged, which needs less memory. */
+  /** Returns the method with these \a settings before its first pass. A memory limit holds for all planes together.
+   * \a threads is the number of threads of \a parallelFor. \a withoutMerging declares that no sums are saved or merged,
+   * which needs less memory. */
   static SensorNoiseEstimation
   Start(const Settings &                 settings,
         const SensorNoiseStack &         stack,
@@ -148,7 +150,7 @@ struct SensorNoiseEstimation
     return std::visit([](const auto & atWork) { return atWork.IsDone(); }, method);
   }
 
-  /** Calls function(method) for the method of the frame, or those of the four planes. */
+  /** Calls function(method) for the method of the frame, or for the methods of the four planes. */
   template <typename TFunction>
   void
   ForEach(TFunction function)
@@ -176,14 +178,14 @@ struct SensorNoiseEstimation
     return mosaic ? sensornoise::BayerPlanes.size() : 1;
   }
 
-  /** For every frame, 1 if it is in the current pass. */
+  /** Returns 1 for every frame that was added or merged in the current pass, else 0. */
   const std::vector<std::uint8_t> &
   GetHas() const
   {
     return std::visit([](const auto & atWork) -> const auto & { return atWork.GetHas(); }, method);
   }
 
-  /** The fingerprints of the frames that are in, of each part. */
+  /** Returns the fingerprints of the frames that were added or merged in the first pass, for each part. */
   std::vector<const std::map<std::size_t, sensornoise::BytesFingerprint> *>
   GetFingerprints()
   {
@@ -192,7 +194,7 @@ struct SensorNoiseEstimation
     return all;
   }
 
-  /** \a flags holds \a frames values for each part, one part after the other. */
+  /** Sets which frames other processes count. \a flags has \a frames values for each part, one part after the other. */
   void
   SetCountedElsewhere(const unsigned char * flags, std::size_t frames)
   {
@@ -209,7 +211,7 @@ struct SensorNoiseEstimation
     this->ForEach([](auto & part) { part.FoldSums(); });
   }
 
-  /** Of the stack, or of each of its channels; \a selection, and what is known of the \a camera, are noted in each. */
+  /** Returns the report of the stack, or the reports of its channels, with \a selection and \a camera in each. */
   std::variant<sensornoise::Report, sensornoise::ChannelReports>
   GetReport(const sensornoise::StackSelection & selection, const sensornoise::CameraSettings & camera) const
   {
@@ -237,8 +239,8 @@ struct SensorNoiseEstimation
       method);
   }
 
-  /** A map of the method's, of \a pixels pixels, which it gives away: mapOf(method) is one of its Take...(). \a missing
-   * where there is none. */
+  /** Moves a map of \a pixels pixels out of the method and returns it. mapOf(method) calls one of its Take...()
+   * functions. Pixels without a value are \a missing. */
   template <typename T, typename TFunction>
   std::vector<T>
   TakeMap(TFunction mapOf, T missing, std::size_t pixels)
@@ -259,7 +261,7 @@ struct SensorNoiseEstimation
       method);
   }
 
-  /** What every pixel's own dark frames tell; none where there are fewer than two. */
+  /** Returns offset and read noise of every pixel from its dark frames; null: there are fewer than two dark frames. */
   std::optional<sensornoise::PixelCalibration>
   MakeCalibration(const sensornoise::ParallelFor & parallelFor) const
   {
@@ -289,7 +291,7 @@ struct SensorNoiseEstimation
   }
 };
 
-/** The method at work. The header of the estimator only declares it: nobody else needs the methods. */
+/** Method of the estimator. The header of the estimator only declares it, so that users need no header of a method. */
 template <typename TStack>
 struct SensorNoiseEstimator<TStack>::Estimation : SensorNoiseEstimation<typename TStack::PixelType>
 {};

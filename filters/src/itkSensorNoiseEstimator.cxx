@@ -62,8 +62,8 @@ template <typename TStack>
 SizeValueType
 SensorNoiseEstimator<TStack>::ChunkBytes(unsigned int pass) const
 {
-  // What the second pass of Refined makes anew of the pixels for each chunk takes as long as some eight frames. It
-  // holds 16 bytes a pixel less than the third one does, for the fewest series that there are.
+  // In the second pass of Refined the computation per chunk takes as long as about eight frames, so that larger chunks
+  // are faster. This pass needs at least 16 bytes per pixel less than the third pass.
   constexpr SizeValueType lessBytes = 16;
   const bool              isLarger = m_Method == MethodEnum::Refined && pass == 1 && m_MemoryLimit == 0;
   return Superclass::ChunkBytes(pass) + (isLarger ? lessBytes * this->GetFrameRegion().GetNumberOfPixels() : 0);
@@ -76,7 +76,7 @@ SensorNoiseEstimator<TStack>::GenerateNthInputRequestedRegion(unsigned int numbe
   Superclass::GenerateNthInputRequestedRegion(number);
   if (auto * dark = const_cast<TStack *>(this->GetDark()))
   {
-    // They have been read before the first pass. Without this the pipeline would read them again, and whole.
+    // The dark frames were read before the first pass. With a larger region the pipeline would read all of them again.
     auto region = dark->GetLargestPossibleRegion();
     region.SetSize(2, 1);
     dark->SetRequestedRegion(region);
@@ -139,7 +139,7 @@ SensorNoiseEstimator<TStack>::FindMosaic()
     const auto pattern = WithItkErrors(this, [&inFile] { return sensornoise::BayerPatternOf(inFile); });
     return SensorNoiseMosaic{ { frame, pattern }, BayerSource::File };
   }
-  this->GenerateNthInputRequestedRegion(0); // the first chunk, which the first pass then need not read again
+  this->GenerateNthInputRequestedRegion(0); // the first chunk, so that the first pass does not read it again
   stack->Update();
   RequirePixels(stack, "the stack");
   const auto                first = stack->GetLargestPossibleRegion();

@@ -35,7 +35,7 @@
 #include <variant>
 
 /** \file
- * What SensorNoiseEstimator gives: its outputs, and the report as texts and pages. */
+ * Outputs of SensorNoiseEstimator, and its report as text and pages. */
 
 namespace itk
 {
@@ -144,7 +144,7 @@ template <typename TStack>
 std::string
 SensorNoiseEstimator<TStack>::GetReportAsHtml() const
 {
-  const bool         isMosaic = this->HasChannelReports(); // first: says whether there is a result
+  const bool         isMosaic = this->HasChannelReports();
   const auto * const mean = static_cast<const FrameImageType *>(this->ProcessObject::GetOutput(1));
   const auto * const pixelUse = static_cast<const MaskImageType *>(this->ProcessObject::GetOutput(4));
   const auto         maps = PageMapsOf(mean, pixelUse);

@@ -32,7 +32,7 @@
 #include <string>
 
 /** \file
- * What SensorNoiseEstimator is told: its settings, how they fit the inputs, and the methods' settings of them. */
+ * Settings of SensorNoiseEstimator, their checks against the inputs, and the settings of the methods made of them. */
 
 namespace itk
 {
@@ -165,7 +165,7 @@ SensorNoiseEstimator<TStack>::VerifyInputInformation() const
     sensornoise::RequireSelection(m_Source, { region.GetSize(0), region.GetSize(1) }, region.GetSize(2));
   });
   const double pixels = static_cast<double>(region.GetSize(0)) * static_cast<double>(region.GetSize(1));
-  const double bytesPerPixel = m_Method == MethodEnum::Refined ? 56.0 : 40.0; // more with every series that is found
+  const double bytesPerPixel = m_Method == MethodEnum::Refined ? 56.0 : 40.0; // plus 8 per temporal component
   WithItkErrors(this, [&] {
     sensornoise::RequireMemory(bytesPerPixel * pixels,
                                "the estimate of frames of " + std::to_string(region.GetSize(0)) + " x " +

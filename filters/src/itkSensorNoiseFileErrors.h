@@ -27,8 +27,8 @@
 namespace itk
 {
 
-/** Calls \a function for its value; an error about files becomes ITK's, with the same sentence and nothing before it.
- */
+/** Returns the result of \a function. An exception that is not of ITK becomes an itk::ExceptionObject with the same
+ * message. */
 template <typename TFunction>
 auto
 WithFileErrors(TFunction function) -> decltype(function())
@@ -47,7 +47,7 @@ WithFileErrors(TFunction function) -> decltype(function())
   }
 }
 
-/** The type of a frame's pixels, as ITK calls it. */
+/** Returns the component type of ITK for the pixels of a frame. */
 inline IOComponentEnum
 ComponentTypeOf(sensornoise::FramePixel pixel)
 {

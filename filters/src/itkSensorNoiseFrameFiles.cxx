@@ -61,7 +61,7 @@ RequireAlike(const FrameFile & found, const FrameFile & first)
   }
 }
 
-/** A stack that does not stream is held in memory, with those before it. */
+/** Throws if there is not enough memory for a stack that cannot be read in parts, beside the stacks before it. */
 void
 RequireMemoryFor(const FrameFile & stack, std::uint64_t bytesBefore)
 {
@@ -76,7 +76,8 @@ DeterminantOf(const std::array<std::array<double, 3>, 3> & m)
          m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-/** As ImageFileReader does, but what an image cannot have is left as it is by default. */
+/** Returns spacing, origin and direction of a file, as ImageFileReader does. Values that an image cannot have are
+ * replaced by the defaults. */
 FrameListGeometry
 GeometryOf(const itk::ImageIOBase & io)
 {
@@ -117,7 +118,7 @@ GeometryOf(const FrameFile & file)
   return geometry;
 }
 
-/** Of one slice: what it says of x and y. */
+/** Returns the geometry with the default spacing and origin along the third axis, for a file with a single frame. */
 FrameListGeometry
 WithoutTime(FrameListGeometry geometry)
 {
@@ -132,7 +133,7 @@ RegionOf(const itk::ImageIOBase & io, std::size_t first, std::size_t count)
   itk::ImageIORegion region(io.GetNumberOfDimensions());
   for (unsigned int axis = 0; axis < io.GetNumberOfDimensions(); ++axis)
   {
-    // a fourth axis, where there is one, has one element
+    // a fourth axis has one element
     const bool isTime = axis == 2 && io.GetDimensions(axis) > 1;
     region.SetSize(axis, isTime ? count : io.GetDimensions(axis));
     region.SetIndex(axis, isTime ? static_cast<itk::ImageIORegion::IndexValueType>(first) : 0);
@@ -148,7 +149,7 @@ ShiftUp(void * buffer, std::size_t count, unsigned int bits)
   std::transform(pixels, pixels + count, pixels, [bits](TPixel pixel) { return static_cast<TPixel>(pixel << bits); });
 }
 
-/** Codes as they stand in the file: ITK shifts those of a PNG down by the bits that are not significant. */
+/** Restores the digital numbers of a PNG file, which ITK shifts down by the bits that are not significant. */
 void
 RestoreCodes(const FrameFile & file, void * buffer, std::size_t count)
 {
@@ -167,7 +168,7 @@ RestoreCodes(const FrameFile & file, void * buffer, std::size_t count)
   }
 }
 
-/** By the reader that came with the inspection, or by that of ITK. */
+/** Reads \a count frames from \a first on, with the reader of the inspection if there is one, else with \a io. */
 void
 ReadPixels(const FrameFile & file, itk::ImageIOBase * io, std::size_t first, std::size_t count, void * buffer)
 {
@@ -205,7 +206,7 @@ ReadFile(const FrameFile & file, std::size_t first, std::size_t count, void * bu
   }
   catch (const std::exception & error)
   {
-    RequireUnchanged(file); // that would be the better reason
+    RequireUnchanged(file); // a changed file explains the error better
     throw PixelErrorOf(file.name, error);
   }
   RequireUnchanged(file);
@@ -251,7 +252,7 @@ OpenFrames(const std::vector<std::string> & names,
       requireFitting(known);
       if (known.frames > 1 && known.format->imageIO != nullptr)
       {
-        RequireMemoryFor(known, list.bytes); // ITK reads no compressed stack in parts
+        RequireMemoryFor(known, list.bytes); // ITK does not read a compressed stack in parts
       }
       if (beforeInflating)
       {
@@ -267,7 +268,7 @@ OpenFrames(const std::vector<std::string> & names,
                         " has one; expected stacks alone, or one frame a file");
     }
     requireFitting(file);
-    // ITK's reader has to say the same as the file
+    // the reader of ITK must find the same frames as the inspection
     const itk::ImageIOBase::Pointer io = file.reader ? nullptr : OpenImageIO(file);
     if (list.files.empty())
     {

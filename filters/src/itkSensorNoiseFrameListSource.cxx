@@ -199,7 +199,7 @@ SensorNoiseFrameListSource<TOutputStack>::GenerateData()
   const std::size_t      framePixels = m_FrameList.width * m_FrameList.height;
   OutputPixelType *      buffer = this->GetOutput()->GetBufferPointer();
   const std::size_t      parts = m_FrameList.files.front().reader ? this->GetNumberOfWorkUnits() : 1;
-  // of a list, frame by frame: each may be the last before an abort
+  // A list of single frames is read frame by frame, so that an abort acts after each frame.
   const std::size_t partFrames = m_FrameList.isStack ? std::max<std::size_t>(1, (frames + parts - 1) / parts) : 1;
   const std::size_t step = parts * partFrames;
   try
@@ -221,7 +221,7 @@ SensorNoiseFrameListSource<TOutputStack>::GenerateData()
   }
   catch (const ExceptionObject &)
   {
-    m_IsOpen = false; // the next Update() looks at the files anew
+    m_IsOpen = false; // the next Update() opens the files again
     this->Modified();
     throw;
   }

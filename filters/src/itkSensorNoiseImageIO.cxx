@@ -32,7 +32,7 @@ namespace itk
 {
 namespace
 {
-/** The file's format by its head and name, if this library reads it itself; null: it does not. */
+/** Returns the format of a file, from its first bytes and its name, if this library reads it without ITK; else null. */
 const sensornoise::FrameFormat *
 OurFormatOf(const std::string & name)
 {
@@ -80,7 +80,7 @@ SensorNoiseImageIO::Inspect(const std::string & name)
     }
     catch (const std::exception &)
     {
-      m_File = {}; // as it is now
+      m_File = {}; // the file has changed: it is inspected again
     }
   }
   m_File = m_RawLayout.empty() ? sensornoise::InspectFrameFile(name)
@@ -113,7 +113,7 @@ SensorNoiseImageIO::CanReadFile(const char * name)
     }
     if (format->name == std::string("camera raw"))
     {
-      return true; // also one that cannot be read: ITK would take its preview for it
+      return true; // also if it cannot be read, so that ITK does not read its preview
     }
     this->Inspect(name);
     return m_File.format->name != std::string("TIFF") || m_File.frames > 1;

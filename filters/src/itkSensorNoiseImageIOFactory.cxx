@@ -60,7 +60,7 @@ SensorNoiseImageIOFactory::RegisterOneFactory()
   }
 }
 
-// By this name ITK's registration of factories calls it (itk-module.cmake, FACTORY_NAMES).
+// The registration of factories in ITK calls the function by this name (itk-module.cmake, FACTORY_NAMES).
 void SensorNoise_EXPORT SensorNoiseImageIOFactoryRegister__Private(); // NOLINT(bugprone-reserved-identifier)
 
 void

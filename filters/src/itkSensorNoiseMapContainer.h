@@ -30,7 +30,7 @@ namespace itk
 {
 
 /** \class SensorNoiseMapContainer
- * \brief The pixels of an image that were computed as a vector, which it takes over: they are not copied.
+ * \brief Container of the pixels of an image that owns a vector of pixels, without a copy.
  * \ingroup SensorNoise
  */
 template <typename TElement>
@@ -67,7 +67,7 @@ private:
   std::vector<TElement> m_Values;
 };
 
-/** Makes \a values, of an image's largest possible region, its pixels. */
+/** Moves \a values, the pixels of the largest possible region of \a image, into the image. */
 template <typename TImage>
 void
 GiveToImage(TImage * image, std::vector<typename TImage::PixelType> && values)

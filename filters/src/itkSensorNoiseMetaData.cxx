@@ -60,7 +60,7 @@ FindNumber(const itk::MetaDataDictionary & dictionary, const char * key, double 
   return false;
 }
 
-/** A number of any of the types that programs, or Python, write; NaN: none. */
+/** Returns the number of a key, of any type that programs or Python write; NaN: there is none. */
 double
 NumberIn(const itk::MetaDataDictionary & dictionary, const char * key)
 {

@@ -32,8 +32,8 @@ namespace sensornoise
 {
 namespace
 {
-/** What an exception says: of ITK's its first line without class and address, and where NRRD reports a chain of
- * "trouble" the last link. */
+/** Returns the cause of an exception as text. For an exception of ITK it is the first line without class and address.
+ * For a chain of messages of NRRD it is the last message. */
 std::string
 CauseOf(const std::exception & error)
 {
@@ -89,8 +89,8 @@ Describe(std::size_t width, std::size_t height, std::size_t frames, const std::s
          ", frames: " + std::to_string(frames);
 }
 
-/** ITK's readers make grey of colours, guess byte counts and count pages in their own way: then it would not be this.
- */
+/** Throws FileError unless the reader of ITK finds the same size, type and number of frames as the inspection. Readers
+ * of ITK convert colours to grey, guess byte counts and count pages differently. */
 void
 RequireSameFrames(const FrameFile & file, const itk::ImageIOBase & io)
 {

@@ -27,16 +27,15 @@
 namespace sensornoise
 {
 
-/** ITK's reader of a file that InspectFrameFile() has found good, its header read, no pixel.
+/** Returns the reader of ITK for a file that InspectFrameFile() has inspected. Its header is read, but no pixel.
  *
- * A file of a known format is given to the reader of that format alone, no other library looks at it. Throws FileError
- * where the file has changed since, where the program has no reader for it, where ITK cannot read its header, and
- * unless it has one grey value of a supported type a pixel and, if its format is known, the size and type found before.
- */
+ * The file is given to the reader of its format alone; no other library opens it. Throws FileError if the file has
+ * changed since the inspection, if the program has no reader for the format, or if ITK cannot read the header. Throws
+ * FileError, too, if ITK finds another size, type or number of frames, or more than one value per pixel. */
 itk::ImageIOBase::Pointer
 OpenImageIO(const FrameFile & file);
 
-/** One sentence about pixels that an ImageIO could not read, from an error of ITK or another one. */
+/** Returns the error for pixels that an ImageIO could not read, with the cause from \a error in one sentence. */
 FileError
 PixelErrorOf(const std::string & file, const std::exception & error);
 

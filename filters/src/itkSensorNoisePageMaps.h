@@ -23,8 +23,8 @@
 namespace itk
 {
 
-/** The maps of a report's page: the images of the mean and of the pixel use, which have to live as long. None where
- * the sizes of their buffers differ, as those of what was released. */
+/** Returns the maps of the page of a report, which refer to the images of the mean and of the pixel use. The images
+ * must outlive them. There are no maps if the sizes of the buffers differ, as after the release of the data. */
 template <typename TMean, typename TPixelUse>
 sensornoise::PageMaps
 PageMapsOf(const TMean * mean, const TPixelUse * pixelUse)

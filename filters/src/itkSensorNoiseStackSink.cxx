@@ -75,10 +75,10 @@ SensorNoiseStackSink<TStack>::GetParallelFor()
     this->ReportProgress(m_Reached);
     if (count == 1)
     {
-      function(0); // also of a function that runs in one of the threads already
+      function(0); // also if this call runs in one of the threads already
       return;
     }
-    // How many calls make up a piece of work is not known: each is taken for half of what is left of it.
+    // The number of calls of this function per chunk is not known. Each advances the progress by half of the rest.
     const bool         isOfUpdate = std::this_thread::get_id() == m_Thread;
     const float        from = m_Reached;
     const float        to = isOfUpdate ? 0.5F * (m_Reached + m_NextReached) : m_Reached;
@@ -95,7 +95,7 @@ SensorNoiseStackSink<TStack>::GetParallelFor()
           return;
         }
         function(i);
-        if (std::this_thread::get_id() == m_Thread) // the others must end before an exception leaves
+        if (std::this_thread::get_id() == m_Thread) // the other threads must end before the exception is rethrown
         {
           try
           {
@@ -139,7 +139,7 @@ SensorNoiseStackSink<TStack>::ReportProgress(float reached)
   if (now - m_LastReport >= std::chrono::milliseconds(50))
   {
     m_LastReport = now;
-    this->UpdateProgress(std::max(this->GetProgress(), reached)); // a pass that is repeated stands still
+    this->UpdateProgress(std::max(this->GetProgress(), reached)); // constant while a pass is repeated
   }
   if (this->GetAbortGenerateData())
   {
@@ -183,7 +183,7 @@ SensorNoiseStackSink<TStack>::CopyFrameInformation(ImageBase<2> * frame) const
   }
   if (direction[0][0] * direction[1][1] == direction[0][1] * direction[1][0])
   {
-    direction.SetIdentity(); // the frames stand across the first two axes: no 2-D direction describes them
+    direction.SetIdentity(); // no 2-D direction describes frames that are perpendicular to the first two axes
   }
   frame->SetLargestPossibleRegion(this->GetFrameRegion());
   frame->SetSpacing(spacing);
@@ -230,7 +230,7 @@ template <typename TStack>
 void
 SensorNoiseStackSink<TStack>::BeforeStreamedGenerateData()
 {
-  this->ChooseChunks(); // of which the first may be looked at to start
+  this->ChooseChunks(); // StartPasses() may read the first chunk
   m_Thread = std::this_thread::get_id();
   m_Reached = 0.0F;
   m_NextReached = 0.0F;
@@ -278,12 +278,12 @@ template <typename TStack>
 void
 SensorNoiseStackSink<TStack>::GenerateNthInputRequestedRegion(unsigned int number)
 {
-  // Every other input whole.
+  // The other inputs are requested whole.
   ProcessObject::GenerateInputRequestedRegion();
   auto *              stack = const_cast<StackType *>(this->GetInput());
   const SizeValueType frames = this->GetNumberOfFrames();
   const Place         place = this->PlaceOf(number);
-  // The larger chunks come first: a buffer that has to grow is there twice while its pixels move.
+  // The larger chunks come first, as a buffer that grows needs its memory twice for the copy.
   const SizeValueType size = frames / place.chunks;
   const SizeValueType larger = frames % place.chunks;
   const SizeValueType first = place.chunk * size + std::min<SizeValueType>(place.chunk, larger);
@@ -307,7 +307,7 @@ SensorNoiseStackSink<TStack>::StreamedGenerateData(unsigned int number)
   const auto   release = [stack] {
     if (stack->GetBufferedRegion() != stack->GetLargestPossibleRegion())
     {
-      stack->ReleaseData(); // the next pass asks for another part of the stack
+      stack->ReleaseData(); // the next pass requests another part of the stack
     }
   };
   release();
@@ -330,7 +330,7 @@ template <typename TStack>
 void
 SensorNoiseStackSink<TStack>::ProcessChunk(unsigned int number)
 {
-  // The chunk is what was asked for: readers that cannot stream enlarge the requested region to the whole stack.
+  // m_Chunk is used here, because readers that cannot stream enlarge the requested region to the whole stack.
   const StackType * stack = this->GetInput();
   if (!stack->GetBufferedRegion().IsInside(m_Chunk))
   {

@@ -40,8 +40,9 @@ namespace itk
 
 namespace
 {
-/** What a simulation holds at least, measured: of every pixel, and its series of every frame. */
-constexpr double       BytesPerPixel = 24.0;
+/** Least memory of a simulation per pixel, measured [bytes]. */
+constexpr double BytesPerPixel = 24.0;
+/** Least memory of the temporal components per frame, measured [bytes]. */
 constexpr double       BytesPerFrame = 40.0;
 constexpr const char * Impossible = "the simulation is not possible: ";
 } // namespace
@@ -248,7 +249,7 @@ template <typename TOutputStack>
 void
 SensorNoiseStackSource<TOutputStack>::GenerateInputRequestedRegion()
 {
-  // ITK's base class would copy the requested region of the stack.
+  // The base class of ITK would copy the requested region of the stack.
   const_cast<ReferenceImageType *>(this->GetReference())->SetRequestedRegionToLargestPossibleRegion();
 }
 

@@ -57,7 +57,7 @@ struct SensorNoiseBytes
   {
     return bytes->GetBufferedRegion().GetNumberOfPixels();
   }
-  /** The sums of what GetSums() returned; throws std::runtime_error where they are not whole. */
+  /** Returns the sums in the bytes of GetSums(). Throws std::runtime_error if they are not complete. */
   static sensornoise::UnsealedSums
   Unseal(const Bytes * bytes)
   {
@@ -318,7 +318,7 @@ SensorNoiseSums<TStack>::EndPass()
   ++m_Pass;
   if (!m_Estimator->m_Estimation)
   {
-    // Whoever looks at an output asks it to be up to date: it is, and must not be made again of a stack without pixels.
+    // The outputs are marked as up to date: an update would compute them again from a stack without pixels.
     for (unsigned int i = 0; i < m_Estimator->GetNumberOfIndexedOutputs(); ++i)
     {
       m_Estimator->ProcessObject::GetOutput(i)->DataHasBeenGenerated();
