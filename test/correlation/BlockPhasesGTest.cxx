@@ -23,7 +23,8 @@ Residuals(const FrameOf & frameOf)
   return ComputeResiduals(Frame, Frames, std::vector<double>(Frame.Pixels(), 100.0), frameOf);
 }
 
-/** White noise less its mean over \a length pixels in a row, from column \a first on: a code that drops the mean. */
+/** Returns white noise minus its mean over each \a length pixels of a row, from column \a first on, as after a
+ * compression that drops the mean of each block. */
 FrameOf
 WithoutMeans(std::size_t length, std::size_t first)
 {
@@ -61,7 +62,7 @@ Coefficient(const std::vector<BlockPhases> & tiles, std::size_t k)
   return sum.covariance[k] / sum.pairs[k];
 }
 
-/** Of a coefficient: 128^2 pixels, an eighth of them, 39 degrees of freedom; five of its standard deviations. */
+/** Five standard deviations of a coefficient [1]: from an eighth of 128^2 pixels, with 39 degrees of freedom. */
 const double Tolerance = 5.0 / std::sqrt(128.0 * 128.0 / 8.0 * 39.0);
 } // namespace
 
@@ -84,11 +85,12 @@ TEST(SensorNoiseBlockPhases, NeighboursOfABlockShareItsMeanAndThoseOfTwoDoNot)
     for (std::size_t k = 0; k < BlockPhases::Period; ++k)
     {
       const double expected = k == (first + 7) % 8 ? 0.0 : -1.0 / 7.0;
-      EXPECT_NEAR(Coefficient(tiles, k), expected, Tolerance + 0.01) << first << " " << k; // few pixels lie in no block
+      EXPECT_NEAR(Coefficient(tiles, k), expected, Tolerance + 0.01)
+        << first << " " << k; // some pixels are in no block
       EXPECT_NEAR(Coefficient(tiles, BlockPhases::Period + k), 0.0, Tolerance) << first << " " << k;
     }
-    // About the mean of the axis, -1/8: seven of 1/56 and one of 1/8, of sixteen phases. Chance is taken off, and up to
-    // a sixteenth of the pixels lies in no block.
+    // The deviations from the mean of the axis, -1/8, are 1/56 for seven phases and 1/8 for one, of sixteen phases. The
+    // part of chance is subtracted, and up to a sixteenth of the pixels is in no block.
     EXPECT_NEAR(RmsOfPhases(tiles), std::sqrt((7.0 / (56.0 * 56.0) + 1.0 / 64.0) / 16.0), 0.004) << first;
   }
 }
@@ -114,7 +116,7 @@ TEST(SensorNoiseBlockPhases, SharpenedFramesAreFiltered)
     }
     return out;
   };
-  // Of a flat field neither the light nor the place tells rounding from a filter, and it stays one.
+  // In a flat field neither the signal nor the place distinguishes rounding from a filter: the class is filtered.
   const auto tiles = SumBlockPhases(Residuals(sharpened), SerialFor);
   EXPECT_EQ(RmsOfPhases(tiles), 0.0);
   for (std::size_t k = 0; k < BlockPhases::Period; ++k)

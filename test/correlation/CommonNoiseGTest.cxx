@@ -22,10 +22,11 @@ constexpr std::size_t   Frames = 40;
 constexpr double        NoiseDn = 4.0;
 constexpr double        BrightestDn = 200.0;
 
-/** Standard deviations of what all pixels, or those of a row or column, have in common, beside white noise of 4 DN. */
+/** Standard deviations of the components that are common to all pixels, to a row or to a column, beside white noise of
+ * 4 DN. */
 struct Common
 {
-  double light{ 0.0 }; ///< relative to the light [1]
+  double light{ 0.0 }; ///< common to all pixels, relative to the signal [1]
   double rowDn{ 0.0 };
   double columnDn{ 0.0 };
 };
@@ -69,7 +70,7 @@ SumSharedLight(const NoiseResiduals & residuals, const ParallelFor & parallelFor
   return OfTiles(residuals, parallelFor, [&](std::size_t i) { return SumDistantCovariance(residuals, i); });
 }
 
-/** Light, rows 0 ... 6 apart, columns 0 ... 6 apart. */
+/** Returns the common illumination, the covariances of rows 0 ... 6 apart, and of columns 0 ... 6 apart. */
 JackknifeEstimate
 Measure(const FrameOf & noise)
 {
@@ -108,7 +109,7 @@ TEST(SensorNoiseCommonNoise, RowNoiseIsThatOfOneRowAndOfNoColumn)
   EXPECT_NEAR(found.value(1), 1.0, 0.1);
   for (Eigen::Index d = 1; d < 2 * Lines; ++d)
   {
-    EXPECT_NEAR(found.value(1 + d), 0.0, 0.07) << d; // half of it, as products of different numbers scatter
+    EXPECT_NEAR(found.value(1 + d), 0.0, 0.07) << d; // half of it, as products of different numbers scatter less
   }
   EXPECT_NEAR(found.value(0), 0.0, 1e-5);
 }
@@ -125,7 +126,7 @@ TEST(SensorNoiseCommonNoise, ColumnNoiseIsThatOfOneColumnAndOfNoRow)
 
 TEST(SensorNoiseCommonNoise, LightThatIsLeftGrowsWithTheSquareOfTheLightAndIsNotOfLines)
 {
-  // 1 % of 100 DN on the average: 1 DN, as much as the rows have above.
+  // 1 % of a mean of 100 DN is 1 DN, as large as the noise of the rows above.
   const auto            white = NoiseWith({});
   const auto            light = Light();
   const Eigen::VectorXd wave = Eigen::VectorXd::NullaryExpr(
@@ -138,7 +139,7 @@ TEST(SensorNoiseCommonNoise, LightThatIsLeftGrowsWithTheSquareOfTheLightAndIsNot
     }
     return frame;
   });
-  const double variance = (wave.array() - wave.mean()).square().sum() / (Frames - 1.0); // of this very series
+  const double variance = (wave.array() - wave.mean()).square().sum() / (Frames - 1.0); // of this temporal component
   ExpectFigure(found, 0, variance, 0.03 * variance);
   for (Eigen::Index d = 0; d < 2 * Lines; ++d)
   {
@@ -152,7 +153,7 @@ TEST(SensorNoiseCommonNoise, BandsAreSharedByRowsNextToEachOther)
   constexpr double wavenumber = turn / 24.0; // period 24 rows
   const auto       white = NoiseWith({});
   const auto       found = Measure([&](std::size_t t) {
-    const double phase = turn * 7.0 * static_cast<double>(t) / Frames; // spread evenly: no chance
+    const double phase = turn * 7.0 * static_cast<double>(t) / Frames; // uniformly distributed, without chance
     DoubleFrame  frame = white(t);
     for (std::size_t p = 0; p < frame.values.size(); ++p)
     {
@@ -162,10 +163,10 @@ TEST(SensorNoiseCommonNoise, BandsAreSharedByRowsNextToEachOther)
   });
   for (Eigen::Index d = 0; d < Lines; ++d)
   {
-    // Its mean over the frames is 0, but one degree of freedom is taken to be used up.
+    // The mean over the frames is 0, but one degree of freedom is subtracted for it.
     const double expected = std::cos(wavenumber * static_cast<double>(d)) * Frames / (Frames - 1.0);
-    EXPECT_NEAR(found.value(1 + d), expected, 4.5 * 0.01) << d; // white noise leaves 0.006 DN^2, with the band 0.01
-    // Pixels of a column that are far apart are as often in phase as not: 16 rows at -1/2 twice, 24 rows at 1 once.
+    EXPECT_NEAR(found.value(1 + d), expected, 4.5 * 0.01) << d; // error 0.006 DN^2, with the band 0.01
+    // The phases of distant pixels of a column cancel: 16 rows have twice the weight at -1/2, 24 rows once at 1.
     EXPECT_NEAR(found.value(1 + Lines + d), 0.0, 4.5 * 0.01) << d;
   }
 }
@@ -187,7 +188,7 @@ TEST(SensorNoiseCommonNoise, IsTakenOffTheSumsOfItsLag)
   EXPECT_DOUBLE_EQ(taken({ 0, 0, 0 }, 0), 10.0 * (3.0 + 7.0) + 0.5 * 30.0);
   EXPECT_DOUBLE_EQ(taken({ -2, 1, 0 }, 0), 10.0 * (2.0 + 5.0) + 0.5 * 30.0);
   EXPECT_DOUBLE_EQ(taken({ -2, 1, 0 }, 3), 13.0 * (2.0 + 5.0) + 0.5 * 30.0);
-  EXPECT_DOUBLE_EQ(taken({ 9, 9, 0 }, 0), 0.5 * 30.0); // lines that far apart are not looked at
+  EXPECT_DOUBLE_EQ(taken({ 9, 9, 0 }, 0), 0.5 * 30.0); // lines at this distance are not used
   EXPECT_EQ(common.TakeOff(sums, { 1, 1, 0 }).bins[1].pairs, 100.0);
   EXPECT_EQ(common.TakeOff(sums, { 1, 1, 0 }).bins[1].square, 30.0);
 }

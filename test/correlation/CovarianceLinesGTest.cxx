@@ -18,8 +18,8 @@ const FrameGeometry   Frame{ 192, 128, 1 };
 constexpr std::size_t Frames = 60;
 constexpr double      ReadNoiseDn2 = 9.0;
 
-/** Shot noise of 1 DN/e-, which a running mean of weights 1/4, 1/2, 1/4 along the rows spreads, and read noise that
- * comes \a before or after it. */
+/** Returns shot noise of 1 DN/e- after a running mean of weights 1/4, 1/2, 1/4 along the rows, with read noise that is
+ * added \a before or after this filter. */
 NoiseResiduals
 Filtered(bool before)
 {
@@ -54,7 +54,8 @@ ExpectLine(const CovarianceLine & line, const Lag & lag, double slope, double in
   EXPECT_LT(line.interceptDn2.standardError, 0.6);
 }
 
-/** Mean over the shapes of what all neighbours share, where the light is \a lightDn and the variance \a varianceDn2. */
+/** Returns the covariance with all neighbours at the signal \a lightDn and the variance \a varianceDn2, averaged over
+ * the shapes. */
 double
 SharedAt(const NoiseCorrelation & found, double lightDn, double varianceDn2)
 {

@@ -12,7 +12,7 @@ namespace
 {
 constexpr std::array<double, NoiseResiduals::IntensityBins> LightDn{ 10.0, 40.0, 100.0, 300.0 };
 
-/** V = 20 + 0.5 z, with 100 pairs in each bin, all of one level. */
+/** Returns V = 20 + 0.5 z. Each bin has 100 pairs at one level. */
 double
 VarianceAt(double lightDn)
 {
@@ -32,7 +32,7 @@ OwnSums()
   return sums;
 }
 
-/** Errors that differ: the fit must weigh. */
+/** Standard errors that differ, so that the fit has to weight. */
 const Eigen::VectorXd Errors = Eigen::Vector4d(0.001, 0.002, 0.001, 0.004);
 
 const FittedShape &
@@ -82,7 +82,7 @@ TEST(SensorNoiseSharedShapes, PartsOfTheNoiseWithoutLightMayComeAfterAFilter)
         shapes.InBins()(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(k)), (v - codesDn2 - late) / v, 1e-12);
     }
   }
-  // The least light is that of the darkest pixels where black is not known.
+  // If the dark offset is not known, the smallest signal is the signal of the darkest pixels.
   const auto last = NumberOfShapes - 1;
   EXPECT_NEAR(CovarianceShapes(OwnSums(), 6.0, codesDn2).UnitOf(last).constantDn2, -(21.0 + 2.0 - codesDn2), 1e-12);
 }
@@ -100,7 +100,7 @@ TEST(SensorNoiseSharedShapes, EachIsRecoveredExactlyAndNoOtherFits)
       if (static_cast<Eigen::Index>(other) == k)
       {
         EXPECT_NEAR(fits[other].coefficient / coefficient, 1.0, 1e-12) << k;
-        EXPECT_NEAR(fits[other].chi2, 0.0, 1e-8) << k; // of terms of up to 1e4
+        EXPECT_NEAR(fits[other].chi2, 0.0, 1e-8) << k; // with terms of up to 1e4
       }
       else
       {
@@ -120,7 +120,7 @@ TEST(SensorNoiseSharedShapes, ChiSquareIsThatOfTheWeightedResiduals)
     const FittedShape &  fit = fits[static_cast<std::size_t>(k)];
     const Eigen::ArrayXd left = (shared - fit.coefficient * shapes.col(k)).array() / Errors.array();
     EXPECT_NEAR(fit.chi2, left.square().sum(), 1e-8) << k;
-    EXPECT_NEAR((left * shapes.col(k).array() / Errors.array()).sum(), 0.0, 1e-6) << k; // the least there is
+    EXPECT_NEAR((left * shapes.col(k).array() / Errors.array()).sum(), 0.0, 1e-6) << k; // at the minimum
   }
 }
 

@@ -23,7 +23,7 @@ Residuals(const FrameOf & frameOf)
   return ComputeResiduals(Frame, Frames, std::vector<double>(Frame.Pixels(), 100.0), frameOf);
 }
 
-/** White samples, enlarged along x: linear between the two nearest, whose first one is 0.5 / ratio - 0.5 from pixel 0.
+/** Returns white samples, enlarged along x by linear interpolation. The first sample is 0.5 / ratio - 0.5 from pixel 0.
  */
 FrameOf
 Enlarged(double ratio)
@@ -44,7 +44,8 @@ Enlarged(double ratio)
   };
 }
 
-/** Every other pixel, as on a chessboard, is the mean of its four neighbours: the green of a mosaic. */
+/** Replaces every other pixel, as on a chessboard, by the mean of its four neighbours: the green plane of an
+ * interpolated mosaic. */
 DoubleFrame
 InterpolateMosaic(const DoubleFrame & in)
 {
@@ -61,7 +62,7 @@ InterpolateMosaic(const DoubleFrame & in)
   return out;
 }
 
-/** Noise that is twice as large in odd columns, then a running mean of two pixels: a filter, but of unlike columns. */
+/** Applies a running mean of two pixels and doubles the odd columns: a filter, with columns of different noise. */
 DoubleFrame
 FilterUnlikeColumns(const DoubleFrame & in)
 {
@@ -78,7 +79,7 @@ TEST(SensorNoiseEnlargementTrace, TwiceTheSizeAlternates)
 {
   const auto trace = FindEnlargementTrace(Residuals(Enlarged(2.0)), SerialFor);
   ASSERT_TRUE(trace);
-  // Pixels of weights 3/4 and 1/4 have the variance 5/8; the covariance is 3/8 and 9/16 in turn.
+  // Pixels with the weights 3/4 and 1/4 have the variance 5/8; the covariance alternates between 3/8 and 9/16.
   EXPECT_EQ(trace->lag, 1);
   EXPECT_TRUE(trace->isAlongX);
   EXPECT_FALSE(trace->isAlternating);
@@ -107,7 +108,7 @@ TEST(SensorNoiseEnlargementTrace, InterpolatedMosaicAlternatesInEveryOtherLine)
   EXPECT_EQ(trace->lag, 2);
   EXPECT_TRUE(trace->isAlternating);
   EXPECT_EQ(trace->cyclesPerPixel, 0.5);
-  // Measured pixels share nothing, means of four a quarter of their variance of 1/4.
+  // Measured pixels have no covariance. Interpolated pixels have the variance 1/4, and a quarter of it as covariance.
   EXPECT_NEAR(trace->amplitude, 0.125, 0.01);
 }
 

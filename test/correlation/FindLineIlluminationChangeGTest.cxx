@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-// The illumination that the pixels of a row share in a frame, in white noise of 1 DN.
+// Illumination changes that are common to the pixels of a row in a frame, in white noise of 1 DN.
 
 using namespace sensornoise;
 using namespace sensornoise::test;
@@ -19,8 +19,8 @@ namespace
 constexpr FrameGeometry Geometry{ 128, 128, 1 };
 constexpr std::size_t   Frames = 30;
 
-/** Finds the mean square of the relative illumination changes of the rows, of rms \a sd, beside a dark offset of the
- * rows of rms \a offsetDn. */
+/** Estimates the mean square of the relative illumination changes of the rows. Their rms is \a sd; the dark offsets of
+ * the rows have the rms \a offsetDn. */
 MeasuredNumber
 FindOfRows(double sd, double offsetDn)
 {

@@ -20,7 +20,7 @@ namespace
 constexpr FrameGeometry Geometry{ 96, 64, 1 };
 constexpr Eigen::Index  Frames = 12;
 
-/** Orthonormal: the constant and a ramp. */
+/** Returns an orthonormal basis of the constant and a ramp. */
 Eigen::MatrixXd
 Basis()
 {

@@ -35,7 +35,7 @@ RandomStack(std::size_t frames = Frames)
   return stack;
 }
 
-/** A mean that no sum of integers is. */
+/** Returns means that are no sums of integers over the frames. */
 std::vector<double>
 SomeMean()
 {
@@ -57,7 +57,7 @@ SampleOfStack(const Stack<TPixel> & stack, std::size_t chunk = 1000, const Paral
   return sample;
 }
 
-/** All values, tile after tile. */
+/** Returns all values, tile after tile. */
 std::vector<float>
 ValuesOf(const NoiseSample & noise)
 {
@@ -196,7 +196,7 @@ TEST(SensorNoiseFrameSample, WhatIsNotFiniteIsNoNoise)
   auto              stack = RandomStack().Map<float>([](std::uint16_t u) { return u; });
   auto              expected = ValuesOf(SampleOfStack(stack));
   const NoiseSample noise = SampleOfStack(stack).TakeNoise(SomeMean());
-  stack.pixels[noise.PixelOf(1, 7)] = std::numeric_limits<float>::quiet_NaN(); // of frame 0
+  stack.pixels[noise.PixelOf(1, 7)] = std::numeric_limits<float>::quiet_NaN(); // in frame 0
   stack.pixels[noise.PixelOf(2, 3)] = std::numeric_limits<float>::infinity();
   expected[noise.GetTiles().PlaceOf(1, 0) + 7] = 0.0F;
   expected[noise.GetTiles().PlaceOf(2, 0) + 3] = 0.0F;

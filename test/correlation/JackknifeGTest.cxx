@@ -28,7 +28,7 @@ struct Block
   }
 };
 
-/** Blocks of \a size values. */
+/** Returns blocks of \a size values. */
 std::vector<Block>
 NormalBlocks(std::size_t blocks, std::size_t size, std::uint64_t seed)
 {
@@ -71,7 +71,7 @@ TEST(SensorNoiseJackknife, OfAMeanItIsTheVarianceOverTheNumber)
 
 TEST(SensorNoiseJackknife, FiguresHaveTheirCovariance)
 {
-  // The second figure is 1 less twice the first.
+  // The second figure is 1 minus twice the first.
   const auto   found = Jackknife(NormalBlocks(12, 3, 4), [](const Block & sums) {
     const double mean = sums.sum / sums.count;
     return Eigen::VectorXd(Eigen::Vector2d(mean, 1.0 - 2.0 * mean));

@@ -26,7 +26,7 @@ struct Weight
   double      value;
 };
 
-/** White noise, of which every pixel takes that of others further on. */
+/** Returns white noise after a filter: each pixel is a weighted sum of pixels to the right and below. */
 FrameOf
 Filtered(const std::vector<Weight> & weights)
 {
@@ -44,7 +44,7 @@ Filtered(const std::vector<Weight> & weights)
   };
 }
 
-/** All blocks' coefficients, and last their sum over all lags, both signs. */
+/** Returns the coefficients of all blocks together, and last their sum over all lags of both signs. */
 Eigen::VectorXd
 CoefficientsOf(const std::vector<LagSums> & sums)
 {
@@ -60,7 +60,7 @@ CoefficientsOf(const std::vector<LagSums> & sums)
   return figures;
 }
 
-/** What the jackknife adds. */
+/** Sums of all lags, which the jackknife adds. */
 struct SumsOfLags : std::vector<LagSums>
 {
   SumsOfLags &
@@ -87,8 +87,8 @@ Measure(const FrameOf & noise, const std::vector<Lag> & lags)
   return Jackknife(tiles, [](const SumsOfLags & sums) { return CoefficientsOf(sums); });
 }
 
-/** Noise of squares of \a side equal pixels, of which one begins \a phase pixels left of and above the frame; each
- * square's series is its own, and orthogonal to all others without any chance: +1 in one frame, -1 in the next. */
+/** Returns noise that is constant in square tiles of \a side pixels. The first tile begins \a phase pixels left of and
+ * above the frame. The temporal components of the tiles are exactly orthogonal: +1 in one frame, -1 in the next. */
 NoiseResiduals
 ResidualsOfSquares(std::size_t side, std::size_t phase)
 {
@@ -112,15 +112,15 @@ TEST(SensorNoiseLagSums, WhiteNoiseSharesNothing)
   for (Eigen::Index k = 0; k < 3; ++k)
   {
     ExpectFigure(
-      found, k, 0.0, 0.004); // 1 / sqrt(16000 pixels x 23 frames) = 0.0016, for the weights at the borders 0.002
+      found, k, 0.0, 0.004); // 1 / sqrt(16000 pixels x 23 frames) = 0.0016, and 0.002 with the weights at the borders
   }
-  // r_t r_(t + 1) of what is left of T frames without their mean: -(T - 1) / T, over T - 1.
+  // The sum of r_t r_(t + 1) over T frames without their mean is -(T - 1) / T; it is divided by T - 1.
   ExpectFigure(found, 3, -1.0 / Frames, 0.004);
 }
 
 TEST(SensorNoiseLagSums, ThreeTapsShareTwoThirdsAndASixth)
 {
-  // The weights' autocorrelation (1, 4, 6, 4, 1) / 16, along the columns alone.
+  // The autocorrelation of the weights is (1, 4, 6, 4, 1) / 16, along the columns alone.
   const auto found = Measure(Filtered({ { 0, 0, 0.25 }, { 0, 1, 0.5 }, { 0, 2, 0.25 } }),
                              { { 0, 1, 0 }, { 0, 2, 0 }, { 0, 3, 0 }, { 1, 0, 0 }, { 1, 1, 0 } });
   ExpectFigure(found, 0, 2.0 / 3.0, 0.006);
@@ -132,7 +132,7 @@ TEST(SensorNoiseLagSums, ThreeTapsShareTwoThirdsAndASixth)
 
 TEST(SensorNoiseLagSums, DiagonalsAreNotMistakenForEachOther)
 {
-  // A pixel shares with its lower left neighbour: lag (-1, 1).
+  // The noise of a pixel is correlated with its lower left neighbour: lag (-1, 1).
   const auto found = Measure(Filtered({ { 1, 0, 1.0 }, { 0, 1, 1.0 } }), { { -1, 1, 0 }, { 1, 1, 0 } });
   ExpectFigure(found, 0, 0.5, 0.006);
   ExpectFigure(found, 1, 0.0, 0.006);
@@ -150,7 +150,7 @@ TEST(SensorNoiseLagSums, FramesShareWhatTheNextOneTakes)
     }
     return frame;
   };
-  // R = (2, 1), mixed by the mean that is taken off.
+  // R = (2, 1), mixed by the subtraction of the mean.
   const auto            found = Measure(mixed, { { 0, 0, 1 } });
   const Eigen::MatrixXd mean = Eigen::MatrixXd::Constant(Frames, 1, 1.0 / std::sqrt(1.0 * Frames));
   const Eigen::Vector2d expected = TemporalMixing(mean, 1) * Eigen::Vector2d(2.0, 1.0);
@@ -204,7 +204,7 @@ TEST(SensorNoiseLagSums, PairsAreSortedByTheLightOfTheFirst)
   {
     EXPECT_GT(bin.pairs, 0.0);
     EXPECT_NEAR(
-      bin.covariance / bin.pairs, 1.0, 0.02); // 4.5 sqrt(2 / (4000 x 23)), for the weights at the borders more
+      bin.covariance / bin.pairs, 1.0, 0.02); // 4.5 sqrt(2 / (4000 x 23)), and more with the weights at the borders
     EXPECT_GT(bin.light / bin.constant, last);
     EXPECT_GE(bin.square * bin.constant, bin.light * bin.light);
     last = bin.light / bin.constant;

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-// What moves by itself in places, and filters, which know nothing of the scene.
+// Local motion of the scene, and filters, whose noise does not depend on the slopes of the scene.
 
 using namespace sensornoise;
 using namespace sensornoise::test;
@@ -20,10 +20,10 @@ namespace
 {
 constexpr FrameGeometry Geometry{ 192, 128, 1 };
 constexpr std::size_t   Frames = 40;
-constexpr double        SlopeDn = 20.0; ///< largest slope of the light [DN/pixel]
-constexpr double        Period = 12.0;  ///< of the light [pixels]
+constexpr double        SlopeDn = 20.0; ///< largest slope of the signal [DN/pixel]
+constexpr double        Period = 12.0;  ///< period of the signal [pixel]
 
-/** A light of waves along the rows. */
+/** Returns a signal with waves along the rows. */
 std::vector<double>
 Waves()
 {
@@ -36,7 +36,8 @@ Waves()
   return light;
 }
 
-/** White noise of 1 DN, in frames whose rows of 16 are displaced by \a rms pixels, each by itself. */
+/** Returns white noise of 1 DN in frames in which each strip of 16 rows is displaced independently, by \a rms pixels.
+ */
 FrameOf
 DisplacedRows(double rms)
 {
@@ -53,7 +54,7 @@ DisplacedRows(double rms)
   };
 }
 
-/** The mean of each value and its right neighbour. */
+/** Returns white noise after a running mean of each value and its right neighbour. */
 FrameOf
 SmoothedNoise()
 {
@@ -71,10 +72,10 @@ SmoothedNoise()
 TEST(SensorNoiseLocalMotion, IsTheMeanSquareOfWhatMoves)
 {
   constexpr double     rms = 0.01;
-  const double         expected = rms * rms * 0.5 * SlopeDn * SlopeDn; // of the noise, by the mean square of a cosine
+  const double         expected = rms * rms * 0.5 * SlopeDn * SlopeDn; // mean square of a cosine: 0.5
   const MeasuredNumber found =
     FindLocalMotion(ComputeResiduals(Geometry, Frames, Waves(), DisplacedRows(rms)), Threads(3));
-  // The variance that it is relative to holds it, too.
+  // The variance in the denominator contains the motion, too.
   EXPECT_NEAR(found.value, expected / (1.0 + expected), 4.5 * found.standardError);
   EXPECT_LT(found.standardError, 0.1 * expected);
 }

@@ -23,7 +23,7 @@ namespace
 constexpr std::size_t Size = 256;
 constexpr std::size_t Frames = 30;
 
-/** A still scene, camera B, codes that are not rounded. */
+/** Returns the residuals of a static scene with camera B, without quantization. */
 NoiseResiduals
 ComputeResiduals(const SensorFlaws & flaws, std::size_t size = Size, std::size_t frames = Frames)
 {
@@ -47,7 +47,7 @@ ComputeResiduals(const SensorFlaws & flaws, std::size_t size = Size, std::size_t
   return { sample.TakeNoise(mean), Eigen::MatrixXd(), { mean, take, settings.camera.offsetDn }, SerialFor };
 }
 
-/** Frames enough that the rings of lags are known to half a per cent, which ends the reach. */
+/** Number of frames with which the rings of lags are known within half a per cent, which ends the reach. */
 constexpr std::size_t ManyFrames = 100;
 
 NoiseCorrelation
@@ -73,7 +73,7 @@ CoefficientAt(const std::vector<LagCoefficient> & lags, const Lag & at)
   return found == lags.end() ? MeasuredNumber{ std::nan(""), 0.0 } : found->coefficient;
 }
 
-/** Right within 4.5 standard errors, which are at most \a largestError. */
+/** Expects a deviation of at most 4.5 standard errors, and a standard error below \a largestError. */
 void
 ExpectNumber(const MeasuredNumber & found, double expected, double largestError)
 {
@@ -88,14 +88,13 @@ TEST(SensorNoiseNoiseCorrelation, PlainNoiseIsWhite)
   const auto found = Measure({});
   EXPECT_EQ(found.kind, NoiseKind::White);
   EXPECT_FALSE(found.IsCorrelated());
-  EXPECT_EQ(found.space.size(), 12U); // half of 5 x 5, less the pixel itself
+  EXPECT_EQ(found.space.size(), 12U); // half of 5 x 5, without the pixel itself
   EXPECT_EQ(found.time.size(), 3U);
   for (const auto & lags : { found.space, found.time })
   {
     for (const LagCoefficient & lag : lags)
     {
-      ExpectNumber(
-        lag.coefficient, 0.0, 0.002); // 1 / sqrt(65536 x 29) = 0.0007, for the weights at the tiles' borders 0.001
+      ExpectNumber(lag.coefficient, 0.0, 0.002); // 1 / sqrt(65536 x 29) = 0.0007; at borders of tiles 0.001
     }
   }
   ExpectNumber(found.rowsDn2, 0.0, 1.0);
@@ -108,7 +107,7 @@ TEST(SensorNoiseNoiseCorrelation, SmoothedFramesAreFilteredAndTheSumIsThatOfTheW
 {
   const auto found = Measure(With([](SensorFlaws & flaws) { flaws.smoothing.sdPixels = 0.6; }));
   EXPECT_EQ(found.kind, NoiseKind::Filtered);
-  // The sampled kernel; its part of white noise's variance is the sum of its squares, along each axis.
+  // The sampled kernel. Along each axis it leaves the sum of its squares of the variance of white noise.
   double     weight = 0.0;
   double     square = 0.0;
   double     product = 0.0;
@@ -123,7 +122,7 @@ TEST(SensorNoiseNoiseCorrelation, SmoothedFramesAreFilteredAndTheSumIsThatOfTheW
   ExpectNumber(CoefficientAt(found.space, { -1, 1, 0 }), product * product / (square * square), 0.003);
   const double left = square * square / std::pow(weight, 4.0);
   EXPECT_NEAR(found.Shape(CovarianceShape::Constant).probability, 0.0, 0.1);
-  EXPECT_GT(found.Shape(CovarianceShape::Variance).probability, 0.3); // the read noise is small: parts fit, too
+  EXPECT_GT(found.Shape(CovarianceShape::Variance).probability, 0.3); // small read noise: other shapes fit, too
   ExpectNumber(found.Shape(CovarianceShape::Variance).coefficient, 1.0 / left - 1.0, 0.05);
   EXPECT_NEAR(VarianceInflation(found.space),
               1.0 + 4.0 * std::pow(product / square, 2.0) + 4.0 * std::pow(product / square, 4.0),
@@ -135,7 +134,7 @@ TEST(SensorNoiseNoiseCorrelation, CoupledChargeIsCrosstalkInProportionToTheLight
   constexpr double c = 0.015;
   const auto       found = Measure(With([](SensorFlaws & flaws) { flaws.coupling.fraction = c; }), ManyFrames);
   EXPECT_EQ(found.kind, NoiseKind::Crosstalk);
-  // All neighbours together have what the pixel's shot noise, 1 DN/e-, has lost.
+  // The covariance with all neighbours is the decrease of the shot noise of the pixel, 1 DN/e-.
   const double lost = 1.0 - std::pow(1.0 - 4.0 * c, 2.0) - 4.0 * c * c;
   ExpectNumber(found.Shape(CovarianceShape::Light).coefficient, lost, 0.02);
   EXPECT_NEAR(1.0 - found.Shape(CovarianceShape::Constant).probability, 1.0, 0.05);
@@ -143,12 +142,12 @@ TEST(SensorNoiseNoiseCorrelation, CoupledChargeIsCrosstalkInProportionToTheLight
 
 TEST(SensorNoiseNoiseCorrelation, ChargeThatRepelsChargeGrowsWithTheSquareOfTheLight)
 {
-  constexpr double k = 2e-6; // of 3000 e- at the brightest 8 k Q = 5 % of the variance
+  constexpr double k = 2e-6; // 8 k Q = 5 % of the variance at 3000 e-
   const auto       found = Measure(With([](SensorFlaws & flaws) { flaws.brighterFatter.perElectron = k; }), ManyFrames);
   EXPECT_EQ(found.kind, NoiseKind::BrighterFatter);
   EXPECT_GT(found.Shape(CovarianceShape::Square).probability, 0.5);
   ExpectNumber(
-    found.Shape(CovarianceShape::Square).coefficient, 8.0 * k, 0.2 * 8.0 * k); // to first order, which is 2 % too much
+    found.Shape(CovarianceShape::Square).coefficient, 8.0 * k, 0.2 * 8.0 * k); // to first order, which is 2 % too large
 }
 
 TEST(SensorNoiseNoiseCorrelation, MixedFramesAreTemporalAndTheSumIsThatOfTheFilter)
@@ -182,7 +181,7 @@ TEST(SensorNoiseNoiseCorrelation, NoiseOfRowsAndColumnsIsTakenOffWhatNeighboursS
   EXPECT_EQ(found.kind, NoiseKind::White);
   // 256 lines, 29 degrees of freedom: 4.5 sqrt(2 / (256 x 29)) = 0.07 of the variance.
   EXPECT_NEAR(found.rowsDn2.value, 36.0, 0.08 * 36.0);
-  EXPECT_NEAR(found.columnsDn2.value, 9.0, 0.08 * 9.0 + 4.5 * 0.2); // and the white noise
+  EXPECT_NEAR(found.columnsDn2.value, 9.0, 0.08 * 9.0 + 4.5 * 0.2); // with the error of the white noise
   for (const LagCoefficient & lag : found.space)
   {
     EXPECT_NEAR(lag.coefficient.value, 0.0, 0.005) << lag.lag.x << " " << lag.lag.y;

@@ -20,7 +20,7 @@ using namespace sensornoise::test::correlation;
 namespace
 {
 constexpr FrameGeometry Geometry{ 128, 128, 1 };
-/** How many values are added with alternating signs: the excess of a sum of n is a nth of theirs. */
+/** Numbers of values that are added with alternating signs. The excess of a sum of n values is 1/n of theirs. */
 constexpr std::array<double, KurtosisSums::Kinds> Added{ 1.0, 2.0, 2.0, 4.0, 8.0, 8.0 };
 
 std::vector<KurtosisSums>
@@ -62,7 +62,7 @@ Independent(TDraw draw)
 
 constexpr std::size_t ManyFrames = 200;
 
-/** Cumulants of a distribution of variance 1. */
+/** Cumulants of a distribution with the variance 1. */
 struct Cumulants
 {
   double fourth;
@@ -79,7 +79,8 @@ ExpectExcess(const JackknifeEstimate & found, const Cumulants & of)
     const double n = Added[k];
     const double excess = of.fourth / n;
     const double skewness = n > 1.0 ? 0.0 : of.squareOfThird; // signs alternate
-    // To first order in 1 / T: the ratio of moments of T values, over that of normal noise, and the mean taken off.
+    // To first order in 1 / T: the ratio of the moments of T values without their mean, over that ratio of normal
+    // noise.
     const double fourth = 3.0 + excess;
     const double sixth = 15.0 + 15.0 * excess + 10.0 * skewness + of.sixth / (n * n);
     const double bias = (3.0 * fourth * fourth - fourth - 2.0 * sixth + 2.0 * fourth - 2.0 * excess) / T;
@@ -104,7 +105,7 @@ TEST(SensorNoiseNoiseKurtosis, NormalNoiseHasNoneHoweverFewTheFrames)
 
 TEST(SensorNoiseNoiseKurtosis, NormalNoiseHasNoneAfterSeriesThatAreNotEven)
 {
-  // A series of a single frame takes all that this frame knows; one of a step is spread over half of them.
+  // The component of a single frame removes all information of this frame. The step is distributed over 4 of 10 frames.
   Eigen::MatrixXd series = Eigen::MatrixXd::Zero(10, 2);
   series(3, 0) = 1.0;
   series.col(1).head(4).setOnes();
@@ -117,7 +118,7 @@ TEST(SensorNoiseNoiseKurtosis, NormalNoiseHasNoneAfterSeriesThatAreNotEven)
 
 TEST(SensorNoiseNoiseKurtosis, NormalNoiseHasNoneWhateverPixelsAndFilter)
 {
-  // Pixels of very different noise, of which each takes half of its right neighbour.
+  // Pixels of very different noise, to each of which half of its right neighbour is added.
   const auto white = WhiteNoise(Geometry, 3);
   const auto found = Measure(30, [&](std::size_t t) {
     DoubleFrame frame = white(t);
@@ -148,7 +149,7 @@ TEST(SensorNoiseNoiseKurtosis, PoissonNoiseHasOneOverItsMeanAndSumsANthOfIt)
 
 TEST(SensorNoiseNoiseKurtosis, CopiesOfAPixelAndPixelsLeftOutHaveNoSeries)
 {
-  // Rows of equal values: what is left of a pixel less its lower neighbour is rounding.
+  // Rows of equal values: the difference of a pixel and its lower neighbour is rounding.
   const auto copies = [](std::size_t t) {
     DoubleFrame       frame(Geometry.width, Geometry.height);
     const DoubleFrame white = NormalFrame(Geometry.width, 1, 60 + t);
@@ -175,7 +176,7 @@ TEST(SensorNoiseNoiseKurtosis, CopiesOfAPixelAndPixelsLeftOutHaveNoSeries)
   EXPECT_EQ(seriesOf(4), tiles * 25.0 * 32.0);
 
   std::vector<std::uint8_t> take(Geometry.Pixels(), 1);
-  take[Geometry.width * 10 + 10] = 0; // inside of the first tile
+  take[Geometry.width * 10 + 10] = 0; // in the first tile
   residuals.Take(take, SerialFor);
   EXPECT_EQ(seriesOf(0), tiles * 32.0 * 32.0 - 1.0);
   EXPECT_EQ(seriesOf(1), tiles * 31.0 * 32.0 - 2.0);

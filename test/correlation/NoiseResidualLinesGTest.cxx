@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-// What the pixels of a row or a column share in a frame is taken off.
+// The common component of the pixels of a row or a column of a frame is subtracted.
 
 using namespace sensornoise;
 using namespace sensornoise::test;
@@ -28,8 +28,8 @@ Light()
   return Ramp(Geometry, 50.0, 250.0);
 }
 
-/** White noise of 1 DN; the light of each row changes by \a sd, rms, and its black level by as many DN as that is per
- * cent. */
+/** Returns white noise of 1 DN. The illumination of each row changes by the rms \a sd [1], and its dark offset by the
+ * rms 100 \a sd [DN]. */
 FrameOf
 NoiseUnderRows(double sd)
 {
@@ -84,7 +84,8 @@ TEST(SensorNoiseNoiseResidualLines, NothingOfTheLightOfRowsIsLeft)
     square += difference * difference;
     count += 1.0;
   });
-  // Weights differ by their error, 3 % of bins of 256 pixels and more: of a leverage of 2 / 128 next to nothing.
+  // The weights differ by their errors, at most 3 % for bins of 256 pixels. At a leverage of 2 / 128 this is
+  // negligible.
   EXPECT_LT(std::sqrt(square / count), 0.01);
 }
 
@@ -104,7 +105,7 @@ TEST(SensorNoiseNoiseResidualLines, VarianceStays)
     }
   }
   const auto count = static_cast<double>(left.size());
-  EXPECT_NEAR(leverage / count, 2.0 / 128.0, 1e-4); // two numbers a row of four tiles
+  EXPECT_NEAR(leverage / count, 2.0 / 128.0, 1e-4); // two parameters per row of four tiles
   const double variance = squares / residuals.GetDof() / count;
   EXPECT_NEAR(variance, 1.0, 4.0 * std::sqrt(2.0 / (residuals.GetDof() * count)));
 }
@@ -174,5 +175,5 @@ TEST(SensorNoiseNoiseResidualLines, ColumnsOfTheTransposedFrameAreItsRows)
       largest = std::max(largest, std::abs(static_cast<double>(rows.OfTile(i)[p] - turned.OfTile(other)[mirrored])));
     }
   }
-  EXPECT_LT(largest, 1e-3); // weights are of bins whose pixels are sorted in another order
+  EXPECT_LT(largest, 1e-3); // the weights are of bins whose pixels are sorted in another order
 }

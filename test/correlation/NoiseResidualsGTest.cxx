@@ -21,7 +21,7 @@ namespace
 constexpr FrameGeometry Geometry{ 128, 128, 1 };
 constexpr std::size_t   Frames = 30;
 
-/** A drift, a wave, and their sum, which adds nothing. */
+/** Returns a drift, a wave, and their sum, which is linearly dependent. */
 Eigen::MatrixXd
 Series()
 {
@@ -34,7 +34,7 @@ Series()
   return series;
 }
 
-/** Each pixel has a level and a part of each series of its own. */
+/** Returns frames in which each pixel has its own level and its own response to each temporal component. */
 DoubleFrame
 SceneFrame(std::size_t t)
 {
@@ -49,7 +49,7 @@ SceneFrame(std::size_t t)
   return frame;
 }
 
-/** White noise whose variance is 10 DN^2 at 0 and 50 DN^2 at the brightest, 200 DN. */
+/** Returns white noise whose variance is 10 DN^2 at the signal 0 and 50 DN^2 at the largest signal, 200 DN. */
 double
 VarianceAt(double lightDn)
 {
@@ -80,7 +80,7 @@ TEST(SensorNoiseNoiseResiduals, BasisHoldsTheConstantAndWhatTheSeriesAdd)
   const auto residuals =
     ComputeResiduals(Geometry, Frames, Ramp(Geometry, 0.0, 200.0), WhiteNoise(Geometry, 1), Series());
   const Eigen::MatrixXd & basis = residuals.GetBasis();
-  ASSERT_EQ(basis.cols(), 3); // the third series is the sum of the others
+  ASSERT_EQ(basis.cols(), 3); // the third component is the sum of the others
   EXPECT_LT((basis.transpose() * basis - Eigen::MatrixXd::Identity(3, 3)).norm(), 1e-12);
   EXPECT_EQ(residuals.GetDof(), Frames - 3.0);
   EXPECT_LT((basis * (basis.transpose() * Series()) - Series()).norm(), 1e-10 * Series().norm());
@@ -96,7 +96,7 @@ TEST(SensorNoiseNoiseResiduals, AreOrthogonalToTheSeries)
   {
     const Eigen::Map<const Eigen::MatrixXf> tile(
       residuals.OfTile(i), static_cast<Eigen::Index>(pixels), static_cast<Eigen::Index>(Frames));
-    // Noise of 1 DN in 4 bytes: some 30 roundings of 6e-8.
+    // Noise of 1 DN with 4 bytes: about 30 roundings of 6e-8.
     EXPECT_LT((tile.cast<double>() * residuals.GetBasis()).cwiseAbs().maxCoeff(), 1e-5) << i;
   }
 }
@@ -108,7 +108,7 @@ TEST(SensorNoiseNoiseResiduals, NothingIsLeftOfASceneWithoutNoise)
   {
     for (std::size_t k = 0; k < ValuesOf(residuals); ++k)
     {
-      ASSERT_NEAR(residuals.OfTile(i)[k], 0.0, 1e-4); // values of up to 35 DN in 4 bytes
+      ASSERT_NEAR(residuals.OfTile(i)[k], 0.0, 1e-4); // values of up to 35 DN with 4 bytes
     }
   }
 }
@@ -117,7 +117,7 @@ TEST(SensorNoiseNoiseResiduals, WeightsAreTheInverseVarianceAtThePixelsLight)
 {
   const auto light = Ramp(Geometry, 50.0, 250.0);
   const auto take = std::vector<std::uint8_t>(Geometry.Pixels(), 1);
-  // Measured from black, 50 DN.
+  // The signal is measured from the dark offset, 50 DN.
   const NoiseResiduals residuals(
     SampleOf(Geometry, Frames, ShotNoiseFrame), Eigen::MatrixXd(), { light, take, 50.0 }, SerialFor);
   for (std::size_t i = 0; i < residuals.GetTiles().origins.size(); ++i)
@@ -127,7 +127,7 @@ TEST(SensorNoiseNoiseResiduals, WeightsAreTheInverseVarianceAtThePixelsLight)
       const double zDn = residuals.LightOf(i)[p];
       const auto   x = static_cast<double>(residuals.GetTiles().origins[i].x + p % residuals.GetTiles().side);
       ASSERT_NEAR(zDn, 200.0 * x / 127.0, 1e-4);
-      // Bins of 512 pixels: 5 sqrt(2 / (512 x 29)) = 0.06; half a bin at the ends is 3 DN of light, 0.06 of 10 DN^2.
+      // Bins of 512 pixels: 5 sqrt(2 / (512 x 29)) = 0.06. Half a bin at the ends is a signal of 3 DN, 0.06 of 10 DN^2.
       ASSERT_NEAR(residuals.WeightOf(i)[p] * VarianceAt(zDn), 1.0, 0.06 + (zDn < 4.0 ? 0.06 : 0.0)) << zDn;
     }
   }

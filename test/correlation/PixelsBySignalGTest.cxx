@@ -22,7 +22,7 @@ TEST(SensorNoiseSortPixelsBySignal, AreInTheOrderOfAComparison)
   std::vector<std::pair<float, std::size_t>> expected;
   for (std::size_t p = 0; p < light.size(); ++p)
   {
-    const float size = std::exp2(10.0F * normal(random)); // over all magnitudes, and of both signs
+    const float size = std::exp2(10.0F * normal(random)); // of all magnitudes, and of both signs
     light[p] = p % 5 == 0 ? std::round(normal(random)) : std::copysign(size, normal(random));
     take[p] = p % 7 != 3 ? 1 : 0;
     if (take[p] != 0)
@@ -30,7 +30,7 @@ TEST(SensorNoiseSortPixelsBySignal, AreInTheOrderOfAComparison)
       expected.emplace_back(light[p], p);
     }
   }
-  ASSERT_GT(std::count(light.begin(), light.end(), 0.0F), 100); // and of both signs, too
+  ASSERT_GT(std::count(light.begin(), light.end(), 0.0F), 100); // zeros of both signs, too
   std::sort(expected.begin(), expected.end());
   const std::vector<std::uint32_t> order = SortPixelsBySignal(light, take);
   ASSERT_EQ(order.size(), expected.size());

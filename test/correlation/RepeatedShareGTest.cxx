@@ -17,8 +17,8 @@ constexpr std::size_t   Side = 96;
 constexpr std::size_t   Frames = 20;
 constexpr FrameGeometry Geometry{ Side, Side, 1 };
 
-/** The share of frames of noise of a standard deviation, in units of a step, of which each value is blended with the
- * one before, or repeats it with a probability. */
+/** Returns the fraction of repeated values in frames of noise of the standard deviation \a sd, in quantization steps.
+ * Each value is blended with the previous value of its pixel, or repeats it with a probability. */
 double
 ShareOf(double sd, double blend, double probability, double step = 1.0)
 {

@@ -13,7 +13,7 @@ namespace
 {
 constexpr std::size_t FewFrames = 10;
 
-/** Every pixel lies in at most one tile, and every tile in the frame. */
+/** Expects that every pixel is in at most one tile, and every tile in the frame. */
 void
 ExpectInsideAndApart(const SampleTiles & tiles, const FrameGeometry & geometry)
 {
@@ -72,7 +72,7 @@ TEST(SensorNoiseSampleTiles, OneLiesInTheMiddleAndManyAreSpreadEvenly)
   const auto tiles = MakeSampleTiles({ 4096, 4096, 1 }, 60);
   EXPECT_EQ(tiles.side, 32U);
   EXPECT_EQ(tiles.origins.size(), 121U); // 11 x 11: 128 would be 2^17 pixels
-  // Neighbours are as far apart as all others, and the border is half as far from the middle of a tile.
+  // All neighbouring tiles have the same distance; the distance of the middle of a tile from the border is half of it.
   constexpr double step = 4096.0 / 11.0;
   for (std::size_t i = 0; i < 11; ++i)
   {
@@ -98,7 +98,7 @@ TEST(SensorNoiseSampleTiles, KeepToTheirBudgets)
       EXPECT_LE(pixels, SampleTiles::MostPixels);
       const std::size_t values = SampleTiles::MostValuesOf(geometry.Pixels());
       EXPECT_LE(pixels * tiles.frames, values);
-      // Whole columns and rows of tiles leave a third unused at most, where the frame has as many pixels.
+      // Whole columns and rows of tiles leave at most a third unused, if the frame has enough pixels.
       const std::size_t most = std::min(SampleTiles::MostPixels, values / tiles.frames);
       EXPECT_GE(3 * pixels, 2 * std::min(most, geometry.Pixels() / 2)) << geometry.width << " " << frames;
     }

@@ -24,7 +24,7 @@ NormalMatrix(Eigen::Index rows, Eigen::Index columns, std::uint64_t seed)
   return matrix;
 }
 
-/** The constant and \a series random ones. */
+/** Returns a basis of the constant and \a series random components. */
 Eigen::MatrixXd
 BasisWithConstant(Eigen::Index frames, Eigen::Index series)
 {
@@ -39,7 +39,7 @@ ProjectorOf(const Eigen::MatrixXd & basis)
   return Eigen::MatrixXd::Identity(basis.rows(), basis.rows()) - basis * basis.transpose();
 }
 
-/** Shift by k frames both ways. */
+/** Returns the matrix of the shifts by k frames in both directions. */
 Eigen::MatrixXd
 BothWays(Eigen::Index frames, Eigen::Index k)
 {
@@ -47,7 +47,7 @@ BothWays(Eigen::Index frames, Eigen::Index k)
     frames, frames, [k](Eigen::Index s, Eigen::Index t) { return std::abs(s - t) == k ? 1.0 : 0.0; });
 }
 
-/** Sums of a matrix along its diagonals 0 ... lags. */
+/** Returns the sums of a matrix along its diagonals 0 ... lags. */
 Eigen::VectorXd
 DiagonalSums(const Eigen::MatrixXd & matrix, Eigen::Index lags)
 {
@@ -92,7 +92,7 @@ TEST(SensorNoiseTemporalMixing, WithoutSeriesLagsDoNotMix)
 
 TEST(SensorNoiseTemporalMixing, AutocovariancesOfAShortFilterAreRecoveredExactly)
 {
-  // R = (14, 8, 3) of the weights (3, 2, 1): no lag is left out.
+  // The weights (3, 2, 1) give R = (14, 8, 3), and all lags are summed.
   const Eigen::MatrixXd basis = BasisWithConstant(24, 5);
   const Eigen::MatrixXd projector = ProjectorOf(basis);
   const Eigen::MatrixXd covariance = 14.0 * BothWays(24, 0) + 8.0 * BothWays(24, 1) + 3.0 * BothWays(24, 2);
@@ -106,7 +106,7 @@ TEST(SensorNoiseTemporalMixing, AutocovariancesOfARecursiveFilterAreRecoveredFro
 {
   constexpr double       a = 0.5;
   constexpr Eigen::Index frames = 40;
-  constexpr Eigen::Index lags = 12; // beyond, 0.5^13 = 1e-4 of the variance is left
+  constexpr Eigen::Index lags = 12; // 0.5^13 = 1e-4 of the variance is left beyond
   constexpr Eigen::Index batches = 40;
   const Eigen::MatrixXd  basis = BasisWithConstant(frames, 3);
   const auto             mixing = TemporalMixing(basis, lags).fullPivLu();
@@ -115,7 +115,7 @@ TEST(SensorNoiseTemporalMixing, AutocovariancesOfARecursiveFilterAreRecoveredFro
   {
     constexpr Eigen::Index count = 400;
     Eigen::MatrixXd        series = NormalMatrix(frames, count, 100 + static_cast<std::uint64_t>(batch));
-    for (Eigen::Index t = 1; t < frames; ++t) // stationary from the first on, with variance 1
+    for (Eigen::Index t = 1; t < frames; ++t) // stationary from the first frame on, with the variance 1
     {
       series.row(t) = a * series.row(t - 1) + std::sqrt(1.0 - a * a) * series.row(t);
     }

@@ -24,7 +24,7 @@ constexpr Eigen::Index  Frames = 20;
 constexpr double        Gain = 0.5;
 constexpr double        ReadNoiseDn2 = 9.0;
 
-/** Of an illumination that falls exponentially to a tenth. */
+/** Returns gamma of an illumination that decreases exponentially to a tenth. */
 Eigen::VectorXd
 Decay()
 {
@@ -33,7 +33,7 @@ Decay()
   return factors.array() / factors.mean() - 1.0;
 }
 
-/** Of an illumination of one frame in five. */
+/** Returns gamma of an illumination that is on in one frame of five. */
 Eigen::VectorXd
 EveryFifthLit()
 {
@@ -60,7 +60,7 @@ ProjectorOf(const Eigen::MatrixXd & basis)
   return Eigen::MatrixXd::Identity(Frames, Frames) - basis * basis.transpose();
 }
 
-/** Noise that is white in space and time, of the variance that the signal has under the illumination. */
+/** Returns noise that is white in space and time, with the variance of the signal at the illumination of each frame. */
 NoiseResiduals
 ShotNoise(const Eigen::VectorXd & gamma)
 {
@@ -102,7 +102,7 @@ TEST(SensorNoiseUnequalFrames, AutocovarianceIsTheSumAlongTheDiagonals)
     {
       EXPECT_NEAR(sums(d), dense.diagonal(d).sum(), 1e-12) << d;
     }
-    // sum_d over both directions is 1' P Gamma P 1, and P 1 = 0.
+    // The sum over d in both directions is 1' P Gamma P 1, and P 1 = 0.
     const Eigen::VectorXd all = UnequalFrames(NumbersOf(gamma), 1.0, 0.0).Autocovariance(basis, Frames - 1);
     EXPECT_NEAR(2.0 * all.sum() - all(0), 0.0, 1e-12);
   }
@@ -117,7 +117,7 @@ TEST(SensorNoiseUnequalFrames, WhiteNoiseUnderADecayIsNotCorrelatedInTime)
   {
     EXPECT_NEAR(lag.coefficient.value, 0.0, 4.5 * lag.coefficient.standardError) << lag.lag.t;
   }
-  // The effect is there: without an allowance it is many standard errors.
+  // Without the correction the effect is many standard errors.
   const NoiseCorrelation otherwise = MeasureWith(Decay(), false);
   const MeasuredNumber   first = otherwise.time.front().coefficient;
   EXPECT_GT(std::abs(first.value), 6.0 * first.standardError);

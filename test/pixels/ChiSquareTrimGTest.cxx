@@ -11,7 +11,7 @@ using namespace sensornoise;
 
 namespace
 {
-/** The integral over chi-square's density times x^power from \a low to \a high, by Simpson's rule. */
+/** Returns the integral of x^power times the chi-square density from \a low to \a high, by Simpson's rule. */
 double
 Integrate(double k, double low, double high, int power)
 {

@@ -18,7 +18,7 @@ using namespace sensornoise::test::pattern;
 
 namespace
 {
-/** Levels of equal weight, about a line of no slope: its value is the typical variance. */
+/** Returns a line without slope through levels of equal weight. Its value is the mean variance. */
 VarianceLine
 LineOf(const Maps & maps)
 {
@@ -50,7 +50,8 @@ PatternOf(const Maps & maps, const ParallelFor & parallelFor = SerialFor)
   return EstimateFixedPattern(maps.frame, maps.Data(), LineOf(maps), BlackDn, parallelFor);
 }
 
-/** The share of a gain pattern by its definition: variance^2 times mean squared light, over the levels' variance. */
+/** Returns the fraction of a PRNU pattern by its definition: its variance times the mean squared signal, over the
+ * variance of the levels. */
 double
 GainShare(const FixedPatternEstimate & pattern, const Maps & maps, double sd)
 {
@@ -58,11 +59,12 @@ GainShare(const FixedPatternEstimate & pattern, const Maps & maps, double sd)
   return sd * sd * (fluxDn * fluxDn + pattern.levelVarianceDn2) / pattern.levelVarianceDn2;
 }
 
-/** The flattest squares, 12 of 256, tell by half of their pixels: 1,536, of which the standard error of a variance is
- * sqrt(2 / 1536) = 3.6 %, plus some for neighbours in common. One is added to the value. */
+/** Relative standard error of the pattern [1]. It is measured from half of the pixels of the 12 flattest of 256 tiles:
+ * 1,536 pixels give sqrt(2 / 1536) = 3.6 %, and common neighbours slightly more. One standard error is added to the
+ * value. */
 constexpr double PatternError = 0.04;
 
-/** Normal numbers, one a pixel. */
+/** Returns normal numbers, one per pixel. */
 std::vector<double>
 NormalMap()
 {
@@ -84,7 +86,7 @@ TEST(SensorNoiseFixedPatternEstimate, WhitePatternOfGainHasItsShare)
   {
     const Maps maps([&](std::size_t x, std::size_t y) { return Pixel{ Ramp(y), 1.0 + sd * normal[y * Size + x] }; });
     const FixedPatternEstimate pattern = PatternOf(maps);
-    // The levels are evenly spread over 100 DN, with some noise.
+    // The levels are uniformly distributed over 100 DN, with some noise.
     EXPECT_NEAR(pattern.levelVarianceDn2 / (1e4 / 12.0), 1.0, 0.05);
     EXPECT_NEAR(pattern.gainFraction / GainShare(pattern, maps, sd), 1.0 + PatternError, 5.0 * PatternError) << sd;
   }
@@ -105,7 +107,7 @@ TEST(SensorNoiseFixedPatternEstimate, NoiseOfTheMeansIsNoPattern)
 {
   const Maps                 maps([](std::size_t, std::size_t y) { return Pixel{ Ramp(y) }; }, FewFrames);
   const FixedPatternEstimate pattern = PatternOf(maps);
-  // What is left is the error of the noise's own variance, one standard error and the added one.
+  // The rest is the error of the variance of the noise: one standard error, and the added one.
   const double noiseDn2 = LineOf(maps).intercept / static_cast<double>(FewFrames);
   EXPECT_GT(pattern.OffsetVarianceDn2(), 0.0);
   EXPECT_LT(pattern.OffsetVarianceDn2(), 6.0 * PatternError * noiseDn2);
@@ -118,13 +120,13 @@ TEST(SensorNoiseFixedPatternEstimate, SceneThatIsRoughEverywhereCountsAsTheLarge
   const Maps maps([&](std::size_t x, std::size_t y) { return Pixel{ 4000.0 * (1.0 + 0.2 * normal[y * Size + x]) }; });
   const FixedPatternEstimate pattern = PatternOf(maps);
   EXPECT_NEAR(pattern.gainFraction, GainShare(pattern, maps, 0.03), 1e-9 * pattern.gainFraction);
-  // Five times the noise, whose variance is the same everywhere here.
+  // The limit is five times the noise, which has the same variance at all pixels.
   EXPECT_NEAR(pattern.OffsetVarianceDn2(), 25.0 * LineOf(maps).intercept, 1e-9 * pattern.OffsetVarianceDn2());
 }
 
 TEST(SensorNoiseFixedPatternEstimate, TextureAboutAFlatPlaceIsNoPattern)
 {
-  // A rough scene with a flat quarter: the pattern is that of the flat part.
+  // A rough scene with a flat quarter: the pattern of the flat part is measured.
   const std::vector<double>  normal = NormalMap();
   const Maps                 maps([&](std::size_t x, std::size_t y) {
     const bool isFlat = x < Size / 2 && y < Size / 2;
@@ -143,7 +145,7 @@ TEST(SensorNoiseFixedPatternEstimate, WithoutLevelsEverythingCouldBePattern)
   Maps few([](std::size_t, std::size_t y) { return Pixel{ Ramp(y) }; });
   for (std::size_t p = 0; p < Pixels; ++p)
   {
-    few.frame.usable[p] = p % 9 == 0 ? few.frame.usable[p] : 0; // 28 of a square: fewer than 32 of a half
+    few.frame.usable[p] = p % 9 == 0 ? few.frame.usable[p] : 0; // 28 pixels per tile: fewer than 32 in half of it
   }
   EXPECT_EQ(PatternOf(few).offsetFraction, std::numeric_limits<double>::infinity());
 }
@@ -153,7 +155,7 @@ TEST(SensorNoiseFixedPatternEstimate, DiagonalNeighboursShareNoRowAndNoColumn)
   std::vector<double> mean(49, 0.0);
   for (std::size_t i = 0; i < 7; ++i)
   {
-    mean[3 * 7 + i] = mean[i * 7 + 3] = 1e6; // row and column of the middle
+    mean[3 * 7 + i] = mean[i * 7 + 3] = 1e6; // row and column of the central pixel
   }
   EXPECT_EQ(DiagonalMean(mean.data(), 7, 24), 0.0);
   for (std::size_t p = 0; p < 49; ++p)

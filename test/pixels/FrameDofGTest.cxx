@@ -22,7 +22,7 @@ namespace
 constexpr Eigen::Index Frames = 60;
 constexpr double       Left = 58.0; // degrees of freedom beside the mean and gamma
 
-/** Relative to the mean of the \a factors. */
+/** Returns gamma, the relative deviations of the illumination \a factors from their mean [1]. */
 Eigen::VectorXd
 GammaOf(const Eigen::VectorXd & factors)
 {
@@ -62,7 +62,7 @@ DofOf(const Eigen::VectorXd & gamma)
   return { gamma.normalized(), NumbersOf(gamma) };
 }
 
-/** P onto the complement of the constant and gamma. */
+/** Returns the projection P onto the complement of the constant and gamma. */
 Eigen::MatrixXd
 ProjectorOf(const Eigen::VectorXd & gamma)
 {
@@ -72,7 +72,7 @@ ProjectorOf(const Eigen::VectorXd & gamma)
   return projector;
 }
 
-/** (tr P)^2 / tr M^2 of the covariance M of the residuals. */
+/** Returns (tr P)^2 / tr M^2, the degrees of freedom, with M the covariance of the residuals. */
 double
 DenseDof(const Eigen::VectorXd & gamma, double fraction)
 {
@@ -85,7 +85,7 @@ DenseDof(const Eigen::VectorXd & gamma, double fraction)
 
 TEST(SensorNoiseFrameDof, OfTwoLevelsHasAClosedForm)
 {
-  // The basis fits the mean of the 15 lit frames, of variance 1 + 3 b, and that of the 45 others, of 1 - b.
+  // The basis fits the means of the 15 lit frames, of variance 1 + 3 b, and of the 45 others, of variance 1 - b.
   const FrameDof dof = DofOf(EveryFourthLit());
   EXPECT_FALSE(dof.IsEqual());
   for (const double b : { 0.0, 0.3, 0.9, 0.9885, 1.0 })
@@ -161,13 +161,13 @@ TEST(SensorNoiseFrameDof, IsWhatSimulatedVariancesScatterBy)
     const double mean = sum / pixels;
     const double found = 2.0 * Left * Left / (squares / pixels - mean * mean);
     const double expected = Left * DofOf(gamma).DofFractionAt(b);
-    // Of a chi-square's variance: relative standard error sqrt((2 + 12/f) / pixels).
+    // The variance of chi-square has the relative standard error sqrt((2 + 12/f) / pixels).
     EXPECT_NEAR(found / expected, 1.0, 4.0 * std::sqrt((2.0 + 12.0 / expected) / pixels));
   }
 }
 
-// Eight series that live in the 15 lit frames leave 6 residuals there, of variance 4 where there is no read noise. They
-// are 24 of the 50 that the divisor stands for: the rest is put in by the gain, and does not scatter.
+// Eight temporal components that are nonzero in the 15 lit frames only leave 6 residuals there, of variance 4 without
+// read noise. They are 24 of the 50 in the divisor. The gain adds the remaining 26, which do not scatter.
 TEST(SensorNoiseFrameDof, OfSeriesThatLiveInFewFramesCountsWhatTheGainPutsIn)
 {
   const Eigen::VectorXd gamma = EveryFourthLit();

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-// Parts of a frame whose gains differ, in tiles of known excess.
+// Parts of a frame with different gains, in tiles of known excess.
 
 using namespace sensornoise;
 
@@ -19,8 +19,8 @@ namespace
 {
 constexpr std::size_t Side = 16;
 
-/** Tiles of 16 x 16 in the frame, each with its phases, whose excess is \a excess of the tile. The levels are those of
- * a scene that all parts share. */
+/** Returns 16 x 16 tiles of a frame, each with its phases, whose excess is \a excess of the tile. All parts have the
+ * levels of one scene. */
 PartTiles
 TilesOf(const std::function<double(const TileExcess &)> & excess)
 {
@@ -34,7 +34,7 @@ TilesOf(const std::function<double(const TileExcess &)> & excess)
     tile.levelDn = 100.0 + static_cast<double>(37 * i % 101);
     tile.shotFraction = 1.0 - 10.0 / tile.levelDn;
     tile.error = 0.01;
-    tile.excess = excess(tile) + 0.01 * std::sin(static_cast<double>(i * i)); // scatter that no part has
+    tile.excess = excess(tile) + 0.01 * std::sin(static_cast<double>(i * i)); // scatter without relation to the parts
     tiles.places.push_back(tile);
     for (std::size_t phase = 0; phase < LargestPeriod * LargestPeriod; ++phase)
     {
@@ -56,7 +56,7 @@ TEST(SensorNoiseGainByParts, UniformSensorHasNone)
 
 TEST(SensorNoiseGainByParts, ResponseThatBendsIsNoPart)
 {
-  // The dark half is below the line, the bright half above it: by level, not by place.
+  // The excess depends on the level of a tile, not on its place.
   const auto bend = [](const TileExcess & tile) { return 0.001 * std::abs(tile.levelDn - 150.0); };
   EXPECT_EQ(CompareParts(TilesOf(bend)).Larger(), nullptr);
 }
@@ -69,7 +69,7 @@ TEST(SensorNoiseGainByParts, FindsEachPartition)
     {
       continue;
     }
-    // Unlike factors, so that no coarser partition has the same parts.
+    // All factors differ, so that no coarser partition has the same parts.
     const auto gainOf = [&](std::size_t part) { return 0.1 * std::cos(static_cast<double>(3 * part + part * part)); };
     const auto excess = [&](const TileExcess & tile) {
       return tile.shotFraction * gainOf(PartOf(kind.partition, tile.x, tile.y, tile.phase));
@@ -93,7 +93,7 @@ TEST(SensorNoiseGainByParts, FindsEachPartition)
 
 TEST(SensorNoiseGainByParts, UnlikeReadNoiseIsNoGain)
 {
-  // Halves of one gain. At these levels the read noise is a tenth of the variance and less.
+  // Both halves have the same gain. At these levels the read noise is at most a tenth of the variance.
   const auto excess = [](const TileExcess & tile) { return (1.0 - tile.shotFraction) * (tile.x < 0.5 ? -0.4 : 0.4); };
   const GainByParts found = CompareParts(TilesOf(excess));
   ASSERT_TRUE(found.places);
@@ -102,7 +102,7 @@ TEST(SensorNoiseGainByParts, UnlikeReadNoiseIsNoGain)
   EXPECT_FALSE(found.places->Differ());
   EXPECT_TRUE(found.places->DarkVariancesDiffer());
   EXPECT_TRUE(found.places->DifferMuch());
-  // 128 tiles a half with an error of 0.01 each determine 0.06 h to 0.001.
+  // 128 tiles per half with an error of 0.01 each determine 0.06 h within 0.001.
   EXPECT_NEAR(found.places->dark[1] - found.places->dark[0], 0.8, 0.8 * 0.1);
 }
 

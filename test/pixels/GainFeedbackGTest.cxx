@@ -35,7 +35,8 @@ constexpr std::size_t Frames = 30;
 constexpr double      Gain = 0.5;
 constexpr double      OffsetDn = 100.0;
 constexpr double      ReadNoiseDn2 = 9.0;
-/** Of one lit frame in ten: gamma is 9 or -1, sum gamma^3 / sum gamma^2 = 8, and 28 degrees of freedom are left. */
+/** Feedback of a burst with one lit frame in ten: gamma is 9 or -1, sum gamma^3 / sum gamma^2 = 8, and 28 degrees of
+ * freedom remain. */
 constexpr double Feedback = 8.0 / 28.0;
 
 std::vector<double>
@@ -46,7 +47,7 @@ LitFrames()
   return gamma;
 }
 
-/** A burst whose illumination is \a gamma; noise times \a noise. */
+/** Burst with the illumination 1 + gamma, whose noise is multiplied by \a noise. */
 struct Burst
 {
   std::vector<double>       gamma{ LitFrames() };
@@ -118,7 +119,7 @@ TEST(SensorNoiseGainFeedback, IsTheThirdMomentOfTheIlluminationOverItsSecond)
   Burst              burst(0.0);
   ProjectedVariance  projected = burst.Project();
   const GainFeedback feedback(projected, TrueLine(), burst.mask, SerialFor);
-  EXPECT_NEAR(feedback.GetOfGain(), Feedback, 1e-6); // numbers of 24 bits
+  EXPECT_NEAR(feedback.GetOfGain(), Feedback, 1e-6); // numbers with 24 bits
   EXPECT_TRUE(feedback.IsLarge());
   EXPECT_FALSE(GainFeedback().IsLarge());
 }
@@ -126,7 +127,7 @@ TEST(SensorNoiseGainFeedback, IsTheThirdMomentOfTheIlluminationOverItsSecond)
 TEST(SensorNoiseGainFeedback, SettledLineIsWhereTheIterationEnds)
 {
   const GainFeedback feedback(0.8, -80.0);
-  // What a fit finds of V = 0.1 x - 1 and the correction of a gain, which is 0.8 x - 80 a unit.
+  // The result of a fit of V = 0.1 x - 1, with the correction of a gain, which is 0.8 x - 80 per unit of gain.
   const auto fit = [](double gain) {
     VarianceLine line;
     line.isDetermined = true;
@@ -145,7 +146,7 @@ TEST(SensorNoiseGainFeedback, SettledLineIsWhereTheIterationEnds)
   EXPECT_NEAR(settled.gain, 0.5, 1e-12);
   EXPECT_NEAR(settled.intercept, fit(gain).intercept, 1e-12);
   EXPECT_NEAR(settled.covariance(0, 0), 4.0 / 0.04, 1e-9);
-  // Of intercept + e gain / (1 - d): 9 + 2 (-400) (-1) + 400^2 4.
+  // The variance of intercept + e gain / (1 - d) is 9 + 2 (-400) (-1) + 400^2 4.
   EXPECT_NEAR(settled.covariance(1, 1), 9.0 + 800.0 + 640000.0, 1e-6);
 }
 
@@ -156,10 +157,12 @@ TEST(SensorNoiseGainFeedback, WithoutAFeedbackTheLineIsUnchanged)
   const VarianceLine same = GainFeedback(0.009, -1.0).SolveFixedPoint(line, 7.0);
   EXPECT_EQ(same.gain, line.gain);
   EXPECT_EQ(same.covariance, line.covariance);
-  // One lit frame has no residual: all of the gain was put in.
+  // One lit frame has no residual: the result contains nothing but the assumed gain.
   const VarianceLine none = GainFeedback(1.0, -100.0).SolveFixedPoint(line, 7.0);
   EXPECT_EQ(none.gain, line.gain);
-  EXPECT_NEAR(none.covariance(0, 0), 4.0 + std::pow(line.At(1000.0) / 50.0, 2), 1e-9); // levels scatter by 50 DN
+  EXPECT_NEAR(none.covariance(0, 0),
+              4.0 + std::pow(line.At(1000.0) / 50.0, 2),
+              1e-9); // the standard deviation of the levels is 50 DN
 }
 
 TEST(SensorNoiseGainFeedback, FitEndsAtTheGainFromWhereverItStarts)
@@ -177,7 +180,8 @@ TEST(SensorNoiseGainFeedback, FitEndsAtTheGainFromWhereverItStarts)
   const double error = std::sqrt(line.covariance(0, 0));
   EXPECT_NEAR(line.gain, Gain, 4.0 * error);
   EXPECT_LT(error, 0.03 * Gain);
-  // Which pixels are judged static depends a little on the start. Without settling, three steps leave d^3 of 9.5 DN/e-.
+  // The pixels found static depend slightly on the start. Without SolveFixedPoint(), three steps leave d^3 of 9.5
+  // DN/e-.
   EXPECT_NEAR(bad.line.gain, line.gain, 0.3 * error);
   EXPECT_NEAR(projected.GetGain(), line.gain, 0.1 * error);
 }

@@ -17,12 +17,13 @@
 using namespace sensornoise;
 using namespace sensornoise::test::pattern;
 
-// Where the light differs, the variance rises by the gain; where gains differ, by twice the gain; where offsets do, not
-// at all. The line of all pixels has the mean slope, weighted by each one's share of the levels' variance.
+// Between levels that differ in their signal the slope of the variance is the gain. Between pixels of different gain it
+// is twice the gain, and between pixels of different offset it is 0. The line of all pixels has the mean of these
+// slopes, weighted with their fractions of the variance of the levels.
 
 namespace
 {
-/** The line of all pixels, and that of light alone. */
+/** Line of all pixels, and instrumental-variable fit. */
 struct Lines
 {
   VarianceLine all;
@@ -36,7 +37,7 @@ struct Lines
     all = fit.GetLine();
     light = FitInstrumental(fit, maps.Data(), maps.frame);
   }
-  /** Share of a part of the levels' variance. */
+  /** Returns the fraction of a component of the variance of the levels [1]. */
   double
   ShareOf(double varianceDn2) const
   {
@@ -44,7 +45,7 @@ struct Lines
   }
 };
 
-/** The line of light alone is right, that of all pixels off by \a share of the gain. */
+/** Expects that the instrumental-variable fit is unbiased, and that the line of all pixels is biased by \a share. */
 void
 ExpectOnlyTheLightLineIsRight(const Lines & lines, double share, double gainDn = GainDn)
 {
@@ -54,7 +55,7 @@ ExpectOnlyTheLightLineIsRight(const Lines & lines, double share, double gainDn =
   EXPECT_NEAR(lines.light.gain, gainDn, 5.0 * error);
   EXPECT_NEAR(
     lines.light.intercept + lines.light.gain * BlackDn, ReadVarianceDn2, 5.0 * error * (lines.light.pivotDn - BlackDn));
-  // The share is told to sqrt(2 / 256) of the columns at the worst, and weights differ by 30 %.
+  // The bias is known within sqrt(2 / 256), for a pattern of columns, and the weights differ by 30 %.
   EXPECT_GT(std::abs(share), 0.02);
   EXPECT_NEAR(lines.all.gain / gainDn - 1.0, share, 5.0 * 0.09 * std::abs(share));
 }
@@ -72,7 +73,7 @@ NormalNumbers(std::size_t count)
   return numbers;
 }
 
-/** Mean over the pixels of the squared light of the ramp [DN^2]. */
+/** Mean of the squared signal of the ramp over the pixels [DN^2]. */
 constexpr double SquaredLightDn2 = 1e4 + 1e4 / 12.0;
 } // namespace
 
@@ -89,7 +90,7 @@ TEST(SensorNoiseLightLine, GainsThatDifferHaveNoPart)
   const std::vector<double> normal = NormalNumbers(Pixels);
   const Lines               lines(
     Maps([&](std::size_t x, std::size_t y) { return Pixel{ Ramp(y), 1.0 + 0.1 * normal[y * Size + x] }; }));
-  // The shot noise of gains with variance s^2 is 1 + s^2 times that of the mean gain.
+  // With gains of variance s^2 the shot noise is 1 + s^2 times the shot noise of the mean gain.
   ExpectOnlyTheLightLineIsRight(lines, lines.ShareOf(0.01 * SquaredLightDn2), 1.01 * GainDn);
 }
 
@@ -142,7 +143,7 @@ TEST(SensorNoiseLightLine, OneIntensityDeterminesNone)
   const std::vector<double> normal = NormalNumbers(Pixels);
   const Lines               lines(
     Maps([&](std::size_t x, std::size_t y) { return Pixel{ 100.0, 1.0, 1.0, 5.0 * normal[y * Size + x] }; }));
-  // What neighbours have in common is chance: no slope, or one whose error is as large as itself.
+  // The levels of neighbours have only noise in common: there is no slope, or its error is as large as the slope.
   EXPECT_TRUE(!lines.light.isDetermined || std::abs(lines.light.gain) < 5.0 * std::sqrt(lines.light.covariance(0, 0)))
     << lines.light.gain << ' ' << lines.light.covariance(0, 0);
 }

@@ -22,10 +22,10 @@ namespace
 constexpr double OffsetDn = 120.0;
 constexpr double CentreDn = 950.0;
 
-/** A pixel's responses to the two series of light, given its mean. */
+/** Responses of a pixel to the two temporal components of the illumination, as a function of its mean. */
 using Responses = std::function<Eigen::Vector2d(std::size_t p, double mean)>;
 
-/** Noise of 400 DN^2 and pixels that respond to light. */
+/** Pixels with a noise of 400 DN^2 and these responses. */
 struct Scene
 {
   Input             input;
@@ -58,7 +58,7 @@ struct Scene
   }
 };
 
-/** Light that is the same everywhere, and light that falls a little from the left. */
+/** Illumination that is uniform, and illumination that decreases slightly from the left. */
 Eigen::Vector2d
 TwoLamps(std::size_t p, double mean)
 {
@@ -66,7 +66,7 @@ TwoLamps(std::size_t p, double mean)
   return (mean - OffsetDn) * Eigen::Vector2d(0.3, 0.4 + 0.02 * x);
 }
 
-/** Light that is the same everywhere, and a level that drifts. */
+/** Illumination that is uniform, and a level that drifts. */
 Eigen::Vector2d
 OneLampAndADrift(std::size_t, double mean)
 {
@@ -89,7 +89,7 @@ TEST(SensorNoiseLocalOffset, LampsMeetInTheOffset)
 
 TEST(SensorNoiseLocalOffset, LampsWithoutACommonZeroAreTold)
 {
-  // The second lamp's light is not proportional to the first's: a part of the scene glows.
+  // The illumination by the second lamp is not proportional to that by the first: a part of the scene glows.
   const Scene scene([](std::size_t p, double mean) {
     return Eigen::Vector2d(0.3 * (mean - OffsetDn), 0.4 * (mean - (p % Width < Width / 2 ? 700.0 : -500.0)));
   });

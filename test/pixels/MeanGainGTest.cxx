@@ -18,7 +18,7 @@ namespace
 constexpr std::size_t Bins = VarianceCurve::Bins;
 constexpr double      Weight = 50.0;
 
-/** The curve about the line that fits it, by equal weights, of a variance at levels [DN^2, DN]. */
+/** Returns the curve of a variance [DN^2] at levels [DN], about the line through it with equal weights. */
 VarianceCurve
 CurveOf(const std::vector<double> & levels, const std::vector<double> & variance)
 {
@@ -49,7 +49,7 @@ CurveOf(const std::vector<double> & levels, const std::vector<double> & variance
   return curve;
 }
 
-/** Codes, variance and mean local gain of a response y(x), by bins without noise. */
+/** Levels, variances and mean local gain of a response y(x), in bins without noise. */
 struct Response
 {
   std::vector<double> levels;
@@ -81,7 +81,8 @@ struct Response
   }
 };
 
-/** Local gain 0.3 (1 + bend (1 - 2 x / 10000)): 10,000 electrons and a read noise of 2. */
+/** Returns a response with the local gain 0.3 (1 + bend (1 - 2 x / 10000)), for 10,000 electrons and a read noise of 2
+ * electrons. */
 Response
 BentResponse(double bend)
 {
@@ -97,7 +98,7 @@ TEST(SensorNoiseMeanGain, StraightLineGivesItsSlope)
   {
     EXPECT_NEAR(straight.Found(degree), 0.3, 1e-9) << degree;
   }
-  // About another line than its own, too: what counts is the line and the excess together.
+  // The result is the same about another line, as only the sum of line and excess matters.
   VarianceCurve curve = CurveOf(straight.levels, straight.variance);
   curve.line.gain -= 0.1;
   curve.line.intercept += 0.1 * curve.line.pivotDn;
@@ -112,17 +113,17 @@ TEST(SensorNoiseMeanGain, StraightLineGivesItsSlope)
 
 TEST(SensorNoiseMeanGain, PowerOfTheLightIsExactWithTheOffset)
 {
-  // y = c x^p, all shot noise: V is the power q = 2 - 1 / p of y. Over a quarter of y a cubic through it is exact to
-  // 2 (1 / 16)^4 |q (q - 1) (q - 2) (q - 3)| / 24 or 1e-6, and its slope at the end, which tells q, to 2e-4 of itself;
-  // Z goes as 1 / (2 - q).
+  // y = c x^p with shot noise alone: V is the power q = 2 - 1 / p of y. Over a quarter of y a cubic through it is exact
+  // within 2 (1 / 16)^4 |q (q - 1) (q - 2) (q - 3)| / 24 or 1e-6. Its slope at the end, from which q follows, is exact
+  // within 2e-4. Z is proportional to 1 / (2 - q).
   for (const double p : { 0.6, 0.77, 1.0, 1.3 })
   {
     const auto     codeOf = [=](double x) { return 64.0 + 2.0 * std::pow(x, p); };
     const auto     gainOf = [=](double x) { return 2.0 * p * std::pow(x, p - 1.0); };
     const Response response(800.0, 1000.0, 0.0, codeOf, gainOf);
     EXPECT_NEAR(response.Found(3, 64.0) / response.meanGain, 1.0, 3e-4) << p;
-    // Without the offset the darkest level is taken for one with little light, where V' is the gain; here it is
-    // (2 p - 1) / p of it.
+    // Without the offset a small signal is assumed at the darkest level, where V' is the gain. Here V' is (2 p - 1) / p
+    // times the gain.
     if (p != 1.0)
     {
       EXPECT_GT(std::abs(response.Found(3) / response.meanGain - 1.0), 0.1) << p;
@@ -135,7 +136,7 @@ TEST(SensorNoiseMeanGain, BendIsRecoveredToSecondOrder)
   for (const double bend : { -0.04, -0.02, 0.02, 0.04 })
   {
     const Response response = BentResponse(bend);
-    // The slope of the line holds twice the change of the gain: it is off by the bend itself.
+    // The slope of the line contains twice the change of the gain, so that its relative error is `bend`.
     EXPECT_GT(std::abs(response.Slope() / response.meanGain - 1.0), 0.5 * std::abs(bend)) << bend;
     EXPECT_NEAR(response.Found(2) / response.meanGain, 1.0, bend * bend) << bend;
     EXPECT_NEAR(response.Found(3) / response.meanGain, 1.0, bend * bend) << bend;
@@ -144,7 +145,7 @@ TEST(SensorNoiseMeanGain, BendIsRecoveredToSecondOrder)
 
 TEST(SensorNoiseMeanGain, VarianceIsThatOfTheDifferenceFromTheLine)
 {
-  // 400 draws of noise: their variance is known to sqrt(2 / 400) = 7 %, 5 of which are allowed.
+  // The variance of 400 draws is known within sqrt(2 / 400) = 7 %; 5 standard errors are allowed.
   constexpr int              draws = 400;
   const Response             response = BentResponse(0.04);
   std::mt19937               random(9);
@@ -176,17 +177,17 @@ TEST(SensorNoiseMeanGain, VarianceIsThatOfTheDifferenceFromTheLine)
 TEST(SensorNoiseMeanGain, IsNullWhereTheVarianceTellsNone)
 {
   const Response straight(50.0, 1e4, 25.0, [](double x) { return 100.0 + 0.3 * x; }, [](double) { return 0.3; });
-  // It falls with the level.
+  // The variance decreases with the level.
   std::vector<double> falling(straight.variance.rbegin(), straight.variance.rend());
   EXPECT_FALSE(FindMeanGain(CurveOf(straight.levels, falling), 2));
-  // It is below 0 at the darkest level.
+  // The variance is below 0 at the darkest level.
   std::vector<double> negative = straight.variance;
   for (double & value : negative)
   {
     value -= straight.variance[20];
   }
   EXPECT_FALSE(FindMeanGain(CurveOf(straight.levels, negative), 2));
-  // A parabola takes four bins or more, and levels that differ.
+  // A parabola needs at least four bins, at different levels.
   VarianceCurve few = CurveOf(straight.levels, straight.variance);
   few.bins.resize(3);
   EXPECT_FALSE(FindMeanGain(few, 2));

@@ -36,7 +36,7 @@ struct Case
   }
 };
 
-/** In 64 bits, one after the other. */
+/** Returns the products with 64 bits, one after the other. */
 Sums
 SumsInOrder(const Case & of, double more, std::size_t pixels, const Sums & start)
 {
@@ -71,7 +71,7 @@ RandomCase(std::size_t pairs)
   return made;
 }
 
-/** The largest products there are. */
+/** Values with the largest possible products. */
 Case
 LargestCase(std::int16_t value, std::int64_t weight)
 {

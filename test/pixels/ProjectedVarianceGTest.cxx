@@ -42,7 +42,7 @@ TEST(SensorNoiseProjectedVariance, IsTheExplicitResidualOverItsDegreesOfFreedom)
     if (input.mask[p] != 0)
     {
       ASSERT_EQ(projected.GetDof()[p], Frames - 1 - 3);
-      // Sums of 30 values of 1,000 in squares of 20^2: 1e-16 30 1000 / 20.
+      // The rounding of sums of 30 values of 1,000, in squares of 20^2: 1e-16 30 1000 / 20.
       ASSERT_NEAR(projected.GetVariance()[p], rss / (Frames - 1 - 3), 1e-11 * rss) << p;
     }
     else
@@ -58,7 +58,7 @@ TEST(SensorNoiseProjectedVariance, WhatTheBasisSpansIsRemovedExactly)
   Input                 input(series);
   ProjectedVariance     expected = input.Project();
   expected.Compute(0.0);
-  // Every pixel with a response of its own, up to ten times its noise, to series that the basis spans.
+  // Every pixel has another response, up to ten times its noise, to temporal components in the span of the basis.
   Eigen::MatrixXd responses(3, Pixels);
   for (Eigen::Index i = 0; i < responses.size(); ++i)
   {
@@ -67,7 +67,7 @@ TEST(SensorNoiseProjectedVariance, WhatTheBasisSpansIsRemovedExactly)
   Input             waving(series + Basis().GetBasis() * responses);
   ProjectedVariance projected = waving.Project();
   projected.Compute(0.0);
-  Input             rounded(series + Wave(2.0, 0.3) * responses.row(0)); // known to 20 bits only
+  Input             rounded(series + Wave(2.0, 0.3) * responses.row(0)); // known with 20 bits only
   ProjectedVariance nearly = rounded.Project();
   nearly.Compute(0.0);
   for (std::size_t p = 0; p < Pixels; ++p)
@@ -80,8 +80,9 @@ TEST(SensorNoiseProjectedVariance, WhatTheBasisSpansIsRemovedExactly)
 
 TEST(SensorNoiseProjectedVariance, ExpectedVarianceOfFlickeringNoiseIsUnbiased)
 {
-  // A pixel whose light is level + sum_i S_i Q_ti has the noise V_t = V + g sum_i S_i Q_ti, and RSS the expectation
-  // sum_t V_t P_tt, P the projection on what is left. With the second term it is freedom times V.
+  // A pixel with the signal level + sum_i S_i Q_ti has the variance V_t = V + g sum_i S_i Q_ti. The expectation of RSS
+  // is sum_t V_t P_tt, with P the projection onto the residuals. Corrected by the second term it is V times the degrees
+  // of freedom.
   const Eigen::MatrixXd & q = Basis().GetBasis();
   const Eigen::Vector3d   responses(30.0, -11.0, 7.0);
   constexpr double        gain = 2.0;
@@ -92,7 +93,7 @@ TEST(SensorNoiseProjectedVariance, ExpectedVarianceOfFlickeringNoiseIsUnbiased)
     const double share = 1.0 - 1.0 / Frames - q.row(t).squaredNorm();
     expectedRss += (variance + gain * q.row(t).dot(responses)) * share;
   }
-  // Noise of this very sum of squares, orthogonal to the basis and to the constant, plus the light.
+  // Noise with exactly this sum of squares, orthogonal to the basis and to the constant, plus the signal.
   Eigen::VectorXd noise = NormalSeries().col(0);
   noise.array() -= noise.mean();
   noise -= q * (q.transpose() * noise);

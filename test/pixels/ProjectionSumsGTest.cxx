@@ -48,7 +48,7 @@ Basis()
   return basis;
 }
 
-/** Values over the whole range of the type, or about 1000 in floating point. */
+/** Returns values over the whole range of the type; floating-point values are about 1000. */
 template <typename TPixel>
 std::vector<TPixel>
 Stack()
@@ -63,7 +63,7 @@ Stack()
   return stack;
 }
 
-/** The sums of the frames [first, last), added in chunks. */
+/** Returns the sums over the frames [first, last), which are added in chunks. */
 template <typename TPixel>
 ProjectionSums
 SumsOf(const std::vector<TPixel> & stack, std::size_t first, std::size_t last, std::size_t chunk = Frames)
@@ -115,7 +115,7 @@ TYPED_TEST(SensorNoiseProjectionSumsOf, AreSumsOfSeriesTimesValue)
   {
     for (std::size_t j = 0; j < Series; ++j)
     {
-      long double sum = 0.0L; // of 64 bits: exact for integers
+      long double sum = 0.0L; // 64 bits, exact for integers
       long double size = 0.0L;
       for (std::size_t t = 0; t < Frames; ++t)
       {
@@ -154,7 +154,7 @@ TYPED_TEST(SensorNoiseProjectionSumsOf, MergedPartsAgreeWithTheWhole)
 
 TEST(SensorNoiseProjectionSums, ResidualSquaresOfMergedChunksAreTheWholes)
 {
-  // RSS = M2 - C' P^-1 C of merged chunks, estimator.md 6: from exact sums the same bits, whatever the order.
+  // RSS = M2 - C' P^-1 C of merged chunks, estimator.md 6. From exact sums it has the same bits in any order.
   using Codes = unsigned short;
   const auto stack = Stack<Codes>();
   const auto rssOf = [&](const std::vector<std::pair<std::size_t, std::size_t>> & parts) {
@@ -218,12 +218,12 @@ TYPED_TEST(SensorNoiseProjectionSumsOf, AllFramesAtOnceHaveTheResidualSquaresOfT
 
 TYPED_TEST(SensorNoiseProjectionSumsOf, ManyFramesOfTheLargestProductsAreExact)
 {
-  // Two series of frames that are as far from 0 as possible, and pixels at either end of their range.
+  // Two temporal components as far from 0 as possible, and pixels at both ends of their range.
   if constexpr (std::is_integral_v<TypeParam>)
   {
     constexpr std::size_t frames = 71;
     std::vector<double>   flicker(frames, 1.0);
-    flicker[40] = -1e9; // its series is 2^20 here, nearly
+    flicker[40] = -1e9; // the temporal component is nearly 2^20 here
     Eigen::MatrixXd motion = Eigen::MatrixXd::Ones(frames, 1);
     motion(5, 0) = 1e9;
     const TemporalBasis basis(flicker, Eigen::MatrixXd(frames, 0), motion);

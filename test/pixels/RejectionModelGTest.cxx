@@ -34,14 +34,14 @@ constexpr std::size_t Pixels = Width * Height;
 constexpr std::size_t Frames = 24;
 constexpr double      BlackDn = 100.0;
 
-/** Light that rises from 20 to 1,020 DN along the rows. */
+/** Returns a signal that rises from 20 to 1,020 DN along the rows. */
 double
 LightAt(std::size_t p)
 {
   return 20.0 + 1000.0 * static_cast<double>(p % Width) / (Width - 1.0);
 }
 
-/** The line that the tests are about: read noise of 10 DN, many electrons a DN. */
+/** Returns the line of the tests: a read noise of 10 DN, and many electrons per DN. */
 VarianceLine
 MakeLine()
 {
@@ -56,7 +56,7 @@ MakeLine()
   return line;
 }
 
-/** A burst of normal noise, with the projection that its pixels are judged by. */
+/** Burst of normal noise, with the projection from which its pixels are tested. */
 struct Burst
 {
   ReferenceFrame                     frame;
@@ -131,7 +131,7 @@ StraightVariance(std::size_t p)
   return 100.0 + 0.4 * LightAt(p);
 }
 
-/** Of a response that bends by 10 %: 30 % more variance in the middle of the levels than at the ends. */
+/** Returns the variance of a non-linear response: it is 30 % larger in the middle of the levels than at the ends. */
 double
 BentVariance(std::size_t p)
 {
@@ -139,7 +139,7 @@ BentVariance(std::size_t p)
   return StraightVariance(p) * (0.85 + 1.2 * u * (1.0 - u));
 }
 
-/** 20 x 20 pixels of which the variance is three times as large. */
+/** Returns whether a pixel is in the tile of 20 x 20 pixels with three times the variance. */
 bool
 IsInPatch(std::size_t p)
 {
@@ -164,13 +164,13 @@ TEST(SensorNoiseRejectionModel, BentResponseIsFollowedAndBlamesNoPixel)
   const RejectionModel judging = burst.Judge();
   ASSERT_GE(judging.levels.size(), 8u);
   EXPECT_TRUE(std::is_sorted(judging.levels.begin(), judging.levels.end()));
-  // The median of six squares of 256 pixels, of 20 degrees of freedom: 5 x 1.25 x sqrt(2 / 20 / 256 / 6) = 5 %.
+  // The median of six tiles of 256 pixels with 20 degrees of freedom: 5 x 1.25 x sqrt(2 / 20 / 256 / 6) = 5 %.
   for (std::size_t x = 20; x < Width - 20; x += 20)
   {
     EXPECT_NEAR(judging.At(BlackDn + LightAt(x)) / BentVariance(x), 1.0, 0.05) << x;
   }
   EXPECT_EQ(Count(burst.Misfit(judging)), 0u);
-  // By the straight line the middle levels would have been blamed.
+  // With the straight line pixels at the middle levels are rejected.
   EXPECT_GT(Count(burst.Misfit({ MakeLine(), {}, {} })), Pixels / 10);
 }
 
@@ -182,12 +182,12 @@ TEST(SensorNoiseRejectionModel, MovingPatchIsFoundUnderABentResponse)
   {
     EXPECT_FALSE(IsInPatch(p) && misfit[p] == 0) << p % Width << ' ' << p / Width;
   }
-  EXPECT_LT(Count(misfit), 50u * 50u); // with a margin of a core about it
+  EXPECT_LT(Count(misfit), 50u * 50u); // the moving tile with a margin of one core
 }
 
 TEST(SensorNoiseRejectionModel, PixelsOfTheirOwnNoiseAreNotBlamed)
 {
-  // Read noise whose logarithm has a standard deviation of 0.4: the mean is 1.38 of the median.
+  // The logarithm of the read noise has the standard deviation 0.4. The mean of its square is 1.38 times the median.
   std::vector<double>        read(Pixels);
   std::mt19937               random(53);
   std::normal_distribution<> normal;
@@ -205,7 +205,7 @@ TEST(SensorNoiseRejectionModel, PixelsOfTheirOwnNoiseAreNotBlamed)
   const auto           varianceOf = [&](std::size_t p) { return read[p] + 0.4 * LightAt(p); };
   const RejectionModel judging = Burst(varianceOf).Judge();
   EXPECT_FALSE(judging.levels.empty());
-  // The median square has fewer of the heavy tail's pixels than the mean one.
+  // The median tile has fewer pixels of the heavy tail than the mean of all tiles.
   EXPECT_GT(judging.line.noiseDispersionDn4, 0.3 * spread);
   EXPECT_LT(judging.line.noiseDispersionDn4, 1.5 * spread);
   EXPECT_EQ(Count(Burst(varianceOf).Misfit(judging)), 0u);
@@ -218,7 +218,7 @@ TEST(SensorNoiseRejectionModel, PixelsOfTheirOwnNoiseAreNotBlamed)
 
 TEST(SensorNoiseRejectionModel, PixelsOfTheirOwnOffsetAreJudgedByTheirNeighbours)
 {
-  // The line's value moves by 0.4 x 60 DN with such offsets, a fifth of that at the darkest level.
+  // With these offsets the value of the line changes by 0.4 x 60 DN^2, a fifth of its value at the darkest level.
   const Burst          burst(StraightVariance, 60.0);
   const RejectionModel judging = burst.Judge();
   EXPECT_TRUE(judging.byNeighbours);

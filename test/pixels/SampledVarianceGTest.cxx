@@ -24,7 +24,7 @@ constexpr double      Freedom = 30.0;
 constexpr double      Gain = 0.05;
 constexpr double      Intercept = -2.0;
 
-/** Means from 100 to 1,100, the neighbours' beside them; every seventh pixel does not count and is not a number. */
+/** Maps with means from 100 to 1,100 and the means of the neighbours. Every seventh pixel is masked and NaN. */
 struct Maps
 {
   std::vector<double>       mean;
@@ -93,7 +93,8 @@ TEST(SensorNoiseSampledVariance, TwoStepsLeadFromItsLineToThatOfAllPixels)
     settled.Iterate(20);
     settled.FillErrors();
     const double error = std::sqrt(settled.GetLine().covariance(0, 0));
-    EXPECT_GT(std::abs(rough.GetLine().gain - settled.GetLine().gain), 0.5 * error); // its own is 5 times that
+    EXPECT_GT(std::abs(rough.GetLine().gain - settled.GetLine().gain),
+              0.5 * error); // its own error is 5 times as large
     EXPECT_NEAR(fit.GetLine().gain, settled.GetLine().gain, 0.01 * error);
     EXPECT_NEAR(
       fit.GetLine().intercept, settled.GetLine().intercept, 0.01 * std::sqrt(settled.GetLine().covariance(1, 1)));

@@ -25,7 +25,7 @@ using namespace sensornoise::test::projection;
 
 namespace
 {
-/** Noise of one variance, 400 DN^2, that is larger by a factor at some pixels. */
+/** Noise with the variance 400 DN^2, multiplied by a factor at some pixels. */
 struct Noise
 {
   Input             input;
@@ -62,7 +62,7 @@ struct Noise
   }
 };
 
-/** Whether a pixel's ratio is far above 1, and whether it is so on either side. */
+/** Returns whether the variance ratio of a pixel is far above 1. */
 bool
 IsFarAbove(double ratio, double dof)
 {
@@ -80,7 +80,7 @@ Everywhere(std::size_t)
   return 1.0;
 }
 
-/** 14 x 14 pixels in the middle. */
+/** Returns whether a pixel is among the 14 x 14 pixels in the middle, less a margin. */
 bool
 IsInArea(std::size_t p, std::size_t margin = 0)
 {
@@ -110,7 +110,7 @@ TEST(SensorNoiseStaticPixels, RoughPixelsOfTooLargeAVarianceAreLeftOut)
   const Noise plain(Everywhere);
   const Noise noise([&](std::size_t p) { return plain.projected.ClassOf(p) >= 16 ? 1.8 : 1.0; });
   const auto  fit = noise.Judge();
-  // The class of a pixel hardly depends on its noise: some near the edge of class 16 change places.
+  // The class of a pixel hardly depends on its noise: some pixels near the bounds of class 16 change their class.
   EXPECT_GE(fit.firstBad, 15u);
   EXPECT_LE(fit.firstBad, 17u);
   EXPECT_GT(fit.ratio[20], 1.4);
@@ -149,7 +149,7 @@ TEST(SensorNoiseStaticPixels, FarOffIsFiveStandardDeviations)
 {
   for (const double dof : { 10.0, 30.0, 100.0 })
   {
-    // The normal deviates' tail probabilities; the cube root is about 0.1 standard deviations off.
+    // Tail probabilities of the normal distribution. The error of the cube root is about 0.1 standard deviations.
     const auto above = [&](double z) { return ChiSquareUpperQuantile(0.5 * std::erfc(z / std::sqrt(2.0)), dof) / dof; };
     const auto below = [&](double z) { return ChiSquareQuantile(0.5 * std::erfc(z / std::sqrt(2.0)), dof) / dof; };
     EXPECT_TRUE(IsFarAbove(above(5.2), dof) && IsFarOff(above(5.2), dof)) << dof;

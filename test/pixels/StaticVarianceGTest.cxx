@@ -25,7 +25,7 @@ constexpr double OffsetDn = 100.0;
 
 constexpr std::uint8_t Unknown = 99;
 
-/** Noise of a line in the mean; that of every 97th pixel is ten times as large. */
+/** Noise whose variance is a line in the mean. The noise of every 97th pixel is ten times as large. */
 Eigen::MatrixXd
 Series()
 {
@@ -81,5 +81,5 @@ TEST(SensorNoiseStaticVariance, TooFewPixelsDetermineNoLine)
   }
   const auto found = Find(projected, few);
   EXPECT_FALSE(found.line.isDetermined);
-  EXPECT_EQ(found.pixelUse, std::vector<std::uint8_t>(Pixels, Unknown)); // nothing was found out
+  EXPECT_EQ(found.pixelUse, std::vector<std::uint8_t>(Pixels, Unknown)); // no pixel was classified
 }

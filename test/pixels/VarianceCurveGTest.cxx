@@ -18,7 +18,7 @@ using namespace sensornoise;
 namespace
 {
 constexpr double PivotDn = 500.0;
-constexpr double Weight = 4.0; // of a bin [1/DN^4]
+constexpr double Weight = 4.0; // weight of a bin [1/DN^4]
 
 VarianceLine
 MakeLine()
@@ -30,7 +30,7 @@ MakeLine()
   return line;
 }
 
-/** A bin at a level above the pivot, with the mean excess that \a excessAt has there. */
+/** Returns a bin at a level above the pivot, with the mean excess \a excessAt of this level. */
 template <typename TFunction>
 CurveBin
 BinAt(double x, TFunction excessAt, double weight = Weight)
@@ -38,7 +38,7 @@ BinAt(double x, TFunction excessAt, double weight = Weight)
   return { 100.0, weight, weight * x, weight * excessAt(x) };
 }
 
-/** 64 bins of equal weight at levels 2 DN apart, evenly about the pivot. */
+/** Returns 64 bins of equal weight, at levels 2 DN apart and symmetric about the pivot. */
 template <typename TFunction>
 VarianceCurve
 EvenCurve(TFunction excessAt)
@@ -51,7 +51,7 @@ EvenCurve(TFunction excessAt)
   return curve;
 }
 
-/** Variances of pixels about a line, and the curve of the line that fits them. */
+/** Variances of pixels about a line, and the curve about the line that is fitted to them. */
 VarianceCurve
 CurveOfPixels(double gain, double wave)
 {
@@ -92,7 +92,8 @@ TEST(SensorNoiseVarianceCurve, NoiseAboutALineIsChance)
   const VarianceCurve curve = CurveOfPixels(0.05, 0.0);
   ASSERT_EQ(curve.bins.size(), VarianceCurve::Bins);
   EXPECT_NEAR(curve.ReducedChi2(), 1.0, 0.9); // 62 degrees of freedom: 5 standard deviations of sqrt(2 / 62)
-  // A group of 1,250 pixels is known to sqrt(2 / 30 / 1250) = 0.73 %. Of 5 of them, chance may have 2.
+  // The variance of a group of 1,250 pixels has the standard error sqrt(2 / 30 / 1250) = 0.73 %. 5 standard errors are
+  // allowed, of which 2 are subtracted as chance.
   EXPECT_LT(curve.Nonlinearity(1.0), std::sqrt(25.0 - 4.0) * 0.0073);
   for (const SlopeExcess & half : curve.FitHalves())
   {
@@ -111,12 +112,12 @@ TEST(SensorNoiseVarianceCurve, WaveInTheVarianceIsNoChance)
 
 TEST(SensorNoiseVarianceCurve, ParabolaHasTheSizeAndTheSlopesOfItsFormula)
 {
-  // c (x^2 - mean of x^2) at levels 2 DN apart: it is the rest of a parabola about its line.
+  // c (x^2 - mean of x^2) at levels 2 DN apart is the residual of a parabola about its line.
   constexpr double    c = 0.01;
   constexpr double    meanSquare = 4.0 * (64.0 * 64.0 - 1.0) / 12.0;
   const VarianceCurve curve = EvenCurve([&](double x) { return c * (x * x - meanSquare); });
-  // The darkest group, of four bins about x = -60, has mean x^2 = 60^2 + 4 (0.5^2 + 1.5^2) / 2. It is the largest
-  // departure, as the brightest group's is the same above a higher line.
+  // The darkest group, of four bins about x = -60, has the mean x^2 = 60^2 + 4 (0.5^2 + 1.5^2) / 2. It has the largest
+  // relative deviation: the deviation of the brightest group is the same, and the line is higher there.
   const double atGroup = c * (60.0 * 60.0 + 5.0 - meanSquare);
   const double line = 20.0 + 0.5 * (PivotDn - 60.0);
   for (const double dispersion : { 1.0, 3.0 })
@@ -125,7 +126,8 @@ TEST(SensorNoiseVarianceCurve, ParabolaHasTheSizeAndTheSlopesOfItsFormula)
     EXPECT_NEAR(curve.Nonlinearity(dispersion), std::sqrt(atGroup * atGroup - chance) / line, 1e-12);
   }
   EXPECT_EQ(curve.Nonlinearity(1e9), 0.0); // all of it may be chance
-  // A half, by count as by information, has its centre 32 DN from the pivot: there the parabola has the slope 2 c x.
+  // The centre of a half, by count and by information, is 32 DN from the pivot, where the slope of the parabola is 2 c
+  // x.
   const std::vector<SlopeExcess> halves = curve.FitHalves();
   ASSERT_EQ(halves.size(), 4u);
   const double ofHalf = 1.0 / (Weight * 4.0 * 32.0 * (32.0 * 32.0 - 1.0) / 12.0);
@@ -139,7 +141,8 @@ TEST(SensorNoiseVarianceCurve, ParabolaHasTheSizeAndTheSlopesOfItsFormula)
 
 TEST(SensorNoiseVarianceCurve, HalvesOfTheInformationArePartedWhereItIs)
 {
-  // 60 dark bins and 4 bright ones, which have nearly all information: its half lies between the second and the third.
+  // Nearly all information is in the 4 bright bins, not in the 60 dark bins. Half of it lies below the third bright
+  // bin.
   VarianceCurve curve{ MakeLine(), {} };
   const auto    excessAt = [](double x) { return x < 1150.0 ? -0.1 * x : 0.3 * (x - 1150.0); };
   for (std::size_t b = 0; b < 64; ++b)
@@ -152,7 +155,7 @@ TEST(SensorNoiseVarianceCurve, HalvesOfTheInformationArePartedWhereItIs)
   EXPECT_NEAR(halves[0].value, -0.1, 1e-12); // the darker half of the pixels
   EXPECT_NEAR(halves[2].value, -0.1, 1e-12);
   EXPECT_NEAR(halves[3].value, 0.3, 1e-12);
-  // With two bright bins the brighter half of the information is one level, which has no slope.
+  // With two bright bins the brighter half of the information is at one level, which determines no slope.
   curve.bins.erase(curve.bins.begin() + 60, curve.bins.begin() + 62);
   EXPECT_EQ(curve.FitHalves().size(), 3u);
 }
@@ -161,7 +164,7 @@ TEST(SensorNoiseVarianceCurve, DarkestShareIsThatOfTheLight)
 {
   const VarianceCurve curve = EvenCurve([](double) { return 0.0; }); // from 437 to 563 DN
   EXPECT_NEAR(curve.DarkestFraction(413.0), 24.0 / 150.0, 1e-12);
-  EXPECT_EQ(curve.DarkestFraction(450.0), 0.0); // no light
+  EXPECT_EQ(curve.DarkestFraction(450.0), 0.0); // no signal
   EXPECT_EQ(curve.DarkestFraction(600.0), 1.0); // no levels above black
   EXPECT_EQ((VarianceCurve{ MakeLine(), {} }.DarkestFraction(0.0)), 1.0);
 }

@@ -18,7 +18,7 @@
 #include <random>
 #include <vector>
 
-// TrimRule::Distance: the line is that of the mean of the pixels, whose own noise differs.
+// TrimRule::Distance: the line fits the mean variance of pixels whose read noise differs.
 
 using namespace sensornoise;
 
@@ -26,10 +26,10 @@ namespace
 {
 constexpr std::size_t Pixels = 40000;
 constexpr float       Freedom = 30.0F;
-constexpr double      Gain = 0.05; // many electrons a DN: the variances are those of normal noise
+constexpr double      Gain = 0.05; // many electrons per DN, so that the variances are those of normal noise
 constexpr double      BlackDn = 100.0;
 
-/** Maps of means from 110 to 600 DN; the read noise's variance is what \a readVarianceOf draws [DN^2]. */
+/** Maps with means from 110 to 600 DN. \a readVarianceOf draws the variance of the read noise [DN^2]. */
 struct Maps
 {
   std::vector<double>       mean;
@@ -75,14 +75,14 @@ struct Maps
   }
 };
 
-/** Read noise of median 1 DN whose logarithm has a standard deviation of \a spread. */
+/** Draws the variance of a read noise with the median 1 DN, whose logarithm has the standard deviation \a spread. */
 std::function<double(std::mt19937 &)>
 LogNormal(double spread)
 {
   return [=](std::mt19937 & random) { return std::exp(2.0 * spread * std::normal_distribution<>()(random)); };
 }
 
-/** By how many of its standard errors the line's value at a level is off the truth. */
+/** Returns the deviation of the line from the truth at a level, in standard errors of the line. */
 double
 ErrorAt(const VarianceLine & line, double level, double truth)
 {
@@ -94,14 +94,14 @@ ErrorAt(const VarianceLine & line, double level, double truth)
 TEST(SensorNoiseVarianceFitDistance, LineOfLogNormalNoiseIsThatOfTheMean)
 {
   const Maps         maps(LogNormal(0.4));
-  const double       read = maps.MeanReadVariance(); // exp(2 0.4^2) = 1.38 of the median's
+  const double       read = maps.MeanReadVariance(); // exp(2 0.4^2) = 1.38 times the median
   const VarianceFit  fit = maps.Fit(TrimRule::Distance);
   const VarianceLine mean = fit.GetLine();
   const VarianceLine level = maps.Fit(TrimRule::Level).GetLine();
   ASSERT_TRUE(mean.isDetermined && level.isDetermined);
   EXPECT_NEAR(mean.gain, Gain, 5.0 * std::sqrt(mean.covariance(0, 0)));
   EXPECT_LT(std::abs(ErrorAt(mean, BlackDn, read)), 5.0);
-  // The noisy pixels of the dark are beyond chi-square's tails there, and in the light they are not.
+  // In the dark the noisy pixels are beyond the tails of chi-square, at high signals they are not.
   EXPECT_GT(level.gain, Gain + 5.0 * std::sqrt(level.covariance(0, 0)));
   EXPECT_LT(ErrorAt(level, BlackDn, read), -5.0);
   EXPECT_LT(mean.trimmedFraction, 1e-3);
@@ -116,15 +116,15 @@ TEST(SensorNoiseVarianceFitDistance, SpreadOfThePixelsOwnNoiseIsFound)
   {
     spread += (value - mean) * (value - mean) / Pixels;
   }
-  // Of heavy tails, by the dark pixels in the main: known to a fifth.
+  // The dispersion has heavy tails and is determined mainly by the dark pixels: it is known within a fifth.
   EXPECT_NEAR(maps.Fit(TrimRule::Distance).GetLine().noiseDispersionDn4 / spread, 1.0, 0.5);
-  // Pixels of equal noise have none, and the weights stay those of chi-square.
+  // Pixels of equal noise have no dispersion, and keep the weights of chi-square.
   EXPECT_EQ(Maps([](std::mt19937 &) { return 1.0; }).Fit(TrimRule::Distance).GetLine().noiseDispersionDn4, 0.0);
 }
 
 TEST(SensorNoiseVarianceFitDistance, ErrorsAreThoseOfTheWeights)
 {
-  // With the right weights the sandwich is the inverse information, sum (x, 1)'(x, 1) / (2 V^2 / freedom + S).
+  // With the right weights the sandwich covariance is the inverse information, sum (x, 1)'(x, 1) / (2 V^2 / dof + S).
   const Maps         maps(LogNormal(0.3));
   const VarianceLine line = maps.Fit(TrimRule::Distance).GetLine();
   Eigen::Matrix2d    information = Eigen::Matrix2d::Zero();
@@ -134,13 +134,13 @@ TEST(SensorNoiseVarianceFitDistance, ErrorsAreThoseOfTheWeights)
     information += row * row.transpose() / (2.0 * std::pow(line.At(mean), 2) / Freedom + line.noiseDispersionDn4);
   }
   const Eigen::Matrix2d fisher = information.inverse();
-  EXPECT_NEAR(line.covariance(0, 0) / fisher(0, 0), 1.0, 0.2); // heavy tails: twice the scatter of normal ones
+  EXPECT_NEAR(line.covariance(0, 0) / fisher(0, 0), 1.0, 0.2); // heavy tails: twice the scatter of normal noise
   EXPECT_NEAR(line.covariance(1, 1) / fisher(1, 1), 1.0, 0.2);
 }
 
 TEST(SensorNoiseVarianceFitDistance, NoisyPixelsRaiseTheLineByTheirShare)
 {
-  // 4 % of the pixels have 60 % more variance: too little to be told one by one, and part of the mean.
+  // 4 % of the pixels have 60 % more variance. They are not identifiable one by one, and are part of the mean.
   Maps         maps([](std::mt19937 &) { return 1.0; });
   VarianceLine plain = maps.Fit(TrimRule::Distance).GetLine();
   for (std::size_t p = 0; p < Pixels; p += 25)
@@ -160,14 +160,14 @@ TEST(SensorNoiseVarianceFitDistance, DefectivePixelsAreTrimmedAtTheSameDistanceE
   Maps                            maps([](std::mt19937 &) { return 1.0; });
   const double                    factor = InMoments.defectiveNoiseFactor * InMoments.defectiveNoiseFactor;
   const std::vector<std::uint8_t> before = maps.Fit(TrimRule::Distance).FindTrimmed();
-  EXPECT_LE(std::count(before.begin(), before.end(), std::uint8_t{ 1 }), 4); // 1e-5 of the brightest
+  EXPECT_LE(std::count(before.begin(), before.end(), std::uint8_t{ 1 }), 4); // 1e-5 of the brightest pixels
   for (std::size_t p = 0; p < Pixels; p += 100)
   {
     maps.variance[p] = 1.0 + Gain * (maps.mean[p] - BlackDn) + (p % 200 == 0 ? 1.5 : 0.5) * factor;
   }
   const VarianceFit               fit = maps.Fit(TrimRule::Distance);
   const std::vector<std::uint8_t> trimmed = fit.FindTrimmed();
-  // The typical noise is known to a per cent.
+  // The typical noise is known within one per cent.
   EXPECT_NEAR(fit.GetReachDn2() / (factor - 1.0), 1.0, 0.2);
   for (std::size_t p = 0; p < Pixels; p += 100)
   {

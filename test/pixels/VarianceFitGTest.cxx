@@ -22,10 +22,10 @@ namespace
 {
 constexpr std::size_t Pixels = 20000; // more than two blocks
 constexpr float       Freedom = 30.0F;
-constexpr double      Gain = 0.05; // many electrons a DN: the variances are those of normal noise
+constexpr double      Gain = 0.05; // many electrons per DN, so that the variances are those of normal noise
 constexpr double      Intercept = -2.0;
 
-/** Maps of means from 100 to 1,100 and variances about a line. */
+/** Maps with means from 100 to 1,100 DN, and with variances about a line. */
 struct Maps
 {
   std::vector<double>       mean;
@@ -65,14 +65,14 @@ struct Maps
 
 TEST(SensorNoiseVarianceFit, ExactLineIsRecovered)
 {
-  // Every variance is on the line, but counted as the mean of a trimmed distribution.
+  // Every variance is on the line, but is treated as the mean of a trimmed distribution.
   const double trimmed = ChiSquareTrim(Freedom, Freedom).Of(Freedom).mean;
   const auto   line = Maps(false).Fit();
   ASSERT_TRUE(line.isDetermined);
   EXPECT_NEAR(line.gain * trimmed, Gain, 1e-9);
   EXPECT_NEAR(line.intercept * trimmed, Intercept, 1e-6);
   EXPECT_NEAR(line.At(500.0) * trimmed, Intercept + 500.0 * Gain, 1e-6);
-  EXPECT_GE(line.At(-1e9), line.lowestDn2); // the line is cut where it would not be a variance
+  EXPECT_GE(line.At(-1e9), line.lowestDn2); // the line is cut at its lowest variance
   EXPECT_GT(line.lowestDn2, 0.0);
   EXPECT_EQ(line.trimmedFraction, 0.0);
 }
@@ -85,9 +85,9 @@ TEST(SensorNoiseVarianceFit, NoisyLineIsRecoveredWithinItsErrors)
   EXPECT_NEAR(line.gain, Gain, 4.0 * std::sqrt(line.covariance(0, 0)));
   EXPECT_NEAR(line.intercept, Intercept, 4.0 * std::sqrt(line.covariance(1, 1)));
   EXPECT_NEAR(line.curvature, 0.0, 4.0 * line.curvatureSd);
-  // Two tails of 1e-4 of 20,000 pixels: 4, Poisson.
+  // Two tails of 1e-4 of 20,000 pixels: 4 pixels, Poisson distributed.
   EXPECT_LT(line.trimmedFraction, 20.0 / Pixels);
-  // The sandwich is the inverse information if the weights are right: sum freedom / (2 V^2) (x, 1)'(x, 1).
+  // With the right weights the sandwich covariance is the inverse information, sum dof / (2 V^2) (x, 1)'(x, 1).
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   for (const double mean : maps.mean)
   {
@@ -104,7 +104,7 @@ TEST(SensorNoiseVarianceFit, FollowsTheUnitsAndTheLevel)
 {
   const Maps       maps(true);
   const auto       line = maps.Fit();
-  constexpr double scale = 3.7; // of the samples
+  constexpr double scale = 3.7; // scale of the samples
   constexpr double added = 2000.0;
   Maps             changed = maps;
   for (std::size_t p = 0; p < Pixels; ++p)
@@ -190,8 +190,9 @@ TEST(SensorNoiseVarianceFit, TrimmedPixelsAreTold)
 
 TEST(SensorNoiseVarianceFit, StartsBetweenPatchesOfFewLevels)
 {
-  // Ten patches, the darkest with hardly any noise; its last bin of intensity holds a tenth of the next patch. A bin
-  // whose level were a mean and whose variance a median would draw the first line far off, where nothing is kept.
+  // Ten levels, the darkest with hardly any noise. Its last intensity bin contains a tenth of the pixels of the next
+  // level. With the mean level and the median variance of this bin the first line would be so wrong that it keeps no
+  // pixel.
   constexpr double                 gain = 5.0;
   Maps                             maps(true);
   std::mt19937                     random(42);

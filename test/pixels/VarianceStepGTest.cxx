@@ -16,8 +16,8 @@ constexpr double Gain = 0.5;
 constexpr double OffsetDn = 100.0;
 constexpr double ReadVariance = 9.0;
 
-/** The curve of a variance at levels of 120 to 2,700 DN, whose bins are known to 0.5 %, about a line through its ends.
- */
+/** Returns the curve of a variance at levels from 120 to 2,700 DN, about a line through its ends. The relative error of
+ * a bin is 0.5 %. */
 template <typename TFunction>
 VarianceCurve
 CurveOf(TFunction varianceAt, unsigned int seed)
