@@ -118,7 +118,7 @@ TEST(SensorNoiseNoiseKurtosis, NormalNoiseHasNoneAfterSeriesThatAreNotEven)
 
 TEST(SensorNoiseNoiseKurtosis, NormalNoiseHasNoneWhateverPixelsAndFilter)
 {
-  // Pixels of very different noise, to each of which half of its right neighbour is added.
+  // Pixels of very different noise. Half of its right neighbour is added to each pixel.
   const auto white = WhiteNoise(Geometry, 3);
   const auto found = Measure(30, [&](std::size_t t) {
     DoubleFrame frame = white(t);

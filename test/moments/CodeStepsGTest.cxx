@@ -15,7 +15,7 @@ namespace
 {
 constexpr std::uint32_t Many = 100;
 
-/** Codes from \a lowest on in steps of \a step. */
+/** Returns codes from \a lowest on in steps of \a step. */
 std::vector<SeenCode>
 EvenCodes(std::int32_t lowest, std::int32_t step, int count)
 {
@@ -38,7 +38,8 @@ ScaledCodes(double factor, int count)
   return codes;
 }
 
-/** Square-root codes of \a bits, expanded to 12 bits: near level v their step is 2 sqrt(4095 v) / (2^bits - 1). */
+/** Returns square-root codes of \a bits, expanded to 12 bits. Their step is 2 sqrt(4095 v) / (2^bits - 1) at level v.
+ */
 std::vector<SeenCode>
 RootCodes(int bits)
 {
@@ -84,7 +85,7 @@ TEST(SensorNoiseCodeSteps, RootCodesHaveTheStepOfTheirCurve)
     ASSERT_TRUE(steps.IsCompanded());
     for (double level = 300.0; level < 4095.0; level += 50.0)
     {
-      // 12 distances add up to within 1 DN.
+      // The error of the sum of 12 distances is at most 1 DN.
       const double expected = RootStep(bits, level);
       EXPECT_NEAR(steps.StepAt(level), expected, 1.0 / 12.0 + 0.01 * expected) << bits << ' ' << level;
       const double variance = (expected * expected + 1.0) / 12.0;
@@ -96,7 +97,7 @@ TEST(SensorNoiseCodeSteps, RootCodesHaveTheStepOfTheirCurve)
 TEST(SensorNoiseCodeSteps, EndsReachToTheOutermostCodes)
 {
   std::vector<SeenCode> codes = RootCodes(8);
-  codes.erase(codes.begin(), codes.begin() + 40); // from about 100 DN on
+  codes.erase(codes.begin(), codes.begin() + 40); // the codes from about 100 DN on remain
   const CodeSteps steps = FindCodeSteps(codes);
   ASSERT_TRUE(steps.IsCompanded());
   EXPECT_NEAR(steps.StepAt(codes.front().code), RootStep(8, codes.front().code), 0.4);
@@ -121,14 +122,14 @@ TEST(SensorNoiseCodeSteps, KneesOfStraightPiecesAreFound)
 
 TEST(SensorNoiseCodeSteps, CodesMissingByChanceTellNothing)
 {
-  // The bright end of a scene: every tenth code, seen once or a few times.
+  // The bright end of a scene: every tenth code, attained by a few pixels.
   std::vector<SeenCode> codes = EvenCodes(0, 1, 2000);
   for (std::int32_t code = 2000; code < 4000; code += 10)
   {
     codes.push_back({ code, static_cast<std::uint32_t>(1 + code % 7) });
   }
   EXPECT_FALSE(FindCodeSteps(codes).IsCompanded());
-  // Single codes missing among many, and gaps between patches of a chart.
+  // Single missing codes among many, and gaps between the levels of a test chart.
   codes.clear();
   for (std::int32_t code = 0; code < 4000; ++code)
   {
@@ -172,7 +173,7 @@ TEST(SensorNoiseCodeSteps, CodesOfAStackEndAtTheirTopAndTheStepCanBeGiven)
   const CodeRange found = FindCodes(extremes, extremes, 400.0, {});
   ASSERT_TRUE(found.steps.IsCompanded());
   EXPECT_EQ(found.bitDepth, 12);
-  EXPECT_EQ(found.clipHighDn, 4095.0); // the outermost code has none close to it, and is no pile-up
+  EXPECT_EQ(found.clipHighDn, 4095.0); // the outermost code has no close neighbours, and is no pile-up
   EXPECT_EQ(found.StepAt(2000.0), found.steps.StepAt(2000.0));
   EXPECT_EQ(found.quantisationStepDn, found.steps.GetTable().front().stepDn);
   CodeSettings given;

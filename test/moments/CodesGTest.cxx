@@ -20,7 +20,7 @@ namespace
 {
 constexpr double NoisyDn2 = 400.0; // noise of 20 DN: above half a step of 1 and of 16
 
-/** The extremes over time of a stack's pixels. */
+/** Extremes of the pixels of a stack over time. */
 struct Extremes
 {
   CodeHistogram minima;
@@ -42,8 +42,8 @@ struct Extremes
   }
 };
 
-/** Two pixels at every code from \a lowest to \a highest in steps of \a step, whose extremes lie \a spread codes apart.
- */
+/** Returns two pixels at every code from \a lowest to \a highest in steps of \a step. The extremes of a pixel are
+ * \a spread codes apart. */
 Extremes
 PixelsAtEveryCode(int lowest, int highest, int step, int spread)
 {
@@ -91,7 +91,7 @@ TEST(SensorNoiseCodes, StepIsTheMajorityOfTheSpacings)
   EXPECT_TRUE(regular);
   EXPECT_EQ(FindQuantisationStep(CodesScaledBy(16.0, 1000), regular), 16.0);
   EXPECT_TRUE(regular);
-  auto gaps = CodesScaledBy(16.0, 1000); // every third code is not attained: the majority still is 16
+  auto gaps = CodesScaledBy(16.0, 1000); // one code of ten is not attained: most distances are still 16
   for (std::size_t i = gaps.size() - 1; i > 0; --i)
   {
     if (i % 10 == 3)
@@ -106,7 +106,7 @@ TEST(SensorNoiseCodes, StepIsTheMajorityOfTheSpacings)
 TEST(SensorNoiseCodes, RescaledDataAreIrregular)
 {
   bool regular = true;
-  // 4,096 codes drift through all 16 remainders: 1 in 16 stays on any grid.
+  // The 4,096 codes have all 16 remainders: 1 in 16 is on any grid.
   EXPECT_EQ(FindQuantisationStep(CodesScaledBy(65535.0 / 4095.0, 4096), regular), 16.0);
   EXPECT_FALSE(regular);
 }
@@ -170,12 +170,12 @@ TEST(SensorNoiseCodes, DataBeyondTheBitDepthAreRefusedWithBothNumbers)
 TEST(SensorNoiseCodes, PileUpsAreFound)
 {
   Extremes extremes = PixelsAtEveryCode(100, 3400, 1, 40);
-  extremes.AddPixels(200, 3350, 3400); // saturate at 3,400 of 4,095
+  extremes.AddPixels(200, 3350, 3400); // these pixels saturate at 3,400 of 4,095
   CodeRange range = extremes.Find();
   EXPECT_EQ(range.clipHighDn, 3400.0);
   EXPECT_EQ(range.clipLowDn, 0.0);
   EXPECT_EQ(range.clipSource, "low: code range, high: pile-up");
-  extremes.AddPixels(200, 100, 150); // rest on a floor of 100
+  extremes.AddPixels(200, 100, 150); // these pixels are clipped at 100
   range = extremes.Find();
   EXPECT_EQ(range.clipLowDn, 100.0);
   EXPECT_EQ(range.clipHighDn, 3400.0);
@@ -187,12 +187,12 @@ TEST(SensorNoiseCodes, PileUpsAreFound)
 
 TEST(SensorNoiseCodes, PileUpNeedsEightPixelsAndThreeTimesItsNeighbours)
 {
-  for (const int pixels : { 5, 6, 50 }) // and 2 more of PixelsAtEveryCode
+  for (const int pixels : { 5, 6, 50 }) // besides the 2 pixels of PixelsAtEveryCode
   {
     Extremes extremes = PixelsAtEveryCode(100, 3400, 1, 40);
     extremes.AddPixels(pixels, 3350, 3400);
     EXPECT_EQ(extremes.Find().clipHighDn, pixels >= 6 ? 3400.0 : 4095.0) << pixels;
-    extremes.AddPixels(16, 3345, 3390); // 18 with those of PixelsAtEveryCode: 55 are needed at the end
+    extremes.AddPixels(16, 3345, 3390); // 18 with the pixels of PixelsAtEveryCode: 55 are needed at the end
     EXPECT_EQ(extremes.Find().clipHighDn, 4095.0) << pixels;
   }
 }
@@ -232,7 +232,7 @@ TEST(SensorNoiseCodes, NoiseBelowHalfAStepTrustsTheCodeRangeOnly)
   Extremes extremes = PixelsAtEveryCode(100, 3400, 1, 0);
   extremes.AddPixels(200, 3400, 3400);
   EXPECT_EQ(extremes.Find({}, 0.24).clipHighDn, 4095.0);
-  EXPECT_EQ(extremes.Find({}, 0.25).clipHighDn, 3400.0); // (1/2)^2: the first that is trusted
+  EXPECT_EQ(extremes.Find({}, 0.25).clipHighDn, 3400.0); // (1/2)^2, the least variance for pile-ups
 }
 
 TEST(SensorNoiseCodes, ConstantStackHasNoPileUp)
@@ -250,7 +250,7 @@ TEST(SensorNoiseCodes, SignedDataReachBelowZero)
 {
   Extremes  extremes = PixelsAtEveryCode(-300, 900, 1, 40);
   CodeRange range = extremes.Find();
-  EXPECT_FALSE(range.clipLowDn); // the end of the type is no level of a sensor
+  EXPECT_FALSE(range.clipLowDn); // the lowest number of the type is no clip level of a sensor
   EXPECT_EQ(range.clipSource, "low: none, high: code range");
   EXPECT_EQ(range.bitDepth, 10);
   extremes.AddPixels(200, -300, -250);
@@ -267,7 +267,7 @@ TEST(SensorNoiseCodes, StuckPixelsDoNotHideASaturationLevel)
   Extremes extremes = PixelsAtEveryCode(100, 3700, 1, 40);
   extremes.AddPixels(200, 3600, 3700);
   ASSERT_EQ(extremes.Find().clipHighDn, 3700.0);
-  extremes.AddPixels(20, 4095, 4095); // a tenth of those at the level
+  extremes.AddPixels(20, 4095, 4095); // a tenth of the pixels at the level
   EXPECT_EQ(extremes.Find().clipHighDn, 3700.0);
   EXPECT_TRUE(extremes.Find().IsClipped(4095.0, 4095.0));
   extremes.AddPixels(30, 4095, 4095); // a quarter: the sensor attains more

@@ -10,8 +10,8 @@ using namespace sensornoise;
 
 namespace
 {
-/** Pixels of means from \a lowest to \a highest counts of \a step, whose variance is that of counts, and \a readNoise
- * squared more [counts^2]. */
+/** Returns pixels with means from \a lowest to \a highest counts, where a count is \a step DN. Their variance is the
+ * variance of counts, plus \a readNoise squared [counts^2]. */
 TemporalMaps<unsigned short>
 MapsOf(double lowest, double highest, double readNoise, double step = 1.0)
 {

@@ -21,7 +21,7 @@ namespace
 {
 constexpr std::size_t Pixels = 4096;
 
-/** Levels with a standard deviation of 5 DN. */
+/** Returns levels with a standard deviation of 5 DN. */
 std::vector<double>
 DriftOf(std::size_t frames)
 {
@@ -76,7 +76,7 @@ TEST(SensorNoiseDarkDrift, SquaresAreThoseOfTheDeviationsFromTheFramesMeans)
     {
       deviations += std::pow(value - restMean, 2);
     }
-    // a level of three pixels holds a third of the noise of each
+    // The mean of three pixels contains a third of the noise of each.
     EXPECT_NEAR(drift.SquaresWithoutDrift(p, squares, mean), 1.5 * deviations, 1e-12) << p;
   }
 }
@@ -93,7 +93,7 @@ TEST(SensorNoiseDarkDrift, ItAddsNothingToThePixelsVariances)
   const KnownOffset still = MeasureDarkStack(DarkStackOf<unsigned short>(sensor, 8));
   const KnownOffset drifting = MeasureDarkStack(DarkStackOf<unsigned short>(sensor, 8, DriftOf(8)));
   EXPECT_NEAR(drifting.variance->valueDn2, still.variance->valueDn2, 0.02 * still.variance->valueDn2);
-  // The same noise, rounded elsewhere: pixel by pixel the same, not on average alone.
+  // The noise is the same but for the rounding: it agrees pixel by pixel, not only on average.
   double difference = 0.0;
   for (std::size_t p = 0; p < Pixels; ++p)
   {
@@ -102,7 +102,7 @@ TEST(SensorNoiseDarkDrift, ItAddsNothingToThePixelsVariances)
   EXPECT_LT(difference, 0.1 * still.variance->valueDn2);
   EXPECT_NEAR(drifting.driftVarianceDn2, VarianceOfNumbers(DriftOf(8)), 0.05 * VarianceOfNumbers(DriftOf(8)));
   EXPECT_LT(still.driftVarianceDn2, 0.02);
-  // and to the offset as much as the mean of 8 levels is uncertain
+  // The error of the offset is the standard error of the mean of 8 levels.
   EXPECT_NEAR(drifting.standardErrorDn, std::sqrt(drifting.driftVarianceDn2 / 8.0), 0.05 * drifting.standardErrorDn);
 }
 
@@ -117,7 +117,7 @@ TEST(SensorNoiseDarkDrift, BlinkingPixelsAndMaskedOnesAreNoDrift)
     {
       stack.pixels[t * Pixels + 200 * p] = 3000;
     }
-    for (std::size_t p = 1000; p < 2000; ++p) // a lamp of the camera's own
+    for (std::size_t p = 1000; p < 2000; ++p) // illumination by the camera itself
     {
       stack.pixels[t * Pixels + p] += 4;
       mask[p] = 0;

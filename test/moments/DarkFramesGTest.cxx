@@ -23,7 +23,7 @@ using namespace sensornoise::test;
 
 namespace
 {
-/** Frames of camera B without light; the level lies between two codes. */
+/** Returns settings of dark frames of camera B. The dark offset is between two codes. */
 SimulationSettings
 DarkSettings(std::size_t frames, double readNoiseDn = 8.0, std::uint64_t seed = 1)
 {
@@ -56,7 +56,7 @@ Measure(const Stack<TPixel> &             stack,
   return MeasureDarkFrames<TPixel>(std::move(moments), codes, mask, parallelFor);
 }
 
-/** What is measured lies within 4 of its standard errors of the truth. */
+/** Expects that offset and variance deviate from the truth by at most 4 standard errors. */
 void
 ExpectTheTruth(const KnownOffset & dark, const SimulationSettings & settings, double roundingDn2 = 1.0 / 12.0)
 {
@@ -94,14 +94,15 @@ TEST(SensorNoiseDarkFrames, OffsetAndVarianceAreRecoveredWithTheErrorsOfTemporal
   const KnownOffset        dark = Measure(SimulateDark(settings));
   ExpectTheTruth(dark, settings);
   EXPECT_EQ(dark.darkFrames, 20u);
-  // sigma / sqrt(N T), and V sqrt(2 / (N (T - 1))); they are found from 4096 pixels, to about 2 %.
+  // sigma / sqrt(N T), and V sqrt(2 / (N (T - 1))). They are measured from 4096 pixels, within about 2 %.
   EXPECT_NEAR(dark.standardErrorDn, 8.0 / std::sqrt(4096.0 * 20.0), 0.1 * 0.028);
   EXPECT_NEAR(dark.variance->standardErrorDn2, 64.1 * std::sqrt(2.0 / 4096.0 / 19.0), 0.1 * 0.325);
 
   ExpectTheTruth(Measure(SimulateDark<double>(settings)), settings, 0.0);
 }
 
-// With z the error in standard errors, the mean of 40 z^2 has the standard deviation sqrt(2 / 40) = 0.22; 4 of them.
+// With z the error in standard errors, the mean of 40 z^2 has the standard deviation sqrt(2 / 40) = 0.22. 4 of these
+// are allowed.
 TEST(SensorNoiseDarkFrames, ErrorsAreAsLargeAsTheySay)
 {
   for (const std::size_t frames : { 1u, 2u, 8u })
@@ -147,11 +148,11 @@ TEST(SensorNoiseDarkFrames, HotNoisyAndDeadPixelsDoNotCarryThemOff)
 
 TEST(SensorNoiseDarkFrames, RoundingThatHidesTheLevelIsInItsError)
 {
-  // Hardly any noise: a single frame holds the codes 100 and 101 with a mean of about 100.16.
+  // Hardly any noise: a single frame contains the codes 100 and 101 with a mean of about 100.16.
   const KnownOffset dark = Measure(SimulateDark(DarkSettings(1, 0.2)));
   EXPECT_NEAR(dark.valueDn, 100.3, 2.0 * dark.standardErrorDn);
   EXPECT_GT(dark.standardErrorDn, 0.1);
-  // With noise of a step nothing is hidden: sigma^2 + 1/12 over 4096 pixels.
+  // With noise of one step the rounding has no bias: the variance is sigma^2 + 1/12, over 4096 pixels.
   EXPECT_NEAR(Measure(SimulateDark(DarkSettings(1, 1.0))).standardErrorDn, std::sqrt(13.0 / 12.0 / 4096.0), 0.001);
 }
 

@@ -34,7 +34,7 @@ TEST(SensorNoiseDarkPixels, TheDefectiveVarianceIsThatOfEightTimesTheTypicalNois
   EXPECT_NEAR(DefectiveVarianceDn2(4.0 * MedianToMeanOfVariance(7.0), 7.0), 64.0 * 4.0 * 9.0 / 7.0, 1e-9);
 }
 
-// Pixels of one sensor: the mean is that of its own pixels, whose noise is drawn once.
+// The read noise of the pixels is drawn once, and the truth is the mean over these pixels.
 TEST(SensorNoiseDarkPixels, TheVarianceHoldsTheTail)
 {
   for (const double spread : { 0.3, 0.5 })
@@ -43,7 +43,7 @@ TEST(SensorNoiseDarkPixels, TheVarianceHoldsTheTail)
     for (const std::size_t frames : { 2u, 4u, 8u, 50u })
     {
       const KnownOffset dark = MeasureDarkStack(DarkStackOf<unsigned short>(sensor, frames));
-      // All that is left out is beyond 8 times the median.
+      // The pixels that are left out exceed 8 times the median.
       std::vector<double> kept = sensor.readNoiseDn;
       kept.erase(std::remove_if(kept.begin(), kept.end(), [](double noise) { return noise > 24.0; }), kept.end());
       EXPECT_NEAR(dark.variance->valueDn2, MeanSquareOf(kept) + 1.0 / 12.0, 3.0 * dark.variance->standardErrorDn2)
@@ -60,7 +60,7 @@ TEST(SensorNoiseDarkPixels, TheVarianceHoldsTheTail)
   }
 }
 
-// With z the error in standard errors, the mean of 40 z^2 has the standard deviation 0.22; a new sensor every time.
+// With z the error in standard errors, the mean of 40 z^2 has the standard deviation 0.22. Each run has a new sensor.
 TEST(SensorNoiseDarkPixels, ErrorsHoldTheDifferencesOfThePixels)
 {
   double offset = 0.0;
@@ -82,7 +82,7 @@ TEST(SensorNoiseDarkPixels, DefectivePixelsAreCountedAndLeftOut)
   DarkSensor sensor = MakeDarkSensor(20000, 4.0, [](CounterSeededRandom &) { return 3.0; });
   for (std::size_t p = 0; p < 100; ++p)
   {
-    sensor.readNoiseDn[200 * p] = 60.0; // 20 times the others' noise, and too high to be clipped
+    sensor.readNoiseDn[200 * p] = 60.0; // 20 times the noise of the others, at an offset at which it is not clipped
     sensor.offsetDn[200 * p] = 500.0;
     sensor.readNoiseDn[200 * p + 50] = 0.0; // stuck
   }
@@ -95,7 +95,7 @@ TEST(SensorNoiseDarkPixels, DefectivePixelsAreCountedAndLeftOut)
   EXPECT_EQ(dark.maps->frames, 20u);
   EXPECT_EQ(dark.maps->stepDn, 1.0);
 
-  // Two frames tell no pixel that is stuck: every seventh pixel holds one code in both.
+  // Two frames do not distinguish stuck pixels: every seventh pixel has the same code in both.
   const KnownOffset two = MeasureDarkStack(DarkStackOf<unsigned short>(sensor, 2));
   EXPECT_LE(two.numberDefective, 100u);
 }

@@ -79,7 +79,7 @@ TEST(SensorNoiseChosenFrames, AreNotCopiedIfAllAre)
 
 TEST(SensorNoiseChosenFrames, CopiesOfManyFramesAreHandedOutInParts)
 {
-  constexpr std::size_t          pixels = (std::size_t{ 32 } << 20) / 2; // two frames of bytes make 32 MiB
+  constexpr std::size_t          pixels = (std::size_t{ 32 } << 20) / 2; // two frames of bytes have 32 MiB
   std::vector<unsigned char>     stack(6 * pixels);
   std::vector<std::size_t>       numbers;
   const std::vector<std::size_t> expected{ 2, 2, 1 };

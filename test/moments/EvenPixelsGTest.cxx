@@ -15,10 +15,10 @@ using namespace sensornoise;
 
 namespace
 {
-constexpr std::size_t EvenSize = 96; // 16 x 16 cells of 6 x 6 pixels
+constexpr std::size_t EvenSize = 96; // 16 x 16 tiles of 6 x 6 pixels
 constexpr double      EvenOffsetDn = 100.0;
 
-/** The mask for frames of exposures 1, 2 and 3 with the signals 500 x signal(x, y) x exposure [DN]. */
+/** Returns the mask for frames of exposures 1, 2 and 3 with the signals 500 x signal(x, y) x exposure [DN]. */
 std::vector<std::uint8_t>
 EvenPixelsOf(const std::function<double(std::size_t x, std::size_t y)> & signal,
              const std::vector<std::uint8_t> & valid = std::vector<std::uint8_t>(EvenSize * EvenSize, 1))
@@ -51,8 +51,8 @@ TEST(SensorNoiseEvenPixels, OfAFlatFieldAreAllValidOnes)
   EXPECT_EQ(EvenPixelsOf([](std::size_t, std::size_t) { return 1.0; }, valid), valid);
 }
 
-// Stripes of 0.5 and 1.5 in the left half, of 0.88 and 1.12 in the right: a ratio of 1.27 above the offset, within
-// 1.25^2, and of 1.63 above the level of the lowest exposure.
+// Stripes of 0.5 and 1.5 in the left half, and of 0.88 and 1.12 in the right half. The ratio of the latter is 1.27
+// above the offset, within 1.25^2, and 1.63 above the level of the lowest exposure.
 TEST(SensorNoiseEvenPixels, TexturedCellsAreLeftOut)
 {
   const auto scene = [](std::size_t x, std::size_t) {

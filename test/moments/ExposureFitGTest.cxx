@@ -38,7 +38,7 @@ ExactLevel(double exposure, double bend, std::size_t frames = 2)
   return { exposure, frames, OffsetDn + Signal(exposure, bend), 0.0, 0.0, 0.0 };
 }
 
-/** Exposures from 0.1 to 1. */
+/** Returns exposures from 0.1 to 1. */
 std::vector<double>
 Exposures(std::size_t levels)
 {
@@ -65,7 +65,7 @@ ExactLevels(std::size_t levels, double bend, bool hasDark)
   return all;
 }
 
-/** EMVA 1288's linearity error of a response without noise [1], from the normal equations of the line. */
+/** Returns the linearity error of EMVA 1288 for a response without noise [1], from the normal equations of the line. */
 double
 TrueError(std::size_t levels, double bend, bool hasDark)
 {
@@ -123,7 +123,7 @@ TEST(SensorNoiseExposureFit, AnExactParabolaHasTheErrorOfTheDefinition)
       const ExposureFit fit = FitExposures(ExactLevels(8, bend, hasDark), CodesOf12Bits());
       EXPECT_NEAR(ErrorOf(fit), TrueError(8, bend, hasDark), 1e-9);
       ASSERT_TRUE(fit.offsetDn);
-      // The line misses the offset; the parabola does not, and its distance is the error.
+      // The line deviates from the offset at exposure 0. The parabola does not, and their distance is the error.
       EXPECT_NEAR(fit.offsetDn->value, OffsetDn, hasDark ? 1e-8 : 1.0001 * fit.offsetDn->standardError);
     }
   }
@@ -184,7 +184,7 @@ TEST(SensorNoiseExposureFit, TooFewLevelsInTheRangeAreSaidToBe)
   const ExposureFit fit = FitExposures(levels, CodesOf12Bits());
   EXPECT_FALSE(fit.squaredError);
   EXPECT_EQ(fit.reason.find("only 2 of 3 exposures"), 0u) << fit.reason;
-  ASSERT_TRUE(fit.offsetDn); // of the dark frames
+  ASSERT_TRUE(fit.offsetDn); // from the dark frames
   EXPECT_EQ(fit.offsetDn->value, OffsetDn);
 }
 
@@ -216,7 +216,8 @@ TEST(SensorNoiseExposureFit, SingleFramesTakeTheirScatterFromAParabola)
 
 namespace
 {
-/** Levels of frames whose illumination scatters by \a flicker [1], with the shot noise of 1500 pixels of 0.35 DN/e-. */
+/** Returns levels of frames whose illumination has the standard deviation \a flicker [1], with the shot noise of 1500
+ * pixels of 0.35 DN/e-. */
 std::vector<ExposureLevel>
 NoisyLevels(std::size_t levels, std::size_t frames, double bend, double flicker, CounterSeededRandom & random)
 {
@@ -241,7 +242,7 @@ NoisyLevels(std::size_t levels, std::size_t frames, double bend, double flicker,
   return all;
 }
 
-/** Whether the 95 % interval of the squared error holds the truth's square. */
+/** Returns whether the 95 % interval of the squared error contains the square of the truth. */
 bool
 Holds(const ExposureFit & fit, double truth)
 {
@@ -252,8 +253,8 @@ Holds(const ExposureFit & fit, double truth)
 }
 } // namespace
 
-// 400 bursts a case: 95 % of the intervals hold the truth, with a standard deviation of 1.1 %. Four of these, and 1.5 %
-// that first-order errors may lose, are allowed for.
+// 400 bursts per case: 95 % of the intervals contain the truth, with a standard deviation of 1.1 %. The tolerance is
+// four of these, plus 1.5 % for the first-order approximation of the errors.
 TEST(SensorNoiseExposureFit, IntervalsHoldTheTruthAndNoiseIsNoError)
 {
   struct Case
@@ -294,7 +295,7 @@ TEST(SensorNoiseExposureFit, IntervalsHoldTheTruthAndNoiseIsNoError)
     EXPECT_GE(offsetsHeld, least * bursts) << each.levels << ' ' << each.frames << ' ' << each.bend;
     if (each.bend == 0.0)
     {
-      // Without the correction the mean would be the variance of a level, (0.3 %)^2 / frames, times 3/5 or 10/12.
+      // Without the correction the mean is the variance of a level, (0.3 %)^2 / frames, times 3/5 or 10/12.
       const double noise = 0.003 * 0.003 / static_cast<double>(each.frames);
       EXPECT_NEAR(mean, 0.0, 0.15 * noise);
     }

@@ -19,7 +19,7 @@ using namespace sensornoise;
 
 namespace
 {
-constexpr std::size_t   ExposuresSize = 96; // cells of 6 x 6 pixels; two rows, 12 pixels, are used
+constexpr std::size_t   ExposuresSize = 96; // tiles of 6 x 6 pixels; two rows of each, 12 pixels, are used
 constexpr FrameGeometry ExposuresGeometry{ ExposuresSize, ExposuresSize };
 constexpr std::size_t   ExposuresPixels = ExposuresSize * ExposuresSize;
 
@@ -37,7 +37,7 @@ RefusalOf(const std::function<void()> & function)
   return "no error";
 }
 
-/** Levels of frames with level(t, x) [DN], normal noise of 2 DN added. */
+/** Returns the levels of frames with level(t, x) [DN] and normal noise of 2 DN. */
 std::vector<ExposureLevel>
 LevelsOf(const std::vector<double> &                            exposures,
          const std::function<double(std::size_t t, double x)> & level,
@@ -89,7 +89,7 @@ TEST(SensorNoiseExposures, ThereIsOneForEachFrame)
 
 TEST(SensorNoiseExposures, LevelsAreThoseOfTheBrightestCellsInTheOrderOfTheExposures)
 {
-  // Signal in proportion to x: the cells of the columns from 0.9 of the quantile 0.95 on, 0.84 to 1.
+  // The signal is proportional to x. The tiles from 0.9 of the quantile 0.95 on are used: columns from 0.84 to 1.
   const auto levels = LevelsOf({ 2.0, 0.0, 1.0, 2.0 }, [](std::size_t t, double x) {
     return 50.0 + 500.0 * x * (t == 1 ? 0.0 : t == 2 ? 1.0 : 2.0);
   });
@@ -119,7 +119,7 @@ TEST(SensorNoiseExposures, CellsWithClippedPixelsAreLeftOutUnlessAllAre)
   EXPECT_EQ(LevelsOf({ 1.0, 2.0, 3.0 }, level, std::vector<std::uint8_t>(ExposuresPixels, 0))[2].meanDn, whole);
 }
 
-// A flat field: 256 cells of 12 pixels with 2 DN; the common scatter of the frames does not count as noise of pixels.
+// A flat field: 256 tiles of 12 pixels with 2 DN. The common scatter of the frames is not counted as noise of pixels.
 TEST(SensorNoiseExposures, NoiseOfPixelsIsPartedFromTheIllumination)
 {
   std::vector<double> exposures;
@@ -133,7 +133,7 @@ TEST(SensorNoiseExposures, NoiseOfPixelsIsPartedFromTheIllumination)
   for (const ExposureLevel & level : levels)
   {
     const double expected = 4.0 / (256.0 * 12.0);
-    EXPECT_NEAR(level.pixelNoiseDn2, expected, 0.15 * expected); // 9 x 255 degrees of freedom, of nearly all cells
+    EXPECT_NEAR(level.pixelNoiseDn2, expected, 0.15 * expected); // 9 x 255 degrees of freedom from nearly all tiles
     const double sd = 0.01 * 300.0 * level.exposure;
     EXPECT_NEAR(level.squaresDn2, 10.0 * sd * sd, 0.05 * 10.0 * sd * sd);
   }

@@ -16,7 +16,7 @@ namespace
 {
 constexpr double NoisyDn2 = 400.0;
 
-/** The extremes over time of a stack's pixels, as codes and as codes times \a scale. */
+/** Extremes of the pixels of a stack over time, as codes and as codes times \a scale. */
 struct Extremes
 {
   double          scale{ 1.0 };
@@ -36,7 +36,7 @@ struct Extremes
       maxima.Add(scale * maximum);
     }
   }
-  /** Two pixels at every code. */
+  /** Adds two pixels at every code. */
   void
   AddRamp(int lowest, int highest, int step = 1)
   {
@@ -50,7 +50,7 @@ struct Extremes
   {
     return FindLevels(minima, maxima, scale * scale * varianceDn2, settings, depths);
   }
-  /** The levels are found where the codes' are, and only there. */
+  /** Expects that clip levels are found exactly where those of the codes are found. */
   void
   ExpectThoseOfTheCodes(double varianceDn2 = NoisyDn2) const
   {
@@ -82,7 +82,7 @@ TEST(SensorNoiseFloatingLevels, PileUpsAreFoundAndTheOtherEndStaysOpen)
   EXPECT_EQ(range.clipLowDn, 100.0);
   EXPECT_EQ(range.clipSource, "pile-up");
   EXPECT_FALSE(range.bitDepth);
-  EXPECT_EQ(range.quantisationStepDn, 0.0); // levels are no codes
+  EXPECT_EQ(range.quantisationStepDn, 0.0); // floating-point levels are not quantized
 }
 
 TEST(SensorNoiseFloatingLevels, AreFoundWhereTheCodesAre)
@@ -100,9 +100,9 @@ TEST(SensorNoiseFloatingLevels, AreFoundWhereTheCodesAre)
         extremes.ExpectThoseOfTheCodes();
         extremes.AddPixels(pixels / 2, 100 * step, 150 * step);
         extremes.ExpectThoseOfTheCodes();
-        extremes.AddPixels(16, 3345 * step, 3390 * step); // 18 on one level inside: 55 are needed at the end
+        extremes.AddPixels(16, 3345 * step, 3390 * step); // 18 at one inner level: 55 are needed at the end
         extremes.ExpectThoseOfTheCodes();
-        extremes.AddPixels(5000, 1000 * step, 3300 * step); // out of reach
+        extremes.AddPixels(5000, 1000 * step, 3300 * step); // too far from the end
         extremes.ExpectThoseOfTheCodes();
       }
     }
@@ -115,7 +115,7 @@ TEST(SensorNoiseFloatingLevels, CoarseCodesAndRareNoiseArePassedOver)
   extremes.AddRamp(100, 3400);
   extremes.AddPixels(200, 3400, 3400);
   EXPECT_FALSE(extremes.Find({}, 0.24).clipHighDn);
-  EXPECT_EQ(extremes.Find({}, 0.25).clipHighDn, 3400.0); // (1/2)^2: the first that is trusted
+  EXPECT_EQ(extremes.Find({}, 0.25).clipHighDn, 3400.0); // (1/2)^2, the least variance for pile-ups
   EXPECT_FALSE(extremes.Find({}, NoisyDn2, { 0.0, 2.5 }).clipHighDn);
   EXPECT_EQ(extremes.Find({}, NoisyDn2, { 2.5, 2.4 }).clipHighDn, 3400.0);
   Extremes constant;
@@ -140,5 +140,5 @@ TEST(SensorNoiseFloatingLevels, GivenValuesWin)
   EXPECT_EQ(range.clipLowDn, 100.0);
   EXPECT_EQ(range.clipHighDn, 3300.0);
   EXPECT_EQ(range.clipSource, "low: pile-up, high: given");
-  EXPECT_FALSE(extremes.Find(MakeCodeSettings(0, NAN, NAN, 41.0)).clipHighDn); // noise of 20 DN: below half of it
+  EXPECT_FALSE(extremes.Find(MakeCodeSettings(0, NAN, NAN, 41.0)).clipHighDn); // noise of 20 DN, below half a step
 }

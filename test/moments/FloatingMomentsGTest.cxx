@@ -39,7 +39,7 @@ MomentsOf(const std::vector<TPixel> & stack, std::size_t pixels, std::size_t fir
   return moments;
 }
 
-/** Two passes in long double: mean, then squared deviations. */
+/** Computes the moments in long double in two passes: the mean, then the squared deviations. */
 template <typename TPixel>
 void
 ExpectMomentsEqualTwoPasses(const FloatingMoments<TPixel> & moments,
@@ -105,7 +105,7 @@ TYPED_TEST(SensorNoiseFloatingMoments, EqualTwoPassesInLongDouble)
   for (const std::size_t frames : { 2, 3, 60 })
   {
     const auto stack = NormalFrames<TypeParam>(1100, frames, 300.0, 20.0);
-    // Each of T steps rounds to eps times mean/sd = 15: 60 * 2.2e-16 * 15 = 2e-13; pairs that nearly agree need more.
+    // Each of T steps rounds by eps times mean/sd = 15: 60 * 2.2e-16 * 15 = 2e-13. Nearly equal pairs need more.
     ExpectMomentsEqualTwoPasses(MomentsOf(stack, 1100, 0, frames), stack, 1100, frames == 60 ? 1e-12 : 1e-9);
   }
 }
@@ -129,12 +129,12 @@ TYPED_TEST(SensorNoiseFloatingMoments, MergingAgreesWithAddingFrames)
 {
   constexpr std::size_t      pixels = 40;
   const auto                 stack = NormalFrames<TypeParam>(pixels, 50, 300.0, 20.0);
-  FloatingMoments<TypeParam> merged(pixels); // begins empty
+  FloatingMoments<TypeParam> merged(pixels); // initially empty
   for (const auto & part : { std::pair{ 0, 3 }, std::pair{ 3, 30 }, std::pair{ 30, 30 }, std::pair{ 30, 50 } })
   {
     merged.Merge(MomentsOf(stack, pixels, static_cast<std::size_t>(part.first), static_cast<std::size_t>(part.second)));
   }
-  ExpectMomentsEqualTwoPasses(merged, stack, pixels, 1e-12); // the contract
+  ExpectMomentsEqualTwoPasses(merged, stack, pixels, 1e-12); // the guaranteed accuracy
   auto other = MomentsOf(stack, pixels, 30, 50);
   other.Merge(MomentsOf(stack, pixels, 0, 30));
   ExpectMomentsEqualTwoPasses(other, stack, pixels, 1e-12);
@@ -174,7 +174,7 @@ TYPED_TEST(SensorNoiseFloatingMoments, MapsHaveTheBitsOfTheMoments)
     auto       moments = MomentsOf(stack, pixels, 0, frames);
     const auto kept = moments;
     const auto maps = moments.TakeMaps(test::Threads(2));
-    EXPECT_EQ(moments.GetNumberOfPixels(), 0U); // they are given away
+    EXPECT_EQ(moments.GetNumberOfPixels(), 0U); // they were moved out
     ASSERT_EQ(maps.GetNumberOfPixels(), pixels);
     for (std::size_t p = 0; p < pixels; ++p)
     {
@@ -199,7 +199,7 @@ TYPED_TEST(SensorNoiseFloatingMoments, ExtremesPassOverNaN)
 TEST(SensorNoiseFloatingMomentsOfDoubles, LargeOffsetKeepsTheVariance)
 {
   const auto stack = NormalFrames<double>(20, 200, 1e9, 1.0);
-  // The running mean rounds to 1.2e-7 at most: 200 deviations of order 1 sum to a relative error below 1e-6.
+  // The running mean rounds by at most 1.2e-7: 200 deviations of order 1 give a relative error below 1e-6.
   ExpectMomentsEqualTwoPasses(MomentsOf(stack, 20, 0, 200), stack, 20, 1e-6);
 }
 

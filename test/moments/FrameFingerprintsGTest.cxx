@@ -16,7 +16,7 @@ namespace
 {
 using Flags = std::vector<std::uint8_t>;
 
-/** One for each of \a names. */
+/** Returns one fingerprint for each of \a names. */
 std::vector<BytesFingerprint>
 Of(const std::string & names)
 {
@@ -90,7 +90,7 @@ TEST(SensorNoiseFrameFingerprints, FramesThatAreLeftToAnotherAreNotCounted)
   one.Add(0, Of("abc"));
   other.SetCountedElsewhere({ 0, 0, 0, 1, 0, 1 });
   EXPECT_EQ(other.Add(3, Of("bdb")), (Flags{ 0, 1, 0 }));
-  EXPECT_THROW(other.FindDistinct(), std::logic_error); // nobody has counted b
+  EXPECT_THROW(other.FindDistinct(), std::logic_error); // no process has counted b
   EXPECT_NO_THROW(one.RequireApart(other));
   std::stringstream stream;
   other.Save(stream);

@@ -23,7 +23,7 @@ constexpr std::size_t   Height = 64;
 constexpr std::size_t   Frames = 12;
 constexpr FrameGeometry Geometry{ Width, Height };
 
-/** A stack whose pixels are \a value(t, x, y). */
+/** Returns a stack whose pixels are \a value(t, x, y). */
 std::vector<double>
 Stack(const std::function<double(double t, double x, double y)> & value)
 {
@@ -62,7 +62,7 @@ TEST(SensorNoiseFrameThumbnails, FlickerAndDriftOfAStillSceneAreNoChange)
 
 TEST(SensorNoiseFrameThumbnails, NoiseIsNoChange)
 {
-  // A flat field in the dark: nothing but noise, as large as the level.
+  // A flat field in the dark: noise alone, as large as the level.
   CounterSeededRandom random(3, 1, 0);
   const auto          change = ChangeOf(Stack([&](auto, auto, auto) { return 10.0 + 10.0 * random.Normal(); }));
   EXPECT_FALSE(change.IsLarge()) << change.share << ' ' << change.ofTheLevel;
@@ -79,15 +79,15 @@ TEST(SensorNoiseFrameThumbnails, ScenesOfTheirOwnAreAllChange)
 
 TEST(SensorNoiseFrameThumbnails, ShareIsThatOfTheVariance)
 {
-  // Frames in turn a + b and a - b, a and b without correlation over the cells: b's share is 9 / (16 + 9),
-  // over 0.6745^2, as all cells differ by as much.
+  // The frames alternate between a + b and a - b, where a and b are not correlated over the tiles. The fraction of b is
+  // 9 / (16 + 9), over 0.6745^2, as all tiles differ by the same amount.
   const auto stack = Stack([](double t, double x, double y) {
-    const double a = std::fmod(x, 6.0) < 3.0 ? 1.0 : -1.0; // cells are 3 x 4 pixels
+    const double a = std::fmod(x, 6.0) < 3.0 ? 1.0 : -1.0; // tiles have 3 x 4 pixels
     const double b = std::fmod(y, 8.0) < 4.0 ? 1.0 : -1.0;
     return 20.0 + 4.0 * a + (std::fmod(t, 2.0) < 1.0 ? 3.0 : -3.0) * b;
   });
   const auto change = ChangeOf(stack);
-  EXPECT_NEAR(change.share, 9.0 / 25.0 / 0.6745 / 0.6745, 4.0 / 256.0); // degrees of freedom of 256 cells
+  EXPECT_NEAR(change.share, 9.0 / 25.0 / 0.6745 / 0.6745, 4.0 / 256.0); // degrees of freedom of 256 tiles
   EXPECT_NEAR(change.ofTheLevel, 3.0 / 20.0 / 0.6745, 0.001);
 }
 

@@ -30,7 +30,7 @@ MeanOf(const std::vector<double> & values)
   return sum / static_cast<double>(values.size());
 }
 
-/** Their relative standard deviation. */
+/** Returns the relative standard deviation of the factors [1]. */
 double
 ChangeOfFactors()
 {
@@ -43,7 +43,7 @@ ChangeOfFactors()
   return std::sqrt(sum / static_cast<double>(Factors.size() - 1)) / mean;
 }
 
-/** The change that is found of cells \a value(t, i) over as many frames as there are factors. */
+/** Returns the measured illumination change of tiles \a value(t, i), over as many frames as there are factors. */
 double
 Find(const std::function<double(std::size_t t, std::size_t i)> & value, double noiseDn2 = 1.0)
 {
@@ -80,10 +80,10 @@ TEST(SensorNoiseIlluminationChange, OfAScenesContrastForAnyOffset)
 TEST(SensorNoiseIlluminationChange, OfAFlatFieldsLevelInUnitsOfTheNoise)
 {
   CounterSeededRandom random(5, 1, 0);
-  // Noise of 0.1 in a cell: 0.1 / sqrt(64 cells) of each level, below 2e-4 of it.
+  // With a noise of 0.1 DN per tile the error of each level is 0.1 / sqrt(64 tiles), below 2e-4 of the level.
   const auto   flat = [&](std::size_t t, std::size_t) { return 300.0 + 100.0 * Factors[t] + 0.1 * random.Normal(); };
   const double level = 100.0 * MeanOf(Factors) * ChangeOfFactors();
-  const double strong = level * level / InMoments.strongChangeOfFlat; // the noise of which it is a strong change
+  const double strong = level * level / InMoments.strongChangeOfFlat; // noise at which the change is just strong
   EXPECT_NEAR(Find(flat, strong) / InMoments.strongIlluminationChange, 1.0, 1e-3);
   EXPECT_NEAR(Find(flat, 4.0 * strong) / InMoments.strongIlluminationChange, 0.5, 1e-3);
   EXPECT_EQ(Find(flat, 0.0), 0.0);
@@ -92,14 +92,14 @@ TEST(SensorNoiseIlluminationChange, OfAFlatFieldsLevelInUnitsOfTheNoise)
 TEST(SensorNoiseIlluminationChange, NoiseIsNone)
 {
   CounterSeededRandom random(6, 1, 0);
-  // A dim flat field: the slopes of frames over noise are large, and explain little.
+  // A dark flat field: the slopes of the frames are large because of noise, and explain little of the variance.
   EXPECT_LT(Find([&](auto, auto) { return 10.0 + 10.0 * random.Normal(); }), InMoments.strongIlluminationChange);
   EXPECT_EQ(Find([](auto, auto i) { return Signal(i); }), 0.0);
 }
 
 TEST(SensorNoiseIlluminationChange, AnotherSceneIsNone)
 {
-  // What it differs by is the other scene less the own one, which the mean frame explains to a third.
+  // The deviation of frame 3 is the difference of the two scenes. The mean frame explains a third of it.
   CounterSeededRandom random(7, 1, 0);
   const auto          scene = [&](std::size_t t, std::size_t i) {
     return t == 3 ? 100.0 + 40.0 * std::sin(1000.0 * random.Uniform()) : Signal(i);

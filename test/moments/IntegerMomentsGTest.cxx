@@ -18,7 +18,7 @@ using namespace sensornoise;
 
 namespace
 {
-/** Frames of values over the whole range of the type; every eighth is one of its ends. */
+/** Returns frames of values over the whole range of the type; every eighth value is one of its ends. */
 template <typename TPixel>
 std::vector<TPixel>
 RandomFrames(std::size_t pixels, std::size_t frames, std::uint64_t seed)
@@ -51,7 +51,7 @@ MomentsOf(const std::vector<TPixel> & stack, std::size_t pixels)
   return MomentsOf(stack, pixels, 0, stack.size() / pixels);
 }
 
-/** Mean = S/n and squared deviations = (n Q - S^2)/n, with S, Q and n Q - S^2 exact 64-bit integers. */
+/** Computes the mean S/n and the squared deviations (n Q - S^2)/n, with S, Q and n Q - S^2 as exact 64-bit integers. */
 template <typename TPixel>
 void
 ExpectMomentsEqualBruteForce(const IntegerMoments<TPixel> & moments,
@@ -76,7 +76,7 @@ ExpectMomentsEqualBruteForce(const IntegerMoments<TPixel> & moments,
       highest = std::max(highest, static_cast<double>(value));
     }
     const double deviations = static_cast<double>(n * squares - sum * sum) / static_cast<double>(n);
-    // The mean is rounded as S/n and once more after the shift by at most 2^15: two halves of a last digit of 2^16.
+    // The mean is rounded as S/n, and again after the shift by at most 2^15: by two halves of the last digit of 2^16.
     const double meanTolerance = 65536.0 * std::numeric_limits<double>::epsilon();
     ASSERT_NEAR(moments.GetMean(p), static_cast<double>(sum) / static_cast<double>(n), meanTolerance) << p;
     ASSERT_DOUBLE_EQ(moments.GetSumOfSquaredDeviations(p), deviations) << p;
@@ -102,7 +102,8 @@ ExpectSameBits(const IntegerMoments<TPixel> & a, const IntegerMoments<TPixel> & 
   }
 }
 
-/** \a high of \a n frames hold \a top and the others \a bottom: the mean squared deviation is a two-point law's. */
+/** Expects the mean squared deviation of a two-point distribution: \a high of \a n frames have the value \a top, the
+ * others \a bottom. */
 template <typename TPixel>
 void
 ExpectTwoPointLaw(std::size_t n, std::size_t high, TPixel bottom, TPixel top)
@@ -172,7 +173,7 @@ TYPED_TEST(SensorNoiseIntegerMoments, MergingInAnyOrderChangesNoBit)
   auto                  forwards = a;
   forwards.Merge(b);
   forwards.Merge(c);
-  auto backwards = IntegerMoments<TypeParam>(pixels); // begins empty
+  auto backwards = IntegerMoments<TypeParam>(pixels); // initially empty
   backwards.Merge(c);
   backwards.Merge(a);
   backwards.Merge(b);
@@ -219,7 +220,7 @@ TYPED_TEST(SensorNoiseIntegerMoments, AsManyFramesAsThereMayBeAreExact)
   const auto   n = static_cast<double>(IntegerMoments<TypeParam>::MostFrames);
   const double height = static_cast<double>(high) - static_cast<double>(low);
   ASSERT_EQ(moments.GetNumberOfFrames(), IntegerMoments<TypeParam>::MostFrames);
-  for (const std::size_t p : { 0, 1 }) // a quarter times three quarters of the frames: less than 2^53, exact
+  for (const std::size_t p : { 0, 1 }) // a quarter times three quarters of the frames, exact below 2^53
   {
     EXPECT_EQ(moments.GetSumOfSquaredDeviations(p), 3.0 / 16.0 * n * height * height) << p;
   }
@@ -227,7 +228,7 @@ TYPED_TEST(SensorNoiseIntegerMoments, AsManyFramesAsThereMayBeAreExact)
   EXPECT_EQ(moments.GetMean(2), static_cast<double>(low));
   EXPECT_THROW(moments.AdvanceFrames(1), std::invalid_argument);
   EXPECT_THROW(moments.Merge(MomentsOf(four, 3)), std::invalid_argument);
-  EXPECT_EQ(moments.GetNumberOfFrames(), IntegerMoments<TypeParam>::MostFrames); // nothing was lost
+  EXPECT_EQ(moments.GetNumberOfFrames(), IntegerMoments<TypeParam>::MostFrames); // the refused calls changed nothing
 }
 
 TYPED_TEST(SensorNoiseIntegerMoments, MapsHaveTheBitsOfTheMoments)
@@ -238,7 +239,7 @@ TYPED_TEST(SensorNoiseIntegerMoments, MapsHaveTheBitsOfTheMoments)
     auto       moments = MomentsOf(RandomFrames<TypeParam>(pixels, frames, 3), pixels);
     const auto kept = moments;
     const auto maps = moments.TakeMaps(test::Threads(2));
-    EXPECT_EQ(moments.GetNumberOfPixels(), 0U); // they are given away
+    EXPECT_EQ(moments.GetNumberOfPixels(), 0U); // they were moved out
     ASSERT_EQ(maps.GetNumberOfPixels(), pixels);
     for (std::size_t p = 0; p < pixels; ++p)
     {

@@ -16,7 +16,8 @@
 #include <vector>
 
 /** \file
- * The pattern is found in a single exposure of scenes behind a mosaic, and in none of those without one. */
+ * Tests that the pattern is found in a single exposure of a scene behind a mosaic, and that no pattern is found in
+ * monochrome frames. */
 
 using sensornoise::BayerPattern;
 using sensornoise::RecogniseMosaic;
@@ -26,7 +27,7 @@ namespace
 {
 constexpr std::size_t Size = 128;
 
-/** One exposure of a scene, with the light of camera B unless it is dimmed. */
+/** Returns one exposure of a scene, with the electrons of camera B unless they are reduced. */
 Scene
 Expose(const Scene &               scene,
        std::optional<BayerPattern> pattern,
@@ -107,7 +108,7 @@ TEST(MosaicLevels, EachPatternIsFoundInEachScene)
                                                             { "texture", MakeTextureScene(Size, Size) },
                                                             { "bars", sensornoise::MakeBarsScene(Size, Size) },
                                                             { "flat", sensornoise::MakeFlatScene(Size, Size) } };
-  // The brighter colour is called red: daylight on sensors with more blue is told wrongly, and says so.
+  // The brighter colour is called red. With more blue than red signal the two are exchanged, and a warning says so.
   for (const auto & [name, scene] : scenes)
   {
     for (const BayerPattern pattern : Patterns)
@@ -140,7 +141,7 @@ TEST(MosaicLevels, NoSceneOfAMonochromeSensorIsAMosaic)
 
 TEST(MosaicLevels, ColoursOfTheSceneDoNotHideIt)
 {
-  // Red things reflect red alone, blue ones blue: each plane has a scene of its own.
+  // Red objects reflect red alone, and blue objects blue alone: each plane shows another scene.
   const Scene red = sensornoise::MakeTextureScene(Size, Size, 4);
   const Scene green = sensornoise::MakeTextureScene(Size, Size, 5);
   const Scene blue = sensornoise::MakeTextureScene(Size, Size, 6);

@@ -19,7 +19,7 @@ using namespace sensornoise::test;
 
 namespace
 {
-/** A pixel's variance over \a frames, of Gaussian noise. */
+/** Draws the variance of a pixel over \a frames with Gaussian noise. */
 double
 VarianceOfPixel(double noiseDn, std::size_t frames, CounterSeededRandom & random)
 {
@@ -39,14 +39,14 @@ struct NoiseCase
 {
   std::string                                  name;
   std::function<double(CounterSeededRandom &)> noise;
-  double                                       median; // of the population [DN]
+  double                                       median; // median of the population [DN]
 };
 
-/** The median of a population with a tail, by bisection of its distribution function. */
+/** Returns the median of a population with a tail, by bisection of its distribution function. */
 double
 MedianWithTail(double spread, double tail)
 {
-  const auto below = [&](double x) { // P(ln noise/3 < x); the tail's excess is integrated over
+  const auto below = [&](double x) { // P(ln noise/3 < x), integrated over the excess of the tail
     double sum = 0.0;
     double weight = 0.0;
     for (int i = 0; i < 4000; ++i)
@@ -98,14 +98,14 @@ TEST(SensorNoiseNoiseMedian, ItIsThePopulationsWhateverTheShape)
     {
       const auto found = MedianOfCase(noise, frames, 40000, 1);
       ASSERT_TRUE(found);
-      // 0.4 % is the standard error of 40,000 pixels at spread 0.6
+      // 0.4 % is the standard error of 40,000 pixels at a spread of 0.6
       EXPECT_NEAR(found->valueDn / noise.median, 1.0, 0.012) << noise.name << ", " << frames;
       EXPECT_NEAR(found->valueDn, noise.median, 4.0 * found->standardErrorDn) << noise.name << ", " << frames;
     }
   }
 }
 
-// Of 60 tries 57 lie within 1.96 errors, give or take 1.7; more where the allowance for bias is generous.
+// 57 ± 1.7 of 60 results are within 1.96 standard errors, and more if the allowance for bias is large.
 TEST(SensorNoiseNoiseMedian, ErrorsAreAsLargeAsTheySay)
 {
   for (const NoiseCase & noise : NoiseCases())
@@ -134,7 +134,7 @@ TEST(SensorNoiseNoiseMedian, RoundingIsTakenOff)
   EXPECT_LT(found->standardErrorDn, 0.05);
 }
 
-// Variances of rounded frames are few numbers: with noise of a code and 8 frames a median of theirs is off by 4 %.
+// Rounded frames have few different variances: with noise of one step and 8 frames the error of their median is 4 %.
 TEST(SensorNoiseNoiseMedian, FewNumbersThatRoundingLeavesAreNoBias)
 {
   for (const double spread : { 0.0, 0.3 })

@@ -57,7 +57,7 @@ TEST(SensorNoiseOutermostLevels, StuckPixelsBeyondAPileUpAreLeftOut)
 
 TEST(SensorNoiseOutermostLevels, AreThoseOfAWholeHistogramInAnyOrder)
 {
-  std::vector<double>           values = RoundedNormal(20000, 150.0); // some 1,000 levels, of which the table holds 64
+  std::vector<double>           values = RoundedNormal(20000, 150.0); // about 1,000 levels; the table has room for 64
   std::map<double, std::size_t> counts;
   for (const double value : values)
   {

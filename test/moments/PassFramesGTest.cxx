@@ -13,7 +13,7 @@ using namespace sensornoise;
 
 namespace
 {
-/** Frame \a t of five. */
+/** Returns a pass over five frames to which only frame \a t was added. */
 PassFrames
 Only(std::size_t t)
 {
@@ -40,7 +40,7 @@ TEST(SensorNoisePassFrames, HasNoMoreFramesThanThePass)
   EXPECT_THROW(frames.Skip(6), std::logic_error);
   frames.Add(3);
   EXPECT_THROW(frames.Add(3), std::logic_error);
-  EXPECT_EQ(frames.Add(2), 3u); // refused frames leave the place
+  EXPECT_EQ(frames.Add(2), 3u); // refused frames do not change the next frame
   EXPECT_THROW(frames.Skip(1), std::logic_error);
 }
 
@@ -98,7 +98,7 @@ TEST(SensorNoisePassFrames, NoFrameComesTwice)
   EXPECT_NO_THROW(frames.RequireApart(Only(2)));
   frames.Merge(Only(3));
   EXPECT_EQ(frames.Add(1), 2u);
-  EXPECT_THROW(frames.Add(1), std::logic_error); // frame 3 came by the merge
+  EXPECT_THROW(frames.Add(1), std::logic_error); // frame 3 was merged
 }
 
 TEST(SensorNoisePassFrames, TravelInAStreamOfTheSamePass)
@@ -110,5 +110,5 @@ TEST(SensorNoisePassFrames, TravelInAStreamOfTheSamePass)
   frames.Merge(frames.ReadOther(stream));
   frames.Add(4);
   frames.EndPass();
-  EXPECT_THROW(frames.ReadOther(stream), std::runtime_error); // of the pass before
+  EXPECT_THROW(frames.ReadOther(stream), std::runtime_error); // frames of the previous pass
 }

@@ -20,7 +20,7 @@ namespace
 {
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
-/** Share of the pixels whose interval holds the truth. */
+/** Returns the fraction of the pixels whose interval contains the truth. */
 double
 CoverageOf(const IntervalMapDn & map, const std::vector<double> & truth)
 {
@@ -49,7 +49,7 @@ TEST(SensorNoisePixelCalibration, RoundingIsTakenOffAndWhatItHidesIsInTheInterva
 {
   const PixelCalibration maps = MakePixelCalibration({ { 100.0, 100.0 }, { 3.0 + 1.0 / 3.0, 0.0 }, { 1, 1 }, 30, 2.0 });
   EXPECT_DOUBLE_EQ(maps.readNoise.value[0], std::sqrt(3.0));
-  // A pixel that never changed: its level lies within half a step of the code, its noise may be half a step.
+  // A constant pixel: its level is within half a step of the code, and its noise is at most half a step.
   EXPECT_DOUBLE_EQ(maps.offset.low[1], 99.0);
   EXPECT_DOUBLE_EQ(maps.offset.high[1], 101.0);
   EXPECT_EQ(maps.readNoise.value[1], 0.0);
@@ -83,11 +83,11 @@ TEST(SensorNoisePixelCalibration, NineteenOfTwentyPixelsLieInTheirIntervals)
     std::vector<double> offsets = sensor.offsetDn;
     for (double & offset : offsets)
     {
-      offset += mean; // the level of these very frames
+      offset += mean; // the level of these frames
     }
     const KnownOffset      dark = MeasureDarkStack(DarkStackOf<unsigned short>(sensor, frames, levels));
     const PixelCalibration maps = MakePixelCalibration(*dark.maps, Threads(3));
-    // The share of 20,000 scatters by 0.0015.
+    // The fraction of 20,000 pixels has the standard deviation 0.0015.
     EXPECT_NEAR(CoverageOf(maps.offset, offsets), 0.95, 0.007) << frames;
     EXPECT_NEAR(CoverageOf(maps.readNoise, sensor.readNoiseDn), 0.95, 0.007) << frames;
   }

@@ -36,7 +36,7 @@ MapsOf(const Stack<TPixel> & stack, std::size_t chunk = Frames, const ParallelFo
   return MakeStackMaps<TPixel>(sums.Take(), {}, parallelFor);
 }
 
-/** Codes of a sensor that attains the levels \a low to \a high only. */
+/** Returns codes of a sensor that attains the levels from \a low to \a high only. */
 Stack<std::uint16_t>
 CodesBetween(std::optional<double> low, std::optional<double> high, std::size_t width = Width)
 {
@@ -46,7 +46,7 @@ CodesBetween(std::optional<double> low, std::optional<double> high, std::size_t 
   return Simulate<std::uint16_t>(settings, width, Height);
 }
 
-/** The values of a stack in another type. */
+/** Returns the values of a stack in another type. */
 template <typename TPixel>
 StackMaps
 MapsInType(const Stack<std::uint16_t> & stack)
@@ -82,7 +82,7 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, CopiesOfCodesThatSaturateLeaveOutTheS
       const StackMaps expected = MapsOf(codes);
       const StackMaps maps = MapsOf(codes.Map<TypeParam>([&](std::uint16_t u) { return scale * u; }));
       ASSERT_EQ(expected.summary.codes.clipSource, "low: code range, high: pile-up");
-      const bool areWhole = scale == 1.0; // then they are codes as those of integers
+      const bool areWhole = scale == 1.0; // then the values are integers
       EXPECT_EQ(maps.summary.codes.clipSource,
                 areWhole ? expected.summary.codes.clipSource : "low: none, high: pile-up");
       EXPECT_EQ(maps.summary.codes.clipHighDn, static_cast<double>(static_cast<TypeParam>(scale * 2500.0)));
@@ -111,7 +111,7 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, FloorIsFoundBelowAboveAndAtZero)
   const auto      codes = CodesBetween(500.0, {});
   const StackMaps expected = MapsOf(codes);
   ASSERT_EQ(expected.summary.codes.clipSource, "low: pile-up, high: code range");
-  for (const double floorDn : { 500.25, 0.25, -300.25 }) // no codes
+  for (const double floorDn : { 500.25, 0.25, -300.25 }) // levels that are not integers
   {
     const StackMaps maps = MapsOf(codes.Map<TypeParam>([&](std::uint16_t u) { return u - 500.0 + floorDn; }));
     EXPECT_EQ(maps.summary.codes.clipLowDn, floorDn);
@@ -196,7 +196,7 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, AreTheSameForAnyChunksThreadsAndProce
     ExpectTheSame(MapsOf(stack, chunk, Threads(3)), expected);
   }
   StackMoments<TypeParam> whole(Width * Height, Frames);
-  for (const std::size_t first : { 11, 0, 6 }) // each part in a process of its own, which come in any order
+  for (const std::size_t first : { 11, 0, 6 }) // each part in another process, in any order
   {
     const std::size_t       end = first == 0 ? 6 : (first == 6 ? 11 : Frames);
     StackMoments<TypeParam> part(Width * Height, Frames);
@@ -224,7 +224,7 @@ TEST(SensorNoiseStackMaps, TheTypeOfWholeNumbersChangesNothing)
 TEST(SensorNoiseStackMaps, ClipLevelsThatNoPixelAttainsHaveCutOffNothing)
 {
   const StackSummary plain = MapsOf(CodesBetween(std::nullopt, std::nullopt)).summary;
-  EXPECT_TRUE(plain.codes.clipLowDn && plain.codes.clipHighDn); // the ends of the code range
+  EXPECT_TRUE(plain.codes.clipLowDn && plain.codes.clipHighDn); // the ends of the DN range
   EXPECT_FALSE(plain.AttainedCodes().clipLowDn || plain.AttainedCodes().clipHighDn);
   const StackSummary saturated = MapsOf(CodesBetween(std::nullopt, 2000.0)).summary;
   EXPECT_EQ(saturated.clippedLow, 0U);

@@ -15,7 +15,7 @@
 #include <vector>
 
 /** \file
- * What processes exchange through the public interface: fingerprints and sums. */
+ * Tests of the exchange between processes through the public interface: fingerprints and sums. */
 
 using namespace sensornoise;
 using namespace sensornoise::test;
@@ -27,7 +27,7 @@ using Codes = unsigned short;
 
 constexpr std::size_t Half = Frames / 2;
 
-/** Process \a k reads a half of the frames, the last one first. */
+/** Adds a half of the frames in process \a k, the last frame first. */
 void
 AddHalf(RefinedMethod<Codes> & method, const Stack<Codes> & stack, std::size_t k)
 {

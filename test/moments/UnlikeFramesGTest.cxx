@@ -26,10 +26,10 @@ constexpr double        OffsetDn = 100.0;
 constexpr double        Gain = 0.5;
 constexpr double        ReadNoiseDn = 3.0;
 
-/** Electrons at a place in a frame. */
+/** Function that returns the electrons at a place in a frame. */
 using Light = std::function<double(std::size_t t, double x, double y)>;
 
-/** Between 500 and 3500 electrons. */
+/** Returns between 500 and 3500 electrons. */
 double
 Scene(double x, double y)
 {
@@ -135,7 +135,7 @@ TEST(SensorNoiseUnlikeFrames, EachKindIsNamedWhereverItStands)
 TEST(SensorNoiseUnlikeFrames, AFewPixelsMakeNoFrameUnlike)
 {
   std::vector<float> stack = Expose(30, [](std::size_t, double x, double y) { return Scene(x, y); });
-  for (std::size_t p = 0; p < 5 * 300; p += 300) // in 5 cells at most, of 256
+  for (std::size_t p = 0; p < 5 * 300; p += 300) // in at most 5 of 256 tiles
   {
     stack[12 * Width * Height + p + 20 * Width] = 60000.0F;
   }
@@ -177,7 +177,7 @@ TEST(SensorNoiseUnlikeFrames, MinimumFramesAreLeft)
 TEST(SensorNoiseUnlikeFrames, OfMaskedPixelsNothingIsSaid)
 {
   const auto stack = Expose(30, [](std::size_t t, double x, double y) {
-    return t == 4 && x >= 32.0 ? 1000.0 : Scene(x, y); // the right half of a frame is another
+    return t == 4 && x >= 32.0 ? 1000.0 : Scene(x, y); // the right half of frame 4 differs
   });
   EXPECT_EQ(UnlikeOf(ThumbnailsOf(stack)), "4 other-shape; ");
   std::vector<std::uint8_t> left(Width * Height);

@@ -93,7 +93,7 @@ TEST(SensorNoiseVarianceCurve, NoiseAboutALineIsChance)
   ASSERT_EQ(curve.bins.size(), VarianceCurve::Bins);
   EXPECT_NEAR(curve.ReducedChi2(), 1.0, 0.9); // 62 degrees of freedom: 5 standard deviations of sqrt(2 / 62)
   // The variance of a group of 1,250 pixels has the standard error sqrt(2 / 30 / 1250) = 0.73 %. 5 standard errors are
-  // allowed, of which 2 are subtracted as chance.
+  // allowed, and 2 are subtracted as chance.
   EXPECT_LT(curve.Nonlinearity(1.0), std::sqrt(25.0 - 4.0) * 0.0073);
   for (const SlopeExcess & half : curve.FitHalves())
   {
