@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
-// Cameras that compand: gain is the sensor's, variance_slope holds the noise of the codes.
+// Companded data: `gain` is the gain of the sensor, and `variance_slope` contains the quantization noise.
 
 using namespace sensornoise;
 using namespace sensornoise::test;
@@ -54,7 +54,7 @@ TEST(SensorNoiseCompandedCodes, GainIsTheSensorsAndTheSlopeHoldsTheCodes)
     // The step near level v is 2 sqrt(4095 v) / (2^bits - 1): its square over 12 has this slope.
     const double top = std::exp2(bits) - 1.0;
     const double ofCodes = 4.0 * 4095.0 / (12.0 * top * top);
-    EXPECT_GT(ofCodes, 3.0 * error); // else nothing is tested
+    EXPECT_GT(ofCodes, 3.0 * error); // otherwise nothing is tested
     EXPECT_NEAR(*report.varianceSlope.value - *report.gain.value, ofCodes, 0.05 * ofCodes);
     EXPECT_NEAR(*report.readNoise.value, 8.0, 4.0 * *report.readNoise.standardError);
   }
@@ -117,7 +117,7 @@ TEST(SensorNoiseCompandedCodes, TooCoarseInTheLightIsLeftOut)
   {
     const auto use = static_cast<PixelUse>(method.GetPixelUse()[p]);
     coarse += use == PixelUse::CoarseCodes ? 1 : 0;
-    // A step of 49 DN, and a noise of 18.6 DN. What counts is the mean of the neighbours: edges are left.
+    // The step is 49 DN, and the noise 18.6 DN. The mean of the neighbours decides, so that pixels at edges are used.
     usedInLight += method.GetMean()[p] > 2400.0 && use == PixelUse::Used ? 1 : 0;
   }
   EXPECT_LT(usedInLight, coarse / 20);

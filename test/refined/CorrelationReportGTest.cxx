@@ -17,7 +17,8 @@ using namespace sensornoise::test;
 
 namespace
 {
-/** The nearest neighbours share 1 % along a row and \a below along a column; the next frame 20 %. */
+/** Returns a correlation of 1 % with the nearest neighbour along a row, \a below along a column, and 20 % with the next
+ * frame. */
 NoiseCorrelation
 CorrelationOf(NoiseKind kind, double below = 0.05)
 {
@@ -32,7 +33,7 @@ CorrelationOf(NoiseKind kind, double below = 0.05)
   return correlation;
 }
 
-/** The one warning of a kind, as "code: message"; the gain is twice the variance's slope. */
+/** Returns the only warning of a noise class, as "code: message". The gain is twice the slope of the variance. */
 std::string
 WarningOf(const NoiseCorrelation & correlation, bool hasGain = true)
 {
@@ -67,7 +68,7 @@ TEST(SensorNoiseCorrelationReport, WhiteNoiseIsNotWarnedOf)
 
 TEST(SensorNoiseCorrelationReport, FilteredFramesAreNamedWithTheLargestCoefficientAndTheConsequence)
 {
-  for (const double below : { 0.05, -0.05 }) // sharpening takes
+  for (const double below : { 0.05, -0.05 }) // sharpening makes it negative
   {
     const std::string warning = WarningOf(CorrelationOf(NoiseKind::Filtered, below));
     EXPECT_EQ(warning.rfind("noise-correlated: the camera smooths, resamples or sharpens its frames", 0), 0U)
@@ -101,7 +102,7 @@ TEST(SensorNoiseCorrelationReport, EachKindIsSaidInItsWords)
   EXPECT_TRUE(Has(bent, "Set the camera to raw frames")) << bent;
 }
 
-// The number that decided stands in the sentence.
+// The message contains the number that decided.
 TEST(SensorNoiseCorrelationReport, NeighboursThatDecidedAreNamed)
 {
   NoiseCorrelation correlation = CorrelationOf(NoiseKind::NotLinear);
@@ -169,7 +170,7 @@ TEST(SensorNoiseCorrelationReport, NoiseOfRowsIsTheRootWithItsIntervalOrAnUpperL
   const NoiseCorrelationRecord record = RecordOf(correlation);
   EXPECT_EQ(record.rowNoise.status, EstimateStatus::Identified);
   EXPECT_EQ(ValueOf(record.rowNoise), 3.0);
-  // Of the root half the relative error of the square.
+  // The relative error of the root is half the relative error of the square.
   EXPECT_NEAR(*record.rowNoise.standardError, 0.6 / (2.0 * 3.0), 1e-12);
   EXPECT_EQ(record.columnNoise.status, EstimateStatus::UpperLimit);
   EXPECT_FALSE(record.columnNoise.value);
@@ -177,7 +178,7 @@ TEST(SensorNoiseCorrelationReport, NoiseOfRowsIsTheRootWithItsIntervalOrAnUpperL
   EXPECT_EQ(record.columnNoise.interval95->low, 0.0);
   EXPECT_NEAR(record.columnNoise.interval95->high.value(), std::sqrt(1.2 + 2.0 * 0.6), 1e-12);
 
-  // Chance may carry it below 0; that does not lower the limit.
+  // By chance the square may be below 0; this does not lower the limit.
   correlation.columnsDn2 = { -3.0, 0.6 };
   const Quantity limit = RecordOf(correlation).columnNoise;
   EXPECT_EQ(limit.status, EstimateStatus::UpperLimit);
@@ -194,7 +195,7 @@ TEST(SensorNoiseCorrelationReport, EveryKindHasANameOfItsOwn)
   EXPECT_STREQ(NameOf(NoiseKind::NotLinear), "not-linear");
 }
 
-// The distribution is what a linear filter leaves: it is not the reason.
+// The distribution of the noise is that after a linear filter, and not the reason of the class.
 TEST(SensorNoiseCorrelationReport, NormalNoiseThatIsNotLinearIsInterferenceOrRounding)
 {
   NoiseCorrelation correlation = CorrelationOf(NoiseKind::NotLinear);

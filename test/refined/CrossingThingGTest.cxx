@@ -23,7 +23,8 @@ namespace
 constexpr std::size_t Size = 192;
 constexpr std::size_t Frames = 50;
 
-/** A textured block, a third of the frame wide, that walks through the lower two thirds of the rows. */
+/** Returns frames with a textured object, a third of the frame wide, that moves through the lower two thirds of the
+ * rows. */
 Stack<unsigned short>
 CrossedStack(const std::vector<double> & scene, int conditions, bool isVertical)
 {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-// Dark frames are a point of the line.
+// Dark frames give a point of the photon transfer line.
 
 using namespace sensornoise;
 using namespace sensornoise::test;
@@ -33,7 +33,7 @@ FlatCamera()
   return settings;
 }
 
-/** Mean and mean temporal variance of all pixels but those at the border. */
+/** Mean and mean temporal variance of all pixels except at the border. */
 struct FlatMoments
 {
   double mean{ 0.0 };
@@ -78,8 +78,8 @@ TEST(SensorNoiseDarkPoint, FlatAndDarkFramesArePhotonTransfer)
   const FlatMoments        black(dark);
   const double             gain = (light.variance - black.variance) / (light.mean - black.mean);
   const Report             report = Measure(flat, WithDarkFrames(dark)).GetReport();
-  // The method takes what frames have in common out of the variance, 1 or 2 of 19 degrees of freedom: of the error of
-  // 700,000 samples, 0.17 %, a third.
+  // The method removes the common component of the frames from the variance, 1 or 2 of 19 degrees of freedom. This is a
+  // third of the error of 700,000 samples, 0.17 %.
   EXPECT_NEAR(ValueOf(report.gain) / gain, 1.0, 1e-3);
   EXPECT_NEAR(ValueOf(report.gain), 1.0, 5.0 * *report.gain.standardError);
   EXPECT_LT(*report.gain.standardError, 0.005);
@@ -99,13 +99,13 @@ TEST(SensorNoiseDarkPoint, PixelsThatDifferDoNotBiasAFlat)
   settings.prnuSd = 0.01;
   const Stack<Codes>   flat = Simulate<Codes>(settings, Size, Size, FlatScene(Size, 0.003));
   const StackSimulator simulator(FlatScene(Size), Size, Size, settings);
-  double               offsetDn = 0.0; // as its columns were drawn
+  double               offsetDn = 0.0; // with the columns of this sensor
   for (std::size_t p = 0; p < Size * Size; ++p)
   {
     offsetDn += simulator.PixelOffsetDn(p) / (Size * Size);
   }
   const Report report = Measure(flat, WithDarkFrames(DarkFramesOf(settings, Size))).GetReport();
-  // A photon transfer's gain is that of the squares: 1 + 0.01^2 of the mean.
+  // The gain of a photon transfer is the mean square of the gains over their mean, (1 + 0.01^2) times the mean gain.
   EXPECT_NEAR(ValueOf(report.gain), 1.0, 5.0 * *report.gain.standardError);
   EXPECT_LT(*report.gain.standardError, 0.005);
   EXPECT_NEAR(ValueOf(report.offset), offsetDn, 0.05);
@@ -113,7 +113,7 @@ TEST(SensorNoiseDarkPoint, PixelsThatDifferDoNotBiasAFlat)
 
 TEST(SensorNoiseDarkPoint, DarkFramesOfAnotherCameraAreNoticed)
 {
-  // Levels down to the dark: no bend of the response can hide between them and the dark frames.
+  // The levels extend to the dark, so that no non-linearity can lie between them and the dark frames.
   const Stack<Codes> stack = Simulate<Codes>(StillCamera(40), 128, 128);
   const auto         reportOf = [&](double varianceDn2) {
     RefinedSettings settings;
@@ -126,7 +126,7 @@ TEST(SensorNoiseDarkPoint, DarkFramesOfAnotherCameraAreNoticed)
   {
     const Report report = reportOf(varianceDn2);
     EXPECT_TRUE(HasWarning(report, WarningCode::DarkFramesDiffer)) << varianceDn2;
-    EXPECT_NEAR(ValueOf(report.gain), ValueOf(own.gain), 2.0 * *report.gain.standardError); // they are not in it
+    EXPECT_NEAR(ValueOf(report.gain), ValueOf(own.gain), 2.0 * *report.gain.standardError); // without the dark frames
     EXPECT_EQ(report.offset.status, EstimateStatus::Failed);
     EXPECT_EQ(report.readNoise.status, EstimateStatus::Failed);
     EXPECT_EQ(report.readNoiseElectrons.status, EstimateStatus::Failed);
@@ -135,7 +135,8 @@ TEST(SensorNoiseDarkPoint, DarkFramesOfAnotherCameraAreNoticed)
 
 TEST(SensorNoiseDarkPoint, DarkFramesThatHoldSignalAreNoticed)
 {
-  // A shutter that is not closed: the scene, at a fraction of its signal. Offsets and gains of the pixels differ.
+  // The shutter is not closed: the dark frames show the scene with a fraction of its signal. The pixels have DSNU and
+  // PRNU.
   SimulationSettings settings = StillCamera(40);
   settings.dsnuSdDn = 10.0;
   settings.prnuSd = 0.01;
@@ -151,7 +152,7 @@ TEST(SensorNoiseDarkPoint, DarkFramesThatHoldSignalAreNoticed)
     return w.code == WarningCode::DarkFramesDiffer;
   });
   ASSERT_NE(warning, report.warnings.end());
-  // The mean of the illumination of 40 frames is known to 0.3 %, in either stack.
+  // The mean illumination of the 40 frames of each stack is known within 0.3 %.
   const std::string words = "the dark frames hold ";
   ASSERT_EQ(warning->message.rfind(words, 0), 0U) << warning->message;
   EXPECT_NEAR(std::stod(warning->message.substr(words.size())), 5.0, 4.0 * 0.0045 * 5.0);
@@ -163,8 +164,8 @@ TEST(SensorNoiseDarkPoint, DarkFramesThatHoldSignalAreNoticed)
 
 TEST(SensorNoiseDarkPoint, NarrowRangeIsTiedToTheDarkFrames)
 {
-  // Levels from 70 to 100 % of the light: the line alone knows the gain to some per cent, the photon transfer to a few
-  // tenths.
+  // The signals are from 70 to 100 %: the line alone determines the gain within some per cent, the photon transfer
+  // within some tenths of a per cent.
   const SimulationSettings settings = FlatCamera();
   const Stack<Codes>       stack = Simulate<Codes>(settings, Size, Size, FlatScene(Size, 0.3));
   const Report             report = Measure(stack, WithDarkFrames(DarkFramesOf(settings, Size))).GetReport();
@@ -175,7 +176,7 @@ TEST(SensorNoiseDarkPoint, NarrowRangeIsTiedToTheDarkFrames)
 
 TEST(SensorNoiseDarkPoint, RefusedStackStillHasWhatTheDarkFramesTell)
 {
-  // A gamma of 2.2 is no response of a sensor; nor is a constant stack.
+  // A gamma of 2.2 and a constant stack are no responses of a sensor.
   SimulationSettings settings = StillCamera(Frames);
   const Stack<Codes> dark = DarkFramesOf(settings, Size);
   settings.flaws.response = { ResponseShape::Gamma, 2.2 };
@@ -189,6 +190,6 @@ TEST(SensorNoiseDarkPoint, RefusedStackStillHasWhatTheDarkFramesTell)
     EXPECT_NEAR(ValueOf(report.offset), 100.0, 0.05);
     EXPECT_NEAR(ValueOf(report.readNoise), 8.0, 5.0 * *report.readNoise.standardError);
     EXPECT_NEAR(ValueOf(report.readNoiseMedian), 8.0, 5.0 * *report.readNoiseMedian.standardError);
-    EXPECT_NE(report.readNoiseElectrons.status, EstimateStatus::Identified); // takes the gain
+    EXPECT_NE(report.readNoiseElectrons.status, EstimateStatus::Identified); // needs the gain
   }
 }

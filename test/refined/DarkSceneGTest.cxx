@@ -9,7 +9,7 @@
 #include <vector>
 
 /** \file
- * Scenes of which most is dark: the flat pixels, by which the first line is drawn, have no signal. */
+ * Scenes that are mostly dark: the flat pixels, to which the first line is fitted, have no signal. */
 
 using namespace sensornoise;
 using namespace sensornoise::test;
@@ -21,7 +21,8 @@ using Codes = unsigned short;
 constexpr std::size_t Width = 160;
 constexpr std::size_t Height = 128;
 
-/** A disc, darker towards its limb, at a place of the frame [pixels], over a floor of a fraction of the maximum. */
+/** Returns a disc, darker towards its limb, at a place of the frame [pixel], over a background of a fraction of the
+ * maximum. */
 std::vector<double>
 Disc(double radius, double left, double floor)
 {
@@ -62,7 +63,7 @@ TEST(SensorNoiseDarkScene, ItsBrightPixelsDetermineTheGain)
         const auto method = Measure(stack);
         const auto gain = method.GetReport().gain;
         ASSERT_EQ(gain.status, EstimateStatus::Identified) << radius << ' ' << floor << ' ' << flicker;
-        // 4 standard errors: once in 16,000 by chance.
+        // 4 standard errors: exceeded once in 16,000 by chance.
         EXPECT_NEAR(*gain.value, 0.5, 4.0 * *gain.standardError) << radius << ' ' << floor << ' ' << flicker;
         EXPECT_LT(*gain.standardError, 0.05 * 0.5) << radius << ' ' << floor << ' ' << flicker;
       }
@@ -72,7 +73,7 @@ TEST(SensorNoiseDarkScene, ItsBrightPixelsDetermineTheGain)
 
 TEST(SensorNoiseDarkScene, AMovingThingInFrontOfADarkGroundIsNoSignal)
 {
-  // The disc moves by half of its radius over the burst: no line of variance and level goes through what it leaves.
+  // The disc moves by half its radius over the burst: no line fits the variance against the level.
   const SimulationSettings settings = DarkSettings(0.01);
   Stack<Codes>             stack{ Width, Height, settings.frames, {} };
   for (std::size_t t = 0; t < settings.frames; ++t)
@@ -80,7 +81,7 @@ TEST(SensorNoiseDarkScene, AMovingThingInFrontOfADarkGroundIsNoSignal)
     SimulationSettings one = settings;
     one.seed = 100 + t;
     one.frames = 1;
-    one.prnuSd = one.dsnuSdDn = 0.0; // they depend on the seed
+    one.prnuSd = one.dsnuSdDn = 0.0; // these patterns depend on the seed
     const auto place = 72.0 + 16.0 * static_cast<double>(t) / static_cast<double>(settings.frames);
     const auto frame = Simulate<Codes>(one, Width, Height, Disc(30.0, place, 0.02));
     stack.pixels.insert(stack.pixels.end(), frame.pixels.begin(), frame.pixels.end());

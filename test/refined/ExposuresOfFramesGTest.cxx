@@ -22,7 +22,7 @@ namespace
 {
 using Codes = unsigned short;
 
-/** Six exposures of four frames, and two dark frames in front. */
+/** Returns six exposures of four frames each, after two dark frames. */
 std::vector<double>
 ExposuresOfBurst()
 {
@@ -57,7 +57,8 @@ BrightestOf(double bend, double levelDn)
   return (b - std::sqrt(b * b - 4.0 * bend * (levelDn - 100.0) / 3500.0)) / (2.0 * bend);
 }
 
-/** EMVA 1288's linearity error of the response without noise, from the normal equations of its line [%]. */
+/** Returns the linearity error of EMVA 1288 for the response without noise, from the normal equations of its line [%].
+ */
 double
 TrueErrorPercent(double bend, double brightest)
 {
@@ -99,7 +100,7 @@ TEST(SensorNoiseExposuresOfFrames, ABentResponseHasItsLinearityError)
   ASSERT_EQ(report.linearity.errorPercent.status, EstimateStatus::Identified) << report.linearity.reason;
   const double truth = TrueErrorPercent(0.04, BrightestOf(0.04, report.linearity.levels.back().meanDn));
   EXPECT_NEAR(*report.linearity.errorPercent.value, truth, 3.0 * *report.linearity.errorPercent.standardError);
-  EXPECT_LT(*report.linearity.errorPercent.standardError, 0.05); // flicker 0.1 %, 4 frames: 0.05 % a level
+  EXPECT_LT(*report.linearity.errorPercent.standardError, 0.05); // flicker 0.1 %, 4 frames: 0.05 % per level
   EXPECT_NEAR(*report.linearity.offsetDn.value, 100.0, 4.0 * *report.linearity.offsetDn.standardError);
   EXPECT_EQ(report.linearity.levels.size(), 7u);
   EXPECT_EQ(report.linearity.levels[0].frames, 2u);
@@ -110,7 +111,7 @@ TEST(SensorNoiseExposuresOfFrames, AStraightResponseHasAnUpperLimit)
 {
   const Report report = MeasureWith(Burst(0.0), ExposuresOfBurst());
   EXPECT_EQ(report.linearity.errorPercent.status, EstimateStatus::UpperLimit);
-  EXPECT_LT(*report.linearity.errorPercent.interval95->high, 0.15); // flicker 0.1 %, 4 frames: 0.05 % a level
+  EXPECT_LT(*report.linearity.errorPercent.interval95->high, 0.15); // flicker 0.1 %, 4 frames: 0.05 % per level
 }
 
 TEST(SensorNoiseExposuresOfFrames, NothingElseChanges)

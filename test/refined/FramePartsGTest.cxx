@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-// Groups of frames whose gains differ, in tiles of known squares.
+// Groups of frames with different gains, in tiles of known squares.
 
 using namespace sensornoise;
 
@@ -22,7 +22,7 @@ constexpr double       PixelsOfTile = 1000.0;
 constexpr double       Gain = 0.5;            // [DN/e-]
 constexpr double       ReadDn2 = 4.0;         // [DN^2]
 constexpr double       OffsetDn = 100.0;      // [DN]
-constexpr double       LargestFraction = 0.9; // of the light that the darkest tile lacks
+constexpr double       LargestFraction = 0.9; // fraction of the signal that the darkest tile lacks [1]
 
 VarianceLine
 Line()
@@ -34,8 +34,8 @@ Line()
   return line;
 }
 
-/** Tiles from dark to bright, whose shot noise is as many times that of the line as \a gainOf(t) says; all frames have
- * one level. Squares scatter by chance. */
+/** Returns tiles whose shot noise in frame t is \a gainOf(t) times the shot noise of the line. All frames have one
+ * level. The squares scatter by chance. */
 template <typename TFunction>
 std::vector<TileExcess>
 TilesOf(TFunction gainOf)
@@ -73,7 +73,7 @@ TEST(SensorNoiseFrameParts, AreWhatTheLevelsMakeOfEqualFrames)
   for (const TileExcess & tile : tiles)
   {
     EXPECT_NEAR(tile.excess, 0.0, 5.0 * tile.error);
-    EXPECT_NEAR(tile.error, std::sqrt(2.0 / (5.0 * PixelsOfTile)), 0.01 * tile.error); // five frames a group
+    EXPECT_NEAR(tile.error, std::sqrt(2.0 / (5.0 * PixelsOfTile)), 0.01 * tile.error); // five frames per group
     EXPECT_NEAR(tile.shotFraction, 1.0 - ReadDn2 / (ReadDn2 + Gain * (tile.levelDn - OffsetDn)), 1e-9);
     chi2 += std::pow(tile.excess / tile.error, 2);
   }

@@ -21,10 +21,10 @@ constexpr Eigen::Index Frames = 20;
 constexpr double       Gain = 0.5;
 constexpr double       OffsetDn = 100.0;
 constexpr double       InterceptDn2 = 9.0 - Gain * OffsetDn;
-constexpr double       ZeroDn = 40.0; // from which the light of tiles is measured
+constexpr double       ZeroDn = 40.0; // level from which the signal of tiles is measured
 constexpr double       PixelsOfTile = 500.0;
 
-/** Changes of the illumination from -1 to 1. */
+/** Returns gamma from -1 to 1. */
 std::vector<double>
 Gamma()
 {
@@ -51,8 +51,8 @@ BasisOf(const std::vector<double> & gamma)
   return basis;
 }
 
-/** Tiles of slightly different light, whose squares are what the line makes of their levels, times \a factorOf(i, t).
- */
+/** Returns tiles of slightly different signal. Their squares follow from the line at their levels, times
+ * \a factorOf(i, t). */
 template <typename TFunction>
 FrameEnergies
 Energies(const std::vector<double> & gamma, TFunction factorOf)
@@ -102,7 +102,7 @@ TEST(SensorNoiseFramePhotonTransfer, OfExactSquaresIsTheirLineWhateverItStartsFr
 
 TEST(SensorNoiseFramePhotonTransfer, DoesNotDependOnTheOffsetThatIsTakenForThatOfGamma)
 {
-  // (1 + gamma)(level - offset) + offset are the same levels of one tile; those of the others differ by 2 %.
+  // The levels (1 + gamma)(level - offset) + offset of one tile are the same; the levels of the others differ by 2 %.
   const FrameEnergies energies = Energies(Gamma(), Exactly);
   const double        level = 1000.0 + 0.5 * static_cast<double>(Tiles) + ZeroDn;
   std::vector<double> gamma = Gamma();
@@ -116,7 +116,7 @@ TEST(SensorNoiseFramePhotonTransfer, DoesNotDependOnTheOffsetThatIsTakenForThatO
 
 TEST(SensorNoiseFramePhotonTransfer, IsNotMovedByWhatTilesDifferBy)
 {
-  // Noise that a tile has more in all frames, as by the read noise of its pixels.
+  // Additional noise of a tile in all frames, as from the read noise of its pixels.
   const FrameEnergies plain = Energies(Gamma(), Exactly);
   Eigen::MatrixXd     squares = plain.SquaresDn2();
   for (Eigen::Index i = 0; i < Tiles; ++i)
@@ -158,7 +158,7 @@ TEST(SensorNoiseFramePhotonTransfer, ErrorsAreThoseOfItsScatter)
   double              expected = 0.0;
   for (int draw = 0; draw < draws; ++draw)
   {
-    // Means of PixelsOfTile squares scatter by sqrt(2 / PixelsOfTile).
+    // Means of PixelsOfTile squares have the relative standard deviation sqrt(2 / PixelsOfTile).
     const auto energies = Energies(
       Gamma(), [&](Eigen::Index, Eigen::Index) { return 1.0 + std::sqrt(2.0 / PixelsOfTile) * random.Normal(); });
     const auto line = FitFramePhotonTransfer(energies, { Gamma(), OffsetDn, ZeroDn }, LineOf(1.0, 0.0)).line;
@@ -166,13 +166,14 @@ TEST(SensorNoiseFramePhotonTransfer, ErrorsAreThoseOfItsScatter)
     squares += (line.gain - Gain) * (line.gain - Gain);
     expected += line.covariance(0, 0);
   }
-  // The ratio of 300 squares to their variance scatters by 8 %; few tiles widen it by 7 %, chi-square by some.
+  // The ratio of 300 squares to their variance has the standard deviation 8 %. Few tiles add 7 %, and chi-square some.
   EXPECT_NEAR(squares / expected, 0.9, 0.3);
 }
 
 TEST(SensorNoiseFramePhotonTransfer, HasTheDeviationsOfTheFramesInTheOrderOfTheirLevels)
 {
-  // Exact squares deviate by nothing; a frame of 20 % more noise by 20 % of it, less what it moves its own line by.
+  // Exact squares have no deviation. A frame with 20 % more noise deviates by 20 %, minus its own influence on the
+  // line.
   const std::vector<double> gamma = Gamma();
   constexpr Eigen::Index    noisy = 7;
   const auto                fit = [&](double factor) {
@@ -215,18 +216,18 @@ TEST(SensorNoiseFrameNoise, IsOneForAllFramesAndNamesTheOthers)
   const auto found = judge(Energies(Gamma(), [&](Eigen::Index, Eigen::Index t) { return isOther(t) ? 1.5 : 1.0; }));
   EXPECT_EQ(found.unlike, (std::vector<std::size_t>{ 3, 11 }));
   EXPECT_EQ(found.scatter, 0.0);
-  // What happens in a few tiles is of the scene.
+  // Changes in a few tiles belong to the scene.
   const auto local =
     judge(Energies(Gamma(), [&](Eigen::Index i, Eigen::Index t) { return isOther(t) && i < 8 ? 5.0 : 1.0; }));
   EXPECT_TRUE(local.unlike.empty());
-  // A difference below the size that counts.
+  // A difference below the limit.
   const auto small = judge(Energies(Gamma(), [&](Eigen::Index, Eigen::Index t) { return isOther(t) ? 1.09 : 1.0; }));
   EXPECT_TRUE(small.unlike.empty());
 }
 
 TEST(SensorNoiseFrameNoise, OfTwoKindsMakesGroups)
 {
-  // Two halves that differ by 20 %: the value between them is 10 % from either, and none of the frames has it.
+  // Two halves differ by 20 %: the value between them is 10 % from each, and no frame has it.
   const TileLevels levels(Gamma(), OffsetDn, ZeroDn);
   const auto       energies = Energies(Gamma(), [](Eigen::Index, Eigen::Index t) { return t % 2 == 0 ? 1.0 : 1.2; });
   const FrameNoise found = GroupFramesByNoise(
@@ -255,7 +256,7 @@ TEST(SensorNoiseFrameNoise, ThatVariesWithoutGroupsIsScatter)
 
 TEST(SensorNoiseFrameNoise, ThatIsKnownIsTakenOffTheOthers)
 {
-  // The projection leaves some of the noise of a frame in the others.
+  // The projection distributes a part of the noise of a frame over the others.
   const TileLevels   levels(Gamma(), OffsetDn, ZeroDn);
   const VarianceLine line = LineOf(Gain, InterceptDn2);
   Eigen::VectorXd    known = Eigen::VectorXd::Ones(Frames);
@@ -286,7 +287,7 @@ TEST(SensorNoiseFrameNoise, NamesGroupsInWords)
 
 TEST(SensorNoiseFrameNoise, IsWithinTheErrorOfTheSlope)
 {
-  // A slope that is wrong by its own error puts no frame aside.
+  // With a slope that is wrong by its standard error no frame is left out.
   const TileLevels    levels(Gamma(), OffsetDn, ZeroDn);
   const FrameEnergies energies = Energies(Gamma(), Exactly);
   VarianceLine        line = LineOf(2.0 * Gain, 0.0);
@@ -299,7 +300,7 @@ TEST(SensorNoiseFrameNoise, IsWithinTheErrorOfTheSlope)
 
 TEST(SensorNoiseFrameNoise, OfALineThatTellsNoSlopeIsJudgedBySlopesOfSensors)
 {
-  // Frames of several levels then say nothing against each other; frames of one level do, whatever the slope.
+  // Frames of different levels are then not compared; frames of one level are, with any slope.
   VarianceLine line = LineOf(0.5 * Gain, 0.0);
   line.intercept = InterceptDn2 + Gain * line.pivotDn - line.gain * line.pivotDn;
   const double          unknown = std::numeric_limits<double>::infinity();

@@ -24,7 +24,7 @@ constexpr double ReadVarianceDn2 = 64.0;
 constexpr double PivotDn = 1600.0;
 constexpr double PivotErrorDn2 = 2.0;
 
-/** A line through the variance at the pivot, 1564 DN^2 with an error of 2. */
+/** Returns a line through the variance at the pivot, 1564 DN^2 with an error of 2 DN^2. */
 VarianceLine
 LineOf(double gain, double gainError)
 {
@@ -42,7 +42,7 @@ LineOf(double gain, double gainError)
   return line;
 }
 
-/** What the passes found of a sensor of 1 DN/e-, 100 DN and 8 DN. */
+/** Results of the passes for a sensor with the gain 1 DN/e-, the offset 100 DN and the read noise 8 DN. */
 struct Found
 {
   RefinedSettings       settings;
@@ -57,7 +57,7 @@ struct Found
     variance.line = LineOf(1.0, gainError);
     this->SetCurve([](double) { return 0.0; });
   }
-  /** Levels from 110 to 3,090 DN; the variance departs from the line by a share of the line. */
+  /** Sets a curve at levels from 110 to 3,090 DN, with relative deviations \a departureOf from the line. */
   void
   SetCurve(const std::function<double(double levelDn)> & departureOf)
   {
@@ -87,7 +87,7 @@ TEST(SensorNoiseGainEstimate, StraightSensorKeepsItsLineAndItsErrors)
   EXPECT_EQ(estimate.nonlinearity, 0.0);
   EXPECT_EQ(estimate.RelativeModelError(), 0.0);
   EXPECT_NEAR(estimate.StandardError(), 0.002, 1e-12);
-  EXPECT_NEAR(estimate.scale, 1564.0 / 1500.0, 1e-12); // variance over light at the pivot
+  EXPECT_NEAR(estimate.scale, 1564.0 / 1500.0, 1e-12); // variance over signal at the pivot
   EXPECT_FALSE(estimate.atOffset);
 }
 
@@ -97,15 +97,15 @@ TEST(SensorNoiseGainEstimate, LineIsChosenByErrorsAndNeverByValues)
   {
     Found found;
     found.variance.instrumentalLine = LineOf(lightGain, 0.005);
-    EXPECT_EQ(found.Estimate().line.gain, 1.0) << lightGain; // no pattern: 0.002 is less
+    EXPECT_EQ(found.Estimate().line.gain, 1.0) << lightGain; // no pattern: 0.002 is smaller
     found.variance.pattern.gainFraction = 0.01;
-    EXPECT_EQ(found.Estimate().line.gain, lightGain); // 0.01 is more than 0.005
+    EXPECT_EQ(found.Estimate().line.gain, lightGain); // 0.01 is larger than 0.005
     EXPECT_NEAR(found.Estimate().StandardError(), 0.005, 1e-12);
     found.variance.pattern.gainFraction = 0.004;
     const GainEstimate wider = found.Estimate();
     EXPECT_EQ(wider.line.gain, 1.0);
-    EXPECT_NEAR(wider.StandardError(), std::hypot(0.002, 0.004), 1e-12); // what the pattern could cause
-    // The value at the pivot is as sure as before.
+    EXPECT_NEAR(wider.StandardError(), std::hypot(0.002, 0.004), 1e-12); // with the bias that the pattern could cause
+    // The error at the pivot is unchanged.
     const Eigen::Vector2d pivot(PivotDn, 1.0);
     EXPECT_NEAR(std::sqrt(pivot.dot(wider.covariance * pivot)), PivotErrorDn2, 1e-6);
   }
@@ -113,7 +113,7 @@ TEST(SensorNoiseGainEstimate, LineIsChosenByErrorsAndNeverByValues)
 
 TEST(SensorNoiseGainEstimate, BentResponseHasTheMeanGain)
 {
-  // About 3 % more variance in the middle of the levels, 6 % less at the ends.
+  // The variance is about 3 % larger in the middle of the levels, and 6 % smaller at the ends.
   Found found;
   found.SetCurve([](double level) { return 0.03 * (1.0 - 3.0 * std::pow((level - PivotDn) / 1490.0, 2)); });
   const GainEstimate estimate = found.Estimate();
@@ -122,15 +122,15 @@ TEST(SensorNoiseGainEstimate, BentResponseHasTheMeanGain)
   EXPECT_TRUE(estimate.IsNonlinear());
   EXPECT_EQ(estimate.line.gain, cubic->value);
   EXPECT_EQ(estimate.nonlinearity, found.variance.curve.Nonlinearity(1.0));
-  // The interval reaches half of the way to the slope, and a third of the nonlinearity, on either side.
+  // The interval contains half of the difference to the slope, and a third of the nonlinearity, on both sides.
   EXPECT_GE(estimate.below, 0.5 * std::abs(cubic->value - 1.0));
   EXPECT_GE(estimate.above, estimate.nonlinearity * cubic->value / 3.0 - 1e-12);
-  EXPECT_NEAR(estimate.line.intercept + estimate.line.gain * PivotDn, 1564.0, 1e-9); // turned about the pivot
+  EXPECT_NEAR(estimate.line.intercept + estimate.line.gain * PivotDn, 1564.0, 1e-9); // rotated about the pivot
 }
 
 TEST(SensorNoiseGainEstimate, OneLevelAndADarkPointArePhotonTransfer)
 {
-  // A slope that is not known at all; the dark frames have other numbers than the line.
+  // The slope is not known, and the dark frames contradict the line.
   Found found(10.0);
   found.settings.offset = KnownOffset{ 90.0, 0.03, 20, DarkVariance{ 50.0, 0.4 } };
   const GainEstimate estimate = found.Estimate();
@@ -159,7 +159,7 @@ TEST(SensorNoiseGainEstimate, KnownLineAndDarkPointAreWeighted)
   Found found(0.002);
   found.settings.offset = KnownOffset{ OffsetDn, 0.0, 20, DarkVariance{ ReadVarianceDn2 + 3.0, 1.0 } };
   const GainEstimate estimate = found.Estimate();
-  // The line's value at the offset is 64 with a variance of 2^2 + (0.002 x 1500)^2 = 13, the dark frames' 67 with 1.
+  // At the offset the line is 64 with the variance 2^2 + (0.002 x 1500)^2 = 13, and the dark frames give 67 with 1.
   ASSERT_TRUE(estimate.atOffset);
   EXPECT_NEAR(estimate.atOffset->valueDn2, ReadVarianceDn2, 1e-9);
   EXPECT_NEAR(estimate.atOffset->standardErrorDn2, std::sqrt(13.0), 1e-9);
@@ -172,7 +172,7 @@ TEST(SensorNoiseGainEstimate, LineThatIsNotKnownHasNoDepartures)
 {
   Found found(1.0);
   found.SetCurve([](double level) { return level > PivotDn ? 0.2 : -0.2; });
-  const GainEstimate estimate = found.Estimate(-1e4); // as of a flat field: little of the light differs
+  const GainEstimate estimate = found.Estimate(-1e4); // as in a flat field, where the signals hardly differ
   EXPECT_FALSE(estimate.isWide);
   EXPECT_EQ(estimate.nonlinearity, 0.0);
   EXPECT_FALSE(estimate.IsNonlinear());

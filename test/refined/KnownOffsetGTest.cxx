@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-// What the refined method does with an offset that is known. Camera B: g = 1 DN/e-, mu = 100 DN, sigma = 8 DN.
+// The refined method with a known offset. Camera B: g = 1 DN/e-, mu = 100 DN, sigma = 8 DN.
 
 using namespace sensornoise;
 using namespace sensornoise::test;
@@ -38,7 +38,7 @@ WithFlicker(double flickerSd)
   return settings;
 }
 
-/** The target scene under light that flickers, and \a veilElectrons of light that does not. */
+/** Simulates the target scene under flickering illumination, with a steady signal of \a veilElectrons electrons. */
 Stack<Codes>
 SimulateVeil(double flickerSd, double veilElectrons)
 {
@@ -67,17 +67,17 @@ ReportOf(const Stack<Codes> & stack, const std::optional<KnownOffset> & offset =
   return Measure(stack, settings).GetReport();
 }
 
-/** Of 19 degrees of freedom, tabulated. */
+/** Quantile 0.975 of Student's distribution with 19 degrees of freedom, tabulated. */
 constexpr double StudentQuantile = 2.0930240544;
 
-/** As dark frames that hold the truth would tell it. */
+/** Returns the known offset of 20 dark frames, with the true offset. */
 KnownOffset
 DarkOf(double varianceDn2, double errorDn2)
 {
   return { 100.0, 0.02, 20, DarkVariance{ varianceDn2, errorDn2 } };
 }
 
-/** Identified, and within 4 standard errors of the truth. */
+/** Expects that a quantity is identified, and deviates from the truth by at most 4 standard errors. */
 void
 ExpectTruth(const Quantity & quantity, double truth)
 {
@@ -90,7 +90,7 @@ TEST(SensorNoiseKnownOffset, SteadyLightIsToldFromTheOffset)
 {
   const Stack<Codes> stack = SimulateVeil(0.05, 200.0);
   const Report       blind = ReportOf(stack);
-  ExpectTruth(blind.offset, 300.0); // the level that does not flicker
+  ExpectTruth(blind.offset, 300.0); // the component that does not flicker
   EXPECT_FALSE(HasWarning(blind, WarningCode::SteadyLight));
 
   const Report report = ReportOf(stack, KnownOffset{ 100.0, 0.1 });
@@ -124,7 +124,7 @@ TEST(SensorNoiseKnownOffset, NoFlickerIsNeeded)
   ASSERT_TRUE(report.covariance);
   EXPECT_EQ((*report.covariance)[2][2], 0.25);
   EXPECT_TRUE(report.warnings.empty()) << report.warnings.front().message;
-  // The offset's error alone makes g 0.5 DN / (2 sigma) = 0.031 DN of that of the read noise.
+  // The error of the offset alone contributes g 0.5 DN / (2 sigma) = 0.031 DN to the error of the read noise.
   EXPECT_GT(*report.readNoise.standardError, 0.031);
 }
 
@@ -135,7 +135,7 @@ TEST(SensorNoiseKnownOffset, DarkFramesTellTheReadNoise)
   EXPECT_NEAR(ValueOf(report.readNoise), 8.0, 1e-9);
   EXPECT_NEAR(*report.readNoise.standardError, 0.32 / 16.0, 1e-9);
   ASSERT_TRUE(report.readNoise.interval95);
-  // Twenty dark frames: Student's quantile for 19 degrees of freedom.
+  // Twenty dark frames: the quantile of Student's distribution with 19 degrees of freedom.
   EXPECT_NEAR(*report.readNoise.interval95->low, std::sqrt(64.0 - StudentQuantile * 0.32), 1e-9);
   EXPECT_NEAR(ValueOf(report.readNoiseElectrons), 8.0 / *report.gain.value, 1e-9);
   EXPECT_GT(*report.readNoiseElectrons.standardError, *report.readNoise.standardError);
@@ -166,8 +166,8 @@ TEST(SensorNoiseKnownOffset, ReadNoiseThatTheDarkFramesDoNotShowIsAnUpperLimit)
   EXPECT_FALSE(noisy.readNoise.value);
   EXPECT_NEAR(*noisy.readNoise.bracket->high, std::sqrt(64.0 - 1.0 / 12.0 + StudentQuantile * 40.0), 1e-9);
   EXPECT_TRUE(HasWarning(noisy, WarningCode::ReadNoiseUpperLimit));
-  const Stack<Codes> even{ Size, Size, 20, std::vector<Codes>(Size * Size * 20, 700) }; // tells nothing itself
-  const Report       coarse = ReportOf(even, DarkOf(0.2, 0.001));                       // of codes with a step of 1 DN
+  const Stack<Codes> even{ Size, Size, 20, std::vector<Codes>(Size * Size * 20, 700) }; // determines nothing
+  const Report       coarse = ReportOf(even, DarkOf(0.2, 0.001));                       // quantization step 1 DN
   EXPECT_EQ(coarse.readNoise.status, EstimateStatus::UpperLimit);
   EXPECT_NEAR(*coarse.readNoise.bracket->high, 0.5, 1e-12);
 }
@@ -229,7 +229,7 @@ TEST(KnownOffset, ThatIsFarOutsideTheLevelsIsRefused)
   settings.offset = KnownOffset{ 100.0, 1e9 };
   EXPECT_NE(refusalOf(settings, 65536.0), "");
 
-  // Integer pixels tell before a frame is read.
+  // For integer pixels the limit is known before a frame is read.
   settings.offset = KnownOffset{ 70000.0, 0.0 };
   EXPECT_THROW(RefinedMethod<unsigned short>(settings, { 16, 16, 1 }, 20), std::invalid_argument);
   settings.offset = KnownOffset{ 300.0, 0.0 };

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-// What is unlike the other frames is left out: the result is, bit by bit, that of the others alone.
+// Frames that are unlike the others are left out: the result has the bits of the result of the others alone.
 
 using namespace sensornoise;
 using namespace sensornoise::test;
@@ -41,7 +41,7 @@ NamesOf(const std::vector<LeftOutFrame> & frames)
 
 constexpr double OffsetDn = 100.0;
 
-/** Large enough for the noise of a frame to be known to 2 %. */
+/** Returns frames that are large enough to measure the noise of a frame within 2 %. */
 Stack<Codes>
 NoisyStack(std::size_t frames)
 {
@@ -51,7 +51,7 @@ NoisyStack(std::size_t frames)
   return Simulate<Codes>(settings, 128, 96);
 }
 
-/** Its first frames, and three more of another gain. */
+/** Returns the first frames of a stack, and three more of another gain. */
 Stack<Codes>
 WithFramesOfAnotherGain(const Stack<Codes> & stack)
 {
@@ -62,7 +62,7 @@ WithFramesOfAnotherGain(const Stack<Codes> & stack)
                   { std::size_t{ 20 }, OfAnotherGain(more, stack.frames + 2, 1.5, OffsetDn) } });
 }
 
-/** Lets processes that read every other frame each run one pass. */
+/** Runs one pass in two processes that read alternate frames. */
 void
 RunSharedPass(RefinedMethod<Codes> & one, RefinedMethod<Codes> & two, const Stack<Codes> & stack)
 {
@@ -145,7 +145,7 @@ TEST(SensorNoiseLeftOutFrames, OfSeveralProcessesAreThoseOfOne)
   {
     RunSharedPass(one, two, unlike);
   }
-  EXPECT_EQ(passes, 4U); // the moments twice
+  EXPECT_EQ(passes, 4U); // the moments are summed twice
   EXPECT_TRUE(two.IsDone());
   const auto expected = Measure(stack);
   ExpectResultOfOthers(one, expected);
@@ -187,7 +187,7 @@ TEST(SensorNoiseLeftOutFrames, OfThePublishedMethodAreLeftOutAlike)
 TEST(SensorNoiseLeftOutFrames, OfOnePlaneOfAMosaicAreLeftOutOfAll)
 {
   const auto & plane = SmallStack<Codes>();
-  // All planes show the scene; one frame is zeros in the plane of the blue pixels alone.
+  // All planes show the scene. One frame has zeros in the plane of the blue pixels alone.
   const MosaicGeometry  geometry{ { 2 * plane.width, 2 * plane.height, 1 }, BayerPattern::RGGB };
   constexpr std::size_t at = 4;
   Stack<Codes>          mosaic{ geometry.frame.width, geometry.frame.height, plane.frames, {} };
@@ -254,7 +254,7 @@ TEST(SensorNoiseLeftOutFrames, OfAnotherGainInSeveralProcessesAreThoseOfOne)
 
 namespace
 {
-/** The stack with every so many frames, the first ones, of another gain. */
+/** Returns the report of a stack in which \a count frames, one in \a every, have another gain. */
 Report
 ReportOfMixed(Stack<Codes> stack, std::size_t every, std::size_t count, double gain)
 {
@@ -277,7 +277,7 @@ TEST(SensorNoiseLeftOutFrames, OfSeveralGainsInHalfOfTheStackGiveNoGain)
 
 TEST(SensorNoiseLeftOutFrames, OfAStepOfTheGainAreNamedInGroups)
 {
-  // Halves that differ by 25 %: each is within 12 % of the mean.
+  // The halves differ by 25 %: each is within 12 % of the mean.
   const Report report = ReportOfMixed(NoisyStack(40), 1, 20, 1.25);
   EXPECT_FALSE(report.gain.value) << *report.gain.value;
   ASSERT_FALSE(report.warnings.empty());
@@ -291,8 +291,8 @@ TEST(SensorNoiseLeftOutFrames, OfAStepOfTheGainAreNamedInGroups)
 
 TEST(SensorNoiseLeftOutFrames, OfNoiseAloneMakeNoLocalLight)
 {
-  // Four times the noise at the same level, as of interpolated or amplified frames: what a frame has alone is no light
-  // that changes, behind which its noise would be hidden.
+  // Four times the noise variance at the same level, as in interpolated or amplified frames. The noise of a single
+  // frame must not be removed as local illumination.
   auto       stack = NoisyStack(40);
   const auto others = NoisyStack(43);
   const auto pixels = stack.width * stack.height;
@@ -327,7 +327,7 @@ TEST(SensorNoiseLeftOutFrames, OfAnotherDarkOffsetAreNamed)
     return Measure(frames, RefinedSettings()).GetReport();
   };
   EXPECT_EQ(NamesOf(raised(2).framesLeftOut), "3 other-offset; 5 other-offset; ");
-  // More than a fifth: it is not clear what the offset is.
+  // More than a fifth of the frames: the offset is ambiguous.
   const Report report = raised(12);
   EXPECT_TRUE(report.framesLeftOut.empty());
   EXPECT_FALSE(report.offset.value) << *report.offset.value;

@@ -18,7 +18,7 @@ namespace
 constexpr FrameGeometry Geometry{ 30, 20, 1 };
 constexpr std::size_t   Frames = 10;
 
-/** Two levels as often as each other, whose third moment is 0: shot noise then makes no variance smaller. */
+/** Returns one of two equally frequent levels. Their third moment is 0, so that shot noise decreases no variance. */
 double
 LevelOf(std::size_t t)
 {
@@ -36,7 +36,7 @@ Levels()
   return levels;
 }
 
-/** Maps of a stack, by the formulas of mean and variance. */
+/** Returns the maps of a stack, by the formulas of mean and variance. */
 StackMaps
 MapsOf(const std::vector<float> & stack)
 {
@@ -87,7 +87,7 @@ TEST(SensorNoiseLevelProjection, LeavesTheMeanSquareAboutTheRegressionOnTheLevel
     }
     const double squares = 400.0 * 400.0 * Frames;
     const double expected = ((Frames - 1) * maps.variance[p] - product * product / squares) / (Frames - 2);
-    // The series is rounded to 2^-20: so far is it from the regression's.
+    // The temporal component is rounded to 2^-20, which limits the agreement with the regression.
     ASSERT_NEAR(found.ofScene.variance[p], expected, 1e-5 * maps.variance[p]) << p;
     ASSERT_EQ(found.rawVariance[p], maps.variance[p]);
     ASSERT_EQ(found.ofScene.mean[p], maps.mean[p]);

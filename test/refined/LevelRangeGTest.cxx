@@ -64,7 +64,7 @@ TEST(SensorNoiseLevelRange, PixelsOfOtherLevelsAreLeftOut)
 
 TEST(SensorNoiseLevelRange, StraightPartOfABentResponseHasItsOwnGain)
 {
-  // A shoulder from 60 % on: below, the gain is 1.04.
+  // A shoulder from 60 % on. Below it the gain is 1.04.
   SimulationSettings settings = StillCamera(40);
   settings.flaws.response = { ResponseShape::Shoulder, 0.04 };
   const Stack<Codes> stack = Simulate<Codes>(settings, Size, Size);

@@ -19,8 +19,8 @@ namespace
 constexpr std::size_t Size = 128;
 constexpr std::size_t Frames = 50;
 
-/** The report of frames whose odd rows, or columns, have an illumination of their own, of the standard deviation \a sd.
- */
+/** Returns the report of frames whose odd rows, or columns, have a separate illumination factor with the standard
+ * deviation \a sd. */
 Report
 ReportOfInterlaced(double sd, bool areColumns = false)
 {

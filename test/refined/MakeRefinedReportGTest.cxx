@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <gtest/gtest.h>
 
-// The report of results made by hand: every number follows from them.
+// Report of constructed results, from which every number follows.
 
 using namespace sensornoise;
 using namespace sensornoise::test;
@@ -23,16 +23,16 @@ TEST(SensorNoiseMakeRefinedReport, NumbersAreThoseOfTheLineAndTheFlicker)
   EXPECT_DOUBLE_EQ(ValueOf(report.gain), 1.0);
   EXPECT_DOUBLE_EQ(*report.gain.standardError, 0.01);
   EXPECT_DOUBLE_EQ(ValueOf(report.intercept), -36.0);
-  EXPECT_DOUBLE_EQ(ValueOf(report.totalIntercept), -36.0); // no codes
+  EXPECT_DOUBLE_EQ(ValueOf(report.totalIntercept), -36.0); // no quantization
   EXPECT_DOUBLE_EQ(ValueOf(report.offset), 100.0);
   EXPECT_DOUBLE_EQ(*report.offset.standardError, 0.5);
   // -36 + 1 * 100 = 64.
   EXPECT_DOUBLE_EQ(ValueOf(report.readNoise), 8.0);
   EXPECT_DOUBLE_EQ(ValueOf(report.readNoiseElectrons), 8.0);
-  // Of the square: the line's error 1,000 DN from its pivot, and the offset's.
+  // The error of the square: the error of the line 1,000 DN from its pivot, and the error of the offset.
   const double square = std::sqrt(25.0 + 1e-4 * 1000.0 * 1000.0 + 0.25);
   EXPECT_NEAR(*report.readNoise.standardError, square / 16.0, 1e-9);
-  // 19 of 20 squares of 0.02, without the noise of 1e-8.
+  // 20 squares of 0.02 with 19 degrees of freedom, without the noise of 1e-8.
   EXPECT_NEAR(ValueOf(report.flickerSd), std::sqrt(20.0 / 19.0 * 4e-4 - 1e-8), 1e-9);
   EXPECT_EQ(report.vibrationSdX.status, EstimateStatus::NotIdentifiable); // no derivative is active
   ASSERT_TRUE(report.covariance);
@@ -40,7 +40,7 @@ TEST(SensorNoiseMakeRefinedReport, NumbersAreThoseOfTheLineAndTheFlicker)
   EXPECT_DOUBLE_EQ((*report.covariance)[2][2], 0.25);
 }
 
-// What a transform's error needs is there without an offset, too, and is the same.
+// The covariances that the error of a transform needs exist without an offset, too, and are the same.
 TEST(SensorNoiseMakeRefinedReport, ErrorsOfTheLineNeedNoOffset)
 {
   HandMadeResults results;
@@ -121,7 +121,7 @@ TEST(SensorNoiseMakeRefinedReport, EnlargedFramesLeaveLimitsOfTheGainAndTheLineO
   const Report report = MakeRefinedReport(results.Get());
   EXPECT_EQ(report.gain.status, EstimateStatus::NotIdentifiable);
   ASSERT_TRUE(report.gain.bracket);
-  // As for white noise, and four times that, each with two of its standard errors.
+  // The value for white noise, and four times this value, each with two standard errors.
   EXPECT_NEAR(*report.gain.bracket->low, 1.0, 0.03);
   EXPECT_NEAR(*report.gain.bracket->high, 4.0, 0.1);
   EXPECT_EQ(report.readNoise.status, EstimateStatus::NotIdentifiable);

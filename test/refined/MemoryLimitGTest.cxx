@@ -29,7 +29,7 @@ constexpr std::size_t Height = 1000;
 constexpr std::size_t Frames = 12;
 static_assert(Width * Height > 2 * ProjectionSums::SlabPixels, "the frames have three slabs");
 
-/** Noise of 1 DN/e- and 10 DN^2 on waves, in light that flickers: everywhere alike, or in bands of rows. */
+/** Returns waves with noise of 1 DN/e- and 10 DN^2, under flicker that is uniform, or differs between bands of rows. */
 Stack<Codes>
 FramesOf(bool isIlluminationLocal)
 {
@@ -77,8 +77,8 @@ MeasureWithin(const Stack<Codes> & stack, double bytes)
   return limited;
 }
 
-/** With sums that stay, and as little memory as there may be. The third pass is given all frames together, which it is
- * told to forget, and then \a atOnce at a time. */
+/** Measures without merging, within the least memory. In the third pass all frames are added together, discarded, and
+ * added again, \a atOnce at a time. */
 Limited
 MeasureWithSumsThatStay(const Stack<Codes> & stack, std::size_t atOnce)
 {
@@ -122,7 +122,7 @@ TEST_P(SensorNoiseMemoryLimit, ReadsMoreOftenAndChangesNoBit)
   EXPECT_EQ(free.passes, 3U);
   EXPECT_EQ(HasWarning(free.method.GetReport(), WarningCode::LocalLight), this->GetParam());
   const Limited limited = MeasureWithin(stack, MemoryNeed{ Width * Height, Frames }.Least());
-  EXPECT_GT(limited.passes, this->GetParam() ? 4U : 3U); // one for the light alone
+  EXPECT_GT(limited.passes, this->GetParam() ? 4U : 3U); // one more for the components of the illumination
   ExpectSameBits(limited, free);
 }
 

@@ -36,8 +36,8 @@ CovarianceOfSeries(const std::vector<double> & a, const std::vector<double> & b)
 }
 } // namespace
 
-// Little light, so that the noise of the shifts is as large as they are. Of 16 departures in standard errors the mean
-// square is chi2 / 16 where the error is right: 0.25 to 2.45 in 99.8 of 100 cases.
+// The signal is small, so that the noise of the shifts is as large as the shifts. If the errors are right, the mean
+// square of 16 deviations in standard errors is chi2 / 16, from 0.25 to 2.45 in 99.8 of 100 cases.
 TEST(SensorNoiseMotionReport, TheCovarianceOfTheVibrationHasAnError)
 {
   double squares = 0.0;
@@ -60,7 +60,7 @@ TEST(SensorNoiseMotionReport, TheCovarianceOfTheVibrationHasAnError)
   EXPECT_LT(squares / 16.0, 2.45);
 }
 
-// Every quantity of the refined method that has a value has an error and an interval.
+// With the refined method every quantity with a value has a standard error and an interval.
 TEST(SensorNoiseMotionReport, WhatIsIdentifiedHasAnError)
 {
   const Report report = Measure(Simulate<unsigned short>(FlickeringSettings(30), Size, Size)).GetReport();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-// A report's noise model held against frames that it was not made from.
+// Check of the noise model of a report on other frames.
 #include "sensornoise/Report.h"
 #include "sensornoise/ReportText.h"
 #include "sensornoise/Simulator.h"
@@ -24,7 +24,7 @@ using Verdict = NoiseModelCheck::Verdict;
 constexpr std::size_t Width = 192;
 constexpr std::size_t Height = 144;
 
-/** The report of 60 frames of camera B, with flicker and vibration. */
+/** Returns the report of 60 frames of camera B, with flicker and vibration. */
 Report
 ReportOf(std::uint64_t seed, const std::function<void(SimulationSettings &)> & change = [](SimulationSettings &) {})
 {
@@ -54,7 +54,8 @@ TEST(NoiseModelOfFrames, FitsHeldOutFramesInEveryBand)
     EXPECT_LT(band.standardError, 0.03) << MakeTable(check);
     chi2 += std::pow((*band.ratio - 1.0) / band.standardError, 2);
   }
-  // The report's own errors are common to the bands: twice the expectation of chi-square, and 4.5 of its deviations.
+  // The errors of the report are common to the bands. The limit is twice the expectation of chi-square, plus 4.5 of its
+  // standard deviations.
   const auto bands = static_cast<double>(check.bands.size());
   EXPECT_LT(chi2, 2.0 * bands + 4.5 * std::sqrt(2.0 * bands)) << MakeTable(check);
 }
@@ -70,7 +71,7 @@ TEST(NoiseModelOfFrames, SlopeThatIsFivePerCentWrongIsSeen)
   }
 }
 
-// Smoothed frames have less noise than raw ones: their report is of no use for those, but serves themselves.
+// Smoothed frames have less noise than raw frames. Their noise model does not fit raw frames, but smoothed ones.
 TEST(NoiseModelOfFrames, ReportOfSmoothedFramesFitsSmoothedFramesOnly)
 {
   const auto   smooth = [](SimulationSettings & settings) { settings.flaws.smoothing.sdPixels = 0.5; };
@@ -92,9 +93,9 @@ TEST(NoiseModelOfFrames, OtherGainAndOtherOffsetAreSeen)
   }
 }
 
-// What the check says is the temporal variance of the transformed frames: here, where nothing flickers or moves, that
-// is taken itself. 4 e- to 60 e-, of which the transform makes 1.0 to 1.07. Both are of the same frames; the
-// transform's own variance is that of the band's middle: 0.015.
+// The ratio of the check is the temporal variance of the transformed frames, which is computed here without flicker and
+// motion. From 4 e- to 60 e- the transform gives variances from 1.0 to 1.07. Both are from the same frames. The
+// variance of the transform is taken at the middle of the band, which adds 0.015.
 TEST(NoiseModelOfFrames, IsTheVarianceOfTransformedFrames)
 {
   SimulationSettings settings = FlickeringSettings(60);

@@ -9,14 +9,14 @@
 #include <limits>
 #include <string>
 
-// When the flicker tells the offset, and what is said where it does not: on results made by hand.
+// Conditions for an offset from the flicker, and the reasons for a failed estimate, on constructed results.
 
 using namespace sensornoise;
 using namespace sensornoise::test;
 
 namespace
 {
-/** With a line of gain 1 DN/e- and limits of 50 and 150 DN. */
+/** Results with a line of gain 1 DN/e- and bounds of 50 and 150 DN. */
 struct Results : HandMadeResults
 {
   GainEstimate gain;
@@ -33,7 +33,7 @@ struct Results : HandMadeResults
   {
     return EstimateOffset(this->Get(), gain, limits);
   }
-  /** Whether the offset is not told, for a reason that begins so. */
+  /** Returns whether the offset is not identifiable, for a reason that begins with \a reason. */
   bool
   IsRefused(const std::string & reason) const
   {
@@ -55,7 +55,7 @@ TEST(SensorNoiseOffsetEstimate, FlickerTellsItWithItsInterval)
 TEST(SensorNoiseOffsetEstimate, PatternOfOffsetsWidensItInProportionToTheLight)
 {
   Results results;
-  results.variance.pattern.offsetFraction = 0.01; // of 1,000 DN: 10 DN
+  results.variance.pattern.offsetFraction = 0.01; // 1 % of 1,000 DN: 10 DN
   const OffsetEstimate offset = results.Estimate();
   EXPECT_DOUBLE_EQ(offset.standardErrorDn, std::hypot(0.5, 10.0));
   EXPECT_DOUBLE_EQ(*offset.interval.low, 99.0 - 19.6);
@@ -91,14 +91,14 @@ TEST(SensorNoiseOffsetEstimate, WhatKeepsTheFlickerFromTellingItIsSaid)
 TEST(SensorNoiseOffsetEstimate, LimitsHoldButForThreeOfItsErrors)
 {
   Results results;
-  results.limits.highestDn = 98.4; // 1.6 DN below: 3.2 errors
+  results.limits.highestDn = 98.4; // 1.6 DN below: 3.2 standard errors
   EXPECT_TRUE(results.IsRefused("the level that does not flicker, 100 DN"));
   results.limits.highestDn = 98.6;
   EXPECT_EQ(results.Estimate().failureReason, "");
   results.limits.highestDn = 150.0;
   results.limits.lowestDn = 101.6;
   EXPECT_TRUE(results.IsRefused("the level that does not flicker, 100 DN"));
-  // The error of the intercept, 0.1 DN^2 over a gain of 1 DN/e-, moves that end, too.
+  // The error of the intercept, 0.1 DN^2 over a gain of 1 DN/e-, widens this bound, too.
   results.gain.covariance(1, 1) = 0.01;
   EXPECT_EQ(results.Estimate().failureReason, "");
 }
@@ -116,7 +116,7 @@ TEST(SensorNoiseOffsetEstimate, WhereLightIsLocalTheResponsesToItTell)
   EXPECT_TRUE(results.IsRefused("the lamps do not agree on one offset"));
   results.reestimated.localOffset.reset();
   EXPECT_TRUE(results.IsRefused("the illumination changes differently over the frame"));
-  results.reestimated.isOffsetDrift = true; // then it is no light, and the flicker counts
+  results.reestimated.isOffsetDrift = true; // then the component is no illumination, and the flicker decides
   EXPECT_TRUE(results.IsRefused("the flicker"));
 }
 
@@ -129,7 +129,7 @@ TEST(SensorNoiseOffsetEstimate, OffsetInUseIsKnownOrToldOrInTheMiddleOfTheLimits
   EXPECT_DOUBLE_EQ(inUse().valueDn, 100.0);
   EXPECT_DOUBLE_EQ(inUse().errorDn, 0.5);
   results.reestimated.line.flickerZ = 0.0;
-  EXPECT_DOUBLE_EQ(inUse().valueDn, 100.0); // of 50 to 150 DN, as likely everywhere
+  EXPECT_DOUBLE_EQ(inUse().valueDn, 100.0); // uniformly distributed from 50 to 150 DN
   EXPECT_DOUBLE_EQ(inUse().errorDn, 100.0 / std::sqrt(12.0));
   results.settings.offset = KnownOffset{ 97.0, 0.2 };
   EXPECT_DOUBLE_EQ(inUse().valueDn, 97.0);

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <gtest/gtest.h>
 
-// What physics leaves to an offset that the flicker does not tell.
+// Bounds of an offset that the flicker does not determine.
 
 using namespace sensornoise;
 using namespace sensornoise::test;
@@ -33,7 +33,7 @@ ReportOf(char camera, double flickerSd, std::uint64_t seed)
 
 TEST(SensorNoiseOffsetLimits, WithoutFlickerTheBracketHoldsTheTruth)
 {
-  // Each end is meant for 97.5 % or more: of 24 stacks one may miss, by chance (three or more: p < 0.02).
+  // Each bound holds with at least 97.5 %: one of 24 stacks may violate it by chance (three or more: p < 0.02).
   int held = 0;
   int stacks = 0;
   for (const char camera : { 'A', 'B', 'C' })
@@ -48,7 +48,7 @@ TEST(SensorNoiseOffsetLimits, WithoutFlickerTheBracketHoldsTheTruth)
       const double high = *report.offset.bracket->high;
       ++stacks;
       held += low <= truth.offsetDn && truth.offsetDn <= high ? 1 : 0;
-      // The read noise leaves the lower end sigma^2 / g, the darkest level is dark: it tells something.
+      // The lower bound is sigma^2 / g below the offset, and the darkest level is dark: the bounds are close.
       const double readWidthDn = truth.readNoiseDn * truth.readNoiseDn / truth.gainDnPerElectron;
       EXPECT_LT(high - low, 2.0 * readWidthDn + 0.02 * truth.gainDnPerElectron * truth.electrons) << camera << seed;
       ASSERT_TRUE(report.readNoise.bracket && report.readNoise.bracket->high);

@@ -20,8 +20,8 @@ namespace
 constexpr std::size_t Width = 16;
 constexpr std::size_t Height = 9;
 
-/** Pixel uses after LeaveOutEdges() of a frame whose level is a function of x, all chosen. The variance is 1 DN times
- * the level. */
+/** Returns the pixel uses after LeaveOutEdges() of a frame whose level is a function of x. All pixels were chosen, and
+ * the variance is 1 DN times the level. */
 template <typename TLevel>
 std::vector<std::uint8_t>
 UsesOf(const TLevel & level)
@@ -47,7 +47,8 @@ UsesOf(const TLevel & level)
 
 TEST(SensorNoisePixelsOfVariance, PixelsBesideAStepAreEdges)
 {
-  // 5 x 5 pixels around x = 7 hold two columns of the other level, 40 % of them: a step of 10.1 % is just above 4 %.
+  // Two columns of the 5 x 5 pixels around x = 7 have the other level, 40 % of them: a step of 10.1 % gives just above
+  // 4 %.
   const auto uses = UsesOf([](std::size_t x) { return x < 8 ? 1000.0 : 1101.0; });
   for (std::size_t p = 0; p < uses.size(); ++p)
   {
@@ -78,6 +79,6 @@ TEST(SensorNoisePixelsOfVariance, SmoothedEdgesAreNoBendOfTheResponse)
   };
   EXPECT_EQ(edgesOf(), 0);
   settings.flaws.smoothing.sdPixels = 1.0;
-  // 4 x 4 patches: their outlines are 6 lines of 256 pixels, of which at least two columns are edges
+  // 4 x 4 uniform fields: their outlines are 6 lines of 256 pixels, each with at least two columns of edges
   EXPECT_GT(edgesOf(), 6 * 2 * 200);
 }

@@ -23,7 +23,7 @@ namespace
 constexpr std::size_t Size = 256;
 constexpr std::size_t Frames = 50;
 
-/** From dark to full along "x", "y" or the "diagonal". */
+/** Returns a ramp from dark to bright along "x", "y" or the "diagonal". */
 std::vector<double>
 RampAlong(const std::string & direction)
 {
@@ -47,7 +47,7 @@ MeasureRamp(const std::string & direction, const SceneConditions & conditions, s
   return Measure(Simulate<std::uint16_t>(settings, Size, Size, RampAlong(direction))).GetReport();
 }
 
-/** Direction, flicker and vibration. */
+/** Parameters of a test: direction, flicker and vibration. */
 class SensorNoiseRamp : public ::testing::TestWithParam<std::tuple<const char *, double, double>>
 {};
 } // namespace
@@ -62,7 +62,7 @@ TEST_P(SensorNoiseRamp, TellsTheGain)
     EXPECT_NEAR(*report.gain.value, SimulationSettings().camera.gainDnPerElectron, 3.0 * *report.gain.standardError)
       << seed;
     EXPECT_LT(*report.gain.standardError, 0.02 * *report.gain.value) << seed;
-    // An offset that is told is right, or it is said not to be told.
+    // An identified offset is right; otherwise it is not identifiable.
     const double offsetDn = SimulationSettings().camera.offsetDn;
     if (report.offset.value)
     {
@@ -106,9 +106,9 @@ TEST(SensorNoiseRampAlongAnAxis, FlickerIsToldAndMotionIsNot)
   }
 }
 
-// Noise leaves the level of a faint ramp a direction of its own: the offset is identified, to within 4 DN, and with the
-// flicker about a wrong offset all levels move. A vibration that is given holds the truth, and none is given along one
-// axis where motion along the other looks the same.
+// With noise the levels of a dark ramp are distinguished from motion: the offset is identified within 4 DN. With the
+// flicker about a wrong offset all levels move. An identified vibration contains the truth, and no vibration is
+// identified along one axis if motion along the other axis looks the same.
 TEST(SensorNoiseRampAlongAnAxis, FlickerAboutAWrongOffsetIsNoMotion)
 {
   for (std::uint64_t seed = 1; seed <= 6; ++seed)

@@ -64,7 +64,7 @@ TYPED_TEST(SensorNoiseRefinedMethodBits, AnyChunksAndThreadsGiveTheSameBits)
   const auto & stack = TexturedStack<TypeParam>();
   const auto   expected = Measure(stack);
   ASSERT_EQ(expected.GetReport().gain.status, EstimateStatus::Identified);
-  ASSERT_TRUE(expected.GetReport().noiseCorrelation); // of which every digit is compared
+  ASSERT_TRUE(expected.GetReport().noiseCorrelation); // every digit is compared
   for (const std::size_t threads : { 1, 2, 7 })
   {
     for (const std::size_t chunk : { std::size_t{ 1 }, std::size_t{ 3 }, stack.frames })
@@ -148,7 +148,7 @@ TEST(SensorNoiseRefinedMethod, MaskedPixelsTakeNoPart)
   }
   const auto method = measure();
   EXPECT_EQ(std::count(method.GetPixelUse().begin(), method.GetPixelUse().end(), std::uint8_t{ 7 }), 26 * Width);
-  // The stencils of rows 68 and 69 reach the masked rows, 2 rows of 66: the rest must not know.
+  // The stencils of rows 68 and 69 contain masked rows, 2 rows of 66. The other rows must not change.
   EXPECT_NEAR(ValueOf(method.GetReport().gain),
               ValueOf(expected.GetReport().gain),
               0.5 * *expected.GetReport().gain.standardError);
@@ -168,7 +168,7 @@ TEST(SensorNoiseRefinedMethod, StacksWithoutInformationFailWithAReason)
   auto frames = constant(Codes{ 700 });
   for (std::size_t t = 0; t < frames.frames; ++t)
   {
-    frames.pixels[t * 20 * 16] = static_cast<Codes>(700 + t); // else they would be one frame
+    frames.pixels[t * 20 * 16] = static_cast<Codes>(700 + t); // otherwise all frames are equal
   }
   const auto still = Measure(frames, {});
   ExpectNothingMeasured(still.GetReport());
@@ -192,10 +192,10 @@ TEST(SensorNoiseRefinedMethod, WrongUseIsRefused)
   settings.codes.bitDepth = 17;
   EXPECT_THROW(Method(settings, geometry, 20), std::invalid_argument);
   settings.codes.bitDepth = 10;
-  EXPECT_THROW(Measure(TexturedStack<Codes>(), settings), std::invalid_argument); // the data reach beyond 1,023
+  EXPECT_THROW(Measure(TexturedStack<Codes>(), settings), std::invalid_argument); // the data exceed 1,023
 }
 
-// The sums of the second pass point to the scene of the first, which must not move with the method.
+// The sums of the second pass point to the scene of the first pass, whose address must not change with a move.
 TEST(SensorNoiseRefinedMethod, MayBeMovedBetweenAndWithinPasses)
 {
   const auto & stack = TexturedStack<Codes>();
@@ -212,7 +212,7 @@ TEST(SensorNoiseRefinedMethod, MayBeMovedBetweenAndWithinPasses)
   EXPECT_EQ(ToJson(method->GetReport()), ToJson(Measure(stack).GetReport()));
 }
 
-// Only NothingToMeasure becomes a report: a thread that cannot be started, say, is an error of the machine.
+// Only NothingToMeasure becomes a report. Other exceptions, as of a thread that cannot be started, are not caught.
 TEST(SensorNoiseRefinedMethod, OtherErrorsPassThrough)
 {
   const auto & stack = TexturedStack<Codes>();

@@ -24,7 +24,7 @@ constexpr std::size_t Width = 128;
 constexpr std::size_t Height = 96;
 constexpr std::size_t Frames = 40;
 
-/** A burst with flicker and vibrations along both axes: of a calibration target, and of a textured scene. */
+/** Burst with flicker and vibrations along both axes, of a calibration target or a textured scene. */
 const std::array<Stack<Codes>, 2> &
 Stacks()
 {
@@ -40,10 +40,10 @@ Stacks()
 struct Scalar
 {
   double value;
-  double tolerance; ///< in units of the relative precision that is asked for
+  double tolerance; ///< tolerance in units of the required relative precision
 };
 
-/** Every number of a report that is not a series: values, and standard errors as "... se". */
+/** Returns every number of a report that is not a series: values, and standard errors as "... se". */
 std::map<std::string, Scalar>
 ScalarsOf(const Report & report)
 {
@@ -53,7 +53,7 @@ ScalarsOf(const Report & report)
     scalars[name] = { value, std::max(std::abs(value), size) };
     if (quantity.standardError)
     {
-      // A standard error subtracts the noise's share and has fewer digits.
+      // The part of the noise is subtracted from a standard error, which has fewer digits.
       scalars[name + " se"] = { *quantity.standardError, 1e3 * *quantity.standardError };
     }
   };
@@ -105,7 +105,7 @@ TEST(SensorNoiseRefinedMethodInvariance, PermutedFramesLeaveEveryScalar)
     }
     const auto before = Measure(stack);
     const auto after = Measure(permuted);
-    ExpectSame(ScalarsOf(before.GetReport()), ScalarsOf(after.GetReport()), 1e-9); // sums over frames reorder
+    ExpectSame(ScalarsOf(before.GetReport()), ScalarsOf(after.GetReport()), 1e-9); // sums over frames in another order
     EXPECT_TRUE(HaveSameBits(after.GetVariance(), before.GetVariance()));
     EXPECT_TRUE(HaveSameBits(after.GetPixelUse(), before.GetPixelUse()));
     for (std::size_t t = 0; t < Frames; ++t)
@@ -154,7 +154,7 @@ TEST(SensorNoiseRefinedMethodInvariance, AddedConstantShiftsTheOffset)
     for (const char * name : { "intercept", "total intercept" })
     {
       after.at(name).value += added * after.at("gain").value; // sigma^2 - g (mu + b)
-      // The variance of the line at another place: var(c) = var(c + g b) + b^2 var(g) - 2 b cov(g, c + g b).
+      // The variance of the line at another level: var(c) = var(c + g b) + b^2 var(g) - 2 b cov(g, c + g b).
       const auto & covariance = shifted.GetReport().covariance.value();
       after.at(std::string(name) + " se").value =
         std::sqrt(covariance[1][1] + added * (added * covariance[0][0] + 2.0 * covariance[0][1]));
@@ -170,7 +170,7 @@ TEST(SensorNoiseRefinedMethodInvariance, DoubledSamplesDoubleTheCamera)
   for (const auto & stack : Stacks())
   {
     const auto method = Measure(stack);
-    // Codes of twice the step: their rounding noise, step^2 / 12, grows by 4 as all variances do.
+    // With twice the step the quantization noise, step^2 / 12, grows by a factor of 4, as all variances.
     const auto doubled = Measure(stack.Map([](int u) { return 2 * u; }), WithCodes(2.0));
     auto       before = ScalarsOf(method.GetReport());
     const auto after = ScalarsOf(doubled.GetReport());
@@ -216,7 +216,7 @@ TEST(SensorNoiseRefinedMethodInvariance, MirroredFramesMirrorTheShifts)
     const auto other = Measure(mirrored);
     auto       after = ScalarsOf(other.GetReport());
     after.at("vibration xy").value *= -1.0;
-    ExpectSame(ScalarsOf(method.GetReport()), after, 1e-9); // the cells' columns are mirrored, too
+    ExpectSame(ScalarsOf(method.GetReport()), after, 1e-9); // the columns of tiles are mirrored, too
     for (std::size_t t = 0; t < Frames; ++t)
     {
       EXPECT_NEAR(other.GetReport().motion[t][0], -method.GetReport().motion[t][0], 1e-9);

@@ -21,8 +21,8 @@ namespace
 {
 using Codes = unsigned short;
 
-/** Measures with several processes, each of which reads a part of the frames and merges the others' sums in an order of
- * its own. */
+/** Measures with several processes. Each reads a part of the frames and merges the sums of the others in another order.
+ */
 template <typename TPixel>
 std::vector<std::unique_ptr<RefinedMethod<TPixel>>>
 MeasureInParts(const Stack<TPixel> & stack, std::size_t count, Reader of)
@@ -80,7 +80,7 @@ TEST(SensorNoiseRefinedMethodMerge, PartsOfIntegerFramesGiveTheWholesBits)
   const auto & stack = SmallStack<Codes>();
   const auto   whole = Measure(stack);
   ASSERT_EQ(whole.GetReport().gain.status, EstimateStatus::Identified);
-  ASSERT_TRUE(whole.GetReport().noiseCorrelation); // of which every digit is compared
+  ASSERT_TRUE(whole.GetReport().noiseCorrelation); // every digit is compared
   for (const Reader reader : { InRuns, InTurn })
   {
     for (const std::size_t processes : { 2, 3 })
@@ -112,7 +112,7 @@ TEST(SensorNoiseRefinedMethodMerge, PartsOfFloatingPointFramesAgreeWithTheWholeA
       ExpectNear<float>(report.vibrationSdX, whole.vibrationSdX, 1e-9);
       ExpectNear<float>(report.vibrationSdY, whole.vibrationSdY, 1e-9);
       EXPECT_TRUE(HaveSameBits(methods[0]->GetPixelUse(), wholeMethod.GetPixelUse()));
-      // Means and series, on which the next pass of all processes is based, must not differ at all.
+      // Means and temporal components, on which the next pass of all processes depends, must have the same bits.
       for (const auto & method : methods)
       {
         EXPECT_TRUE(HaveSameBits(method->GetMean(), methods[0]->GetMean()));
@@ -124,7 +124,7 @@ TEST(SensorNoiseRefinedMethodMerge, PartsOfFloatingPointFramesAgreeWithTheWholeA
 
 TEST(SensorNoiseRefinedMethodMerge, SavedSumsHoldTheMergedOnes)
 {
-  // A chain instead of an exchange of all with all: 0 hands to 1, 1 hands both to 2, which reads the rest.
+  // A chain instead of an exchange of all with all: process 0 sends its sums to 1, and 1 sends both to 2.
   const auto & stack = SmallStack<float>();
   const auto   expected = MeasureInParts(stack, 3, InRuns);
   auto         method = MethodOf(stack);
@@ -171,7 +171,7 @@ TEST(SensorNoiseRefinedMethodMerge, SumsThatAreForgottenLeaveNothingAndFramesMay
 
 TEST(SensorNoiseRefinedMethodMerge, FoldedPartsOfFloatingPointFramesAreThoseInOrder)
 {
-  // Two parts, merged in the order of their frames: folding changes no bit, and leaves one part to write.
+  // Two parts are merged in the order of their frames: folding changes no bit, and leaves one part to write.
   const auto &             stack = SmallStack<float>();
   const auto               expected = MeasureInParts(stack, 2, InRuns);
   std::vector<std::string> sums;
@@ -189,7 +189,7 @@ TEST(SensorNoiseRefinedMethodMerge, FoldedPartsOfFloatingPointFramesAreThoseInOr
     method.SaveSums(folded);
     sizes.push_back(folded.str().size());
   }
-  EXPECT_LT(sizes[1], sizes[0] + 16 * Width * Height); // another part would have 32 bytes a pixel
+  EXPECT_LT(sizes[1], sizes[0] + 16 * Width * Height); // another part would have 32 bytes per pixel
   method.EndPass();
   EXPECT_TRUE(HaveSameBits(method.GetMean(), expected[0]->GetMean()));
   EXPECT_TRUE(HaveSameBits(method.GetVariance(), expected[0]->GetVariance()));
@@ -204,7 +204,7 @@ TEST(SensorNoiseRefinedMethodMerge, ProcessWithoutFramesMayTakePart)
   while (!reader.IsDone())
   {
     reader.AddFrames(stack.Frame(0), Frames);
-    for (auto * const from : { &idle, &reader }) // nothing into the reader, all into the idle one
+    for (auto * const from : { &idle, &reader }) // nothing is merged into the reader, everything into the idle process
     {
       std::stringstream sums;
       from->SaveSums(sums);

@@ -19,7 +19,7 @@ namespace
 {
 using Codes = unsigned short;
 
-/** Runs \a function and returns what it complains of. */
+/** Runs \a function and returns the message of its exception. */
 template <typename TError, typename TFunction>
 std::string
 MessageOf(TFunction function)
@@ -56,7 +56,7 @@ TEST(SensorNoiseRefinedMethodRefusal, SumsThatDoNotFitAreRefusedAndChangeNothing
   };
   const auto has = [](const std::string & text, const std::string & part) { return text.find(part) != text.npos; };
 
-  EXPECT_TRUE(has(complaint(before), "frame 0")); // its own
+  EXPECT_TRUE(has(complaint(before), "frame 0")); // its own frame
   auto other = MethodOf(stack);
   AddPart(other, stack, 1, 2, InRuns);
   const std::string good = save(other);
@@ -90,7 +90,7 @@ TEST(SensorNoiseRefinedMethodRefusal, SumsOfOtherPassesBeforeAreRefused)
   auto         other = MethodOf(stack);
   method.AddFrames(stack.Frame(0), Frames);
   other.AddFrames(brighter.Frame(0), Frames);
-  for (const auto * const process : { &method, &other }) // that of the first pass does not stay for the second
+  for (const auto * const process : { &method, &other }) // the sums of the first pass are not kept for the second
   {
     std::ostringstream ofFirstPass;
     process->SaveSums(ofFirstPass);
@@ -118,7 +118,7 @@ TEST(SensorNoiseRefinedMethodRefusal, MissingAndRepeatedFramesAreRefused)
   other.AddFrames(stack.Frame(0), 1);
   EXPECT_THROW(other.AddFrames(stack.Frame(0), Frames), std::logic_error);
 
-  auto late = MethodOf(stack); // frame 0 comes with the sums, and is then read
+  auto late = MethodOf(stack); // frame 0 is merged with the sums, and then read
   sums.clear();
   sums.seekg(0);
   late.MergeSums(sums);

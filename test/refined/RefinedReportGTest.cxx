@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-// What the report says of sensors that are not the model's, and of scenes that tell too little.
+// Reports of sensors that deviate from the model, and of scenes that determine too little.
 
 using namespace sensornoise;
 using namespace sensornoise::test;
@@ -32,7 +32,8 @@ BentCamera(ResponseShape shape, double bend, std::size_t frames)
   return settings;
 }
 
-/** A target whose darkest level has \a low of the light of the brightest; one pixel without light spans the range. */
+/** Returns a target whose darkest level has the fraction \a low of the signal of the brightest. One pixel without
+ * signal spans the range. */
 Stack<Codes>
 SimulateLevels(double low)
 {
@@ -82,7 +83,7 @@ TEST(SensorNoiseRefinedReport, BentResponseHasTheMeanGainInItsInterval)
     EXPECT_FALSE(HasWarning(report, WarningCode::NotStatic)) << bend;
     ExpectHolds(report.gain, MeanLocalGain(simulator));
     EXPECT_LT(*report.gain.standardError, 0.04);
-    // The matrix holds the same errors, the model's among them.
+    // The matrix contains the same errors, with the error of the model.
     ASSERT_TRUE(report.covariance);
     EXPECT_NEAR(std::sqrt((*report.covariance)[0][0]) / *report.gain.standardError, 1.0, 1e-9);
     EXPECT_NEAR(std::sqrt((*report.covariance)[1][1]) / *report.totalIntercept.standardError, 1.0, 1e-6);
@@ -94,7 +95,7 @@ TEST(SensorNoiseRefinedReport, BentResponseHasTheMeanGainInItsInterval)
 
 TEST(SensorNoiseRefinedReport, VerdictOnABendDoesNotDependOnTheSizeOfTheFrame)
 {
-  // Sixteen times the pixels make the bend more significant, not larger.
+  // With sixteen times the pixels the non-linearity is more significant, not larger.
   const SimulationSettings settings = BentCamera(ResponseShape::Quadratic, 0.04, 20);
   const Report             small = Measure(Simulate<Codes>(settings, 128, 128), {}).GetReport();
   const StackSimulator     simulator(MakeTargetScene(512, 512), 512, 512, settings);
@@ -103,7 +104,7 @@ TEST(SensorNoiseRefinedReport, VerdictOnABendDoesNotDependOnTheSizeOfTheFrame)
   EXPECT_TRUE(HasWarning(small, WarningCode::ResponseNotStraight));
   EXPECT_TRUE(HasWarning(large, WarningCode::ResponseNotStraight));
   ExpectHolds(large.gain, MeanLocalGain(simulator));
-  // Of the small frame chance takes off two of its errors, 1 % each in a sixteenth of the pixels.
+  // In the small frame two errors are subtracted as chance, 1 % each in a sixteenth of the pixels.
   EXPECT_NEAR(*small.fit.nonlinearity, *large.fit.nonlinearity, 0.03);
 }
 
@@ -123,7 +124,7 @@ TEST(SensorNoiseRefinedReport, ToneCurveIsRefusedWithItsLine)
 
 TEST(SensorNoiseRefinedReport, ToneCurveOfTheCodesIsRefusedHoweverManyPixelsTellIt)
 {
-  // The more pixels, the more the classes of roughness differ beyond chance: that must not hide the curve.
+  // With more pixels the roughness classes differ beyond chance. This must not hide the curve.
   Stack<Codes> stack = Simulate<Codes>(SimulationSettings(), 512, 512); // 100 frames
   for (Codes & code : stack.pixels)
   {
@@ -137,7 +138,7 @@ TEST(SensorNoiseRefinedReport, ToneCurveOfTheCodesIsRefusedHoweverManyPixelsTell
 TEST(SensorNoiseRefinedReport, FloatingPointFramesThatSaturateAreMeasuredAsTheirIntegers)
 {
   SimulationSettings settings = StillCamera(40);
-  settings.clipHighDn = 2000.0; // of about 3,100
+  settings.clipHighDn = 2000.0; // the largest levels are about 3,100
   const Stack<Codes> codes = Simulate<Codes>(settings, Size, Size);
   const Report       integer = Measure(codes, {}).GetReport();
   const Report       floating = Measure(codes.Map<float>([](Codes u) { return u; }), {}).GetReport();

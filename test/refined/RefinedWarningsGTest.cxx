@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-// What makes the refined method warn, and that the same stack without it does not.
+// Causes of the warnings of the refined method; without the cause the same stack gives no warning.
 
 using namespace sensornoise;
 using namespace sensornoise::test;
@@ -29,14 +29,14 @@ namespace
 constexpr std::size_t Size = 128;
 constexpr std::size_t Frames = 40;
 
-/** A value as a code. */
+/** Returns a value as a digital number. */
 Codes
 Code(double value)
 {
   return static_cast<Codes>(std::clamp(std::lround(value), 0L, 65535L));
 }
 
-/** A stack of the target whose pixels' values \a change replaces. */
+/** Returns a stack of the target, with the values of the pixels replaced by \a change. */
 Stack<Codes>
 Changed(const std::function<double(std::size_t t, std::size_t x, std::size_t y, double value)> & change,
         const SimulationSettings & settings = StillCamera(Frames))
@@ -76,7 +76,7 @@ TEST(SensorNoiseRefinedWarnings, PlainStackHasNone)
 
 TEST(SensorNoiseRefinedWarnings, IrregularCodes)
 {
-  // Every code times 2.6: they lie 2 or 3 apart.
+  // Every digital number times 2.6: the distances are 2 or 3.
   const Stack<Codes> stack = Changed([](auto, auto, auto, double u) { return 2.6 * u; });
   EXPECT_TRUE(HasWarning(Measure(stack, {}).GetReport(), WarningCode::IrregularCodes));
 }
@@ -99,7 +99,7 @@ TEST(SensorNoiseRefinedWarnings, NoisyPixels)
 
 TEST(SensorNoiseRefinedWarnings, LocalLight)
 {
-  // A second lamp lights the right half.
+  // A second lamp illuminates the right half.
   ExpectWarns(Changed([](std::size_t t, std::size_t x, auto, double u) {
                 const double gamma = 0.05 * std::sin(2.3 * static_cast<double>(t));
                 return u + (x > Size / 2 ? gamma * (u - 100.0) : 0.0);
@@ -140,7 +140,7 @@ TEST(SensorNoiseRefinedWarnings, NoiseNotLinear)
 
 TEST(SensorNoiseRefinedWarnings, TooLittleToMeasure)
 {
-  // Leaves in the wind over all but the upper rows: every pixel's light changes by itself.
+  // Leaves in the wind in all but the upper rows: the illumination of every pixel changes independently.
   ExpectWarns(Changed([](std::size_t t, std::size_t x, std::size_t y, double u) {
                 CounterSeededRandom random(7, t, x, y);
                 return y < 10 ? u : 100.0 + (u - 100.0) * (0.6 + 0.8 * random.Uniform()) + 400.0 * random.Uniform();
@@ -148,7 +148,7 @@ TEST(SensorNoiseRefinedWarnings, TooLittleToMeasure)
               WarningCode::TooLittleToMeasure);
 }
 
-// Of 20 frames the last one alone has light: flicker takes up all of its shot noise.
+// Only the last of 20 frames has a signal: the flicker absorbs all of its shot noise.
 TEST(SensorNoiseRefinedWarnings, OneIlluminatedFrameIsNamed)
 {
   SimulationSettings settings = StillCamera(20);
@@ -162,7 +162,7 @@ TEST(SensorNoiseRefinedWarnings, OneIlluminatedFrameIsNamed)
 
 TEST(SensorNoiseRefinedWarnings, VarianceSteps)
 {
-  // A second amplifier of 30 DN of read noise takes the samples above a level in the middle of the target's.
+  // A second amplifier, with a read noise of 30 DN, reads the samples above a level in the middle of the target.
   const SimulationSettings   settings = StillCamera(Frames);
   std::mt19937               random(5);
   std::normal_distribution<> normal;
@@ -198,7 +198,7 @@ TEST(SensorNoiseRefinedWarnings, BorderLeftOut)
 
 TEST(SensorNoiseRefinedWarnings, LightSeriesLeft)
 {
-  // Bands of 8 rows and of 8 columns, each with a flicker of its own: one of both can be taken off.
+  // Bands of 8 rows and of 8 columns flicker independently: the flicker of one of both can be removed.
   constexpr std::size_t      bands = Size / 8;
   std::vector<double>        flicker;
   std::mt19937               random(7);
@@ -216,7 +216,7 @@ TEST(SensorNoiseRefinedWarnings, LightSeriesLeft)
   EXPECT_TRUE(HasWarning(report, WarningCode::LightSeriesLeft)) << MakeText(report);
 }
 
-// Caustics: in each frame the illumination has waves of 12 pixels, of other directions and phases, of 0.5 % rms
+// Caustics: in each frame the illumination has waves of 12 pixels with random directions and phases, of 0.5 % rms
 // together.
 TEST(SensorNoiseRefinedWarnings, IlluminationOfFinePatternsIsNoFilter)
 {
@@ -244,7 +244,7 @@ TEST(SensorNoiseRefinedWarnings, IlluminationOfFinePatternsIsNoFilter)
   EXPECT_NE(MakeText(report).find("grows with the square of the signal"), std::string::npos) << MakeText(report);
 }
 
-// Half of the blocks of 8 x 8 pixels repeat the frame before.
+// Half of the blocks of 8 x 8 pixels repeat the previous frame.
 TEST(SensorNoiseRefinedWarnings, SkippedBlocksAreNoFilter)
 {
   Stack<Codes>                stack = Simulate<Codes>(StillCamera(Frames), Size, Size);
@@ -271,7 +271,7 @@ TEST(SensorNoiseRefinedWarnings, SkippedBlocksAreNoFilter)
 
 TEST(SensorNoiseRefinedWarnings, GainNotUniform)
 {
-  // Two cameras of one scene, side by side, whose gains differ by a quarter.
+  // Two cameras show one scene side by side; their gains differ by a quarter.
   SimulationSettings settings = StillCamera(Frames);
   Stack<Codes>       stack = Simulate<Codes>(settings, Size, Size);
   settings.camera.gainDnPerElectron *= 1.25;

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-// What is equal is counted once: the result is, bit by bit, that of the distinct frames.
+// Equal frames are counted once: the result has the bits of the result of the distinct frames.
 
 using namespace sensornoise;
 using namespace sensornoise::test;
@@ -24,7 +24,7 @@ namespace
 {
 using Codes = unsigned short;
 
-/** The small stack, each frame twice. */
+/** Returns the small stack with each frame twice. */
 Stack<Codes>
 Doubled(Shown & shown)
 {
@@ -47,7 +47,7 @@ MergeText(RefinedMethod<Codes> & method, const std::string & sums)
   method.MergeSums(in);
 }
 
-/** Two processes; \a isFirst(t): the first one reads frame t. */
+/** Measures with two processes. The first reads frame t if \a isFirst(t). */
 template <typename TIsFirst>
 void
 RunPass(RefinedMethod<Codes> & one, RefinedMethod<Codes> & two, const Stack<Codes> & stack, TIsFirst isFirst)
@@ -76,7 +76,7 @@ TYPED_TEST(SensorNoiseRepeatedFramesOf, AnyWayGiveTheResultOfTheDistinctOnes)
   Stack<TypeParam> stack = SmallStack<TypeParam>();
   if (std::numeric_limits<TypeParam>::has_quiet_NaN)
   {
-    for (std::size_t t = 0; t < Frames; ++t) // NaN are bytes, which may be equal
+    for (std::size_t t = 0; t < Frames; ++t) // NaN is compared by its bytes
     {
       stack.pixels[t * Width * Height + 1000] = std::numeric_limits<TypeParam>::quiet_NaN();
     }
@@ -126,7 +126,7 @@ TEST(SensorNoiseRepeatedFrames, ThatOneProcessReadsAreCountedOnceByAll)
   {
     auto one = MethodOf(stack);
     auto two = MethodOf(stack);
-    // In pass 1 equal frames go to one process; later any process may read any of them.
+    // In pass 1 one process reads all equal frames. Later any process may read them.
     RunPass(one, two, stack, [run](std::size_t t) { return t / run % 2 == 0; });
     RunPass(one, two, stack, [](std::size_t t) { return t % 2 == 0; });
     RunPass(one, two, stack, [](std::size_t t) { return t % 3 == 0; });
@@ -160,7 +160,7 @@ TEST(SensorNoiseRepeatedFrames, ThatTwoProcessesCountedAreRefusedByNameAndChange
 
 TEST(SensorNoiseRepeatedFrames, OfSumsThatWereMergedBeforeAreNotCountedAgain)
 {
-  // The second process reads the later half first, which shows the same frames: the first one sees that.
+  // The second process reads the later half, which has the same frames. The first process detects this.
   Shown shown(2 * Frames);
   for (std::size_t t = 0; t < shown.size(); ++t)
   {
@@ -189,7 +189,7 @@ TEST(SensorNoiseRepeatedFrames, ThatOneProcessLeavesToTheOtherAreCountedOnce)
   const auto whole = Measure(stack);
   auto       one = MethodOf(stack);
   auto       two = MethodOf(stack);
-  // One reads the frames of even numbers, two those of odd ones: each of these equals the one before.
+  // Process one reads the frames of even numbers, process two the odd ones, each equal to the previous frame.
   std::vector<std::uint8_t> elsewhere(stack.frames);
   for (std::size_t t = 1; t < stack.frames; t += 2)
   {
@@ -225,7 +225,7 @@ TEST(SensorNoiseRepeatedFrames, TooFewDistinctOnesAreRefused)
     EXPECT_NE(report.warnings.back().message.find(found), std::string::npos) << report.warnings.back().message;
     EXPECT_NE(report.warnings.back().message.find("expected at least 5"), std::string::npos);
   }
-  // Five are measured, as five are without a repetition.
+  // Five distinct frames are measured, as five frames without repetition.
   Shown shown{ 0, 1, 2, 3, 4, 0, 1, 2, 3, 4 };
   ExpectResultOfDistinct(
     Measure(Show(SmallStack<Codes>(), shown)), Measure(Show(SmallStack<Codes>(), Shown{ 0, 1, 2, 3, 4 })), shown);

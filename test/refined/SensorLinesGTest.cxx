@@ -32,7 +32,7 @@ Line(double gain, double interceptDn2, double pivotDn)
   return line;
 }
 
-/** Levels from 110 to 2000 DN, of weights that differ; the variance is \a varianceAt(level). */
+/** Returns levels from 110 to 2000 DN with different weights. The variance is \a varianceAt(level). */
 template <typename TFunction>
 SensorLines
 LinesThrough(TFunction varianceAt)
@@ -60,7 +60,7 @@ StraightLines()
   return LinesThrough([](double level) { return InterceptDn2 + Gain * level; });
 }
 
-/** The variance of a bin, of its line and excess. */
+/** Returns the variance of a bin: the line plus the excess. */
 double
 VarianceOf(const VarianceCurve & curve, std::size_t b)
 {
@@ -78,7 +78,7 @@ SetShape(NoiseCorrelation & correlation, CovarianceShape which, const MeasuredNu
   shape.ofSquare = which == CovarianceShape::Square ? 1.0 : 0.0;
 }
 
-/** What is shared, all of one shape. */
+/** Returns a correlation of one shape. */
 NoiseCorrelation
 Sharing(CovarianceShape shape, double coefficient, double standardError = 0.0)
 {
@@ -143,8 +143,7 @@ TEST(SensorNoiseSensorLines, CoupledChargeAddsASlopeAboutBlack)
   const SensorLines lines = StraightLines();
   const SensorLines sensor = AddCovariances(lines, Sharing(CovarianceShape::Light, shared), BlackDn, CodesDn2);
   EXPECT_NEAR(sensor.all.gain, Gain + shared, 1e-12);
-  EXPECT_NEAR(
-    sensor.all.intercept + sensor.all.gain * BlackDn, InterceptDn2 + Gain * BlackDn, 1e-9); // read noise stays
+  EXPECT_NEAR(sensor.all.intercept + sensor.all.gain * BlackDn, InterceptDn2 + Gain * BlackDn, 1e-9); // same read noise
   EXPECT_LT((sensor.all.covariance - lines.all.covariance).norm(), 1e-15);
   for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
   {
@@ -155,7 +154,7 @@ TEST(SensorNoiseSensorLines, CoupledChargeAddsASlopeAboutBlack)
 
 TEST(SensorNoiseSensorLines, ChargeThatRepelsChargeLeavesALineBehind)
 {
-  // A sensor with V = 30 + 0.4 z whose bright pixels have lost 2e-5 z^2; the line of what is left is any line.
+  // A sensor with V = 30 + 0.4 z whose bright pixels have lost 2e-5 z^2; any line may fit the remaining variance.
   constexpr double  shared = 2e-5;
   const SensorLines lines = LinesThrough([](double level) {
     const double z = level - BlackDn;
@@ -172,7 +171,8 @@ TEST(SensorNoiseSensorLines, ChargeThatRepelsChargeLeavesALineBehind)
 
 TEST(SensorNoiseSensorLines, TheLineThroughALossIsMadeTheSensorsOwn)
 {
-  // The least-squares line, with the curve's weights, of what is left: the sensor's line must come out.
+  // From the least-squares line of the remaining variance, with the weights of the curve, the line of the sensor
+  // follows.
   constexpr double shared = 2e-5;
   const auto       left = [](double level) {
     const double z = level - BlackDn;
@@ -208,7 +208,7 @@ TEST(SensorNoiseSensorLines, WhatIsNotKnownOfTheSharingIsAnErrorOfGainAndInterce
   EXPECT_NEAR(std::sqrt(coupled(0, 0)), 0.002, 1e-12);
   EXPECT_NEAR(coupled(0, 1), -4e-6 * BlackDn, 1e-12);
 
-  // Two shapes, as likely: the gain may be either.
+  // Two shapes are equally probable: the gain may be either value.
   NoiseCorrelation both;
   SetShape(both, CovarianceShape::Variance, { 0.2, 0.0 }, 0.5);
   SetShape(both, CovarianceShape::Light, { 0.06, 0.0 }, 0.5);
@@ -216,7 +216,7 @@ TEST(SensorNoiseSensorLines, WhatIsNotKnownOfTheSharingIsAnErrorOfGainAndInterce
   EXPECT_NEAR(sensor.all.gain, Gain + 0.5 * (0.2 * Gain + 0.06), 1e-12);
   EXPECT_NEAR(std::sqrt(sensor.covarianceOfCorrelation(0, 0)), 0.5 * (0.2 * Gain - 0.06), 1e-12);
 
-  // Half of the dark noise lies behind the filter, or all of it: the same gain, other intercepts.
+  // Half of the dark noise is added after the filter, or all of it: the gain is the same, the intercepts differ.
   NoiseCorrelation part;
   SetShape(part, CovarianceShape::Variance, { 1.0, 0.0 }, 0.5);
   const double darkDn2 = InterceptDn2 + Gain * BlackDn - CodesDn2;
@@ -234,7 +234,7 @@ TEST(SensorNoiseSensorLines, WhatIsNotKnownOfTheSharingIsAnErrorOfGainAndInterce
   EXPECT_NEAR(
     std::sqrt(AddCovariances(lines, mixed, BlackDn, CodesDn2).covarianceOfCorrelation(0, 0)), 0.02 * 3.0 * Gain, 1e-12);
   NoiseCorrelation wide;
-  wide.beyondReach = 0.01; // of the variance, not of the sum
+  wide.beyondReach = 0.01; // fraction of the variance, not of the total covariance
   EXPECT_NEAR(
     std::sqrt(AddCovariances(lines, wide, BlackDn, CodesDn2).covarianceOfCorrelation(0, 0)), 0.01 * Gain, 1e-12);
 }
@@ -243,7 +243,7 @@ TEST(SensorNoiseSensorLines, NoiseOfWholeRowsIsNotThePixelsOwn)
 {
   NoiseCorrelation correlation = Sharing(CovarianceShape::Variance, 1.5);
   correlation.rowsDn2 = { 4.0, 0.1 };
-  correlation.columnsDn2 = { 0.3, 0.1 }; // not seen
+  correlation.columnsDn2 = { 0.3, 0.1 }; // not significant
   const SensorLines lines = StraightLines();
   const SensorLines sensor = AddCovariances(lines, correlation, BlackDn, CodesDn2);
   EXPECT_NEAR(sensor.all.gain, 2.5 * Gain, 1e-12);

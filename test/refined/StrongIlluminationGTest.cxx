@@ -95,7 +95,7 @@ TEST(SensorNoiseStrongIllumination, GainOffsetAndReadNoiseAreTheCameras)
     const auto     method = Measure(stack);
     const Report & report = method.GetReport();
     ASSERT_EQ(report.gain.status, EstimateStatus::Identified) << shape;
-    // 4 standard errors: once in 16,000 by chance; of the offset and the read noise, too.
+    // 4 standard errors, exceeded once in 16,000 by chance; offset and read noise are tested, too.
     EXPECT_NEAR(*report.gain.value, 0.5, 4.0 * *report.gain.standardError) << shape;
     EXPECT_LT(*report.gain.standardError, 0.01 * 0.5) << shape;
     ASSERT_EQ(report.offset.status, EstimateStatus::Identified) << shape;
@@ -121,21 +121,21 @@ TEST(SensorNoiseStrongIllumination, OfAFlatFieldTellsGainAndInterceptAndNoOffset
       EXPECT_LT(*report.gain.standardError, 0.01 * 0.5) << shape;
       ASSERT_EQ(report.intercept.status, EstimateStatus::Identified) << shape;
       EXPECT_NEAR(*report.intercept.value, 9.0 - 0.5 * offset, 4.0 * *report.intercept.standardError) << shape;
-      // mu + d and sigma^2 + g d have the same variance at every level.
+      // A sensor with mu + d and sigma^2 + g d has the same variance at every level.
       EXPECT_EQ(report.offset.status, EstimateStatus::NotIdentifiable) << shape;
       EXPECT_EQ(report.readNoise.status, EstimateStatus::NotIdentifiable) << shape;
       ASSERT_TRUE(report.offset.bracket && report.offset.bracket->high) << shape;
       EXPECT_GT(*report.offset.bracket->high, offset) << shape;
       EXPECT_TRUE(report.framesLeftOut.empty()) << shape;
-      // Unequal frames leave few degrees of freedom; with too many the pixels of the largest variance are taken for
-      // outliers. All but the border, 2 pixels wide, serve.
+      // Unequal frames leave few degrees of freedom. With too many, pixels of large variance are rejected as outliers.
+      // All pixels except the border, 2 pixels wide, are used.
       EXPECT_GT(static_cast<double>(report.pixels.used), 0.99 * 156 * 124) << shape << " " << offset;
     }
   }
 }
 
-// Fifteen of 60 frames have light. The noise of dark ones is ten times less, and that is no local light; that of a lamp
-// that pulses under a rolling shutter has two series, a sine and a cosine of the rows.
+// Fifteen of 60 frames are lit. The noise of the dark frames is ten times smaller, which is no local illumination. A
+// pulsed lamp under a rolling shutter has two temporal components, a sine and a cosine of the rows.
 TEST(SensorNoiseStrongIllumination, FewIlluminatedFramesAreNoLocalLight)
 {
   for (const double periodRows : { 0.0, 40.0 })
@@ -156,7 +156,7 @@ TEST(SensorNoiseStrongIllumination, FewIlluminatedFramesAreNoLocalLight)
         << MakeText(report);
       ASSERT_EQ(report.gain.status, EstimateStatus::Identified) << periodRows << ' ' << seed;
       EXPECT_NEAR(*report.gain.value, 0.5, 4.0 * *report.gain.standardError) << periodRows << ' ' << seed;
-      // Of 62 degrees of freedom 1 +- 0.18.
+      // 1 ± 0.18 with 62 degrees of freedom.
       EXPECT_NEAR(*report.fit.reducedChi2, 1.0, 4.0 * 0.18) << periodRows << ' ' << seed;
     }
   }
@@ -172,7 +172,8 @@ TEST(SensorNoiseStrongIllumination, DarkFramesHaveNoShift)
   {
     EXPECT_EQ(std::isfinite(report.motion[t][1]), t % 4 == 3) << t;
   }
-  // A standard deviation of the shifts of 10 lit frames scatters by 1 / sqrt(2 * 9): 4 of these.
+  // The standard deviation of the shifts of 10 lit frames has the relative error 1 / sqrt(2 * 9); 4 of these are
+  // allowed.
   ASSERT_TRUE(report.vibrationSdX.value && report.vibrationSdY.value);
   EXPECT_NEAR(*report.vibrationSdX.value, 0.01, 0.01 * 4.0 / std::sqrt(18.0));
   EXPECT_NEAR(*report.vibrationSdY.value, 0.02, 0.02 * 4.0 / std::sqrt(18.0));
@@ -273,7 +274,7 @@ TEST(SensorNoiseStrongIllumination, ProcessesThatShareTheirSumsHaveTheBitsOfTheW
 
 TEST(SensorNoiseStrongIllumination, SumsOfAnotherReadingAreRefused)
 {
-  // Another stack has other means: the series that pixels are projected on differs.
+  // Another stack has other means: the component onto which pixels are projected differs.
   const auto & stack = StrongStack();
   const auto   other = stack.Map([](Codes u) { return u + 1; });
   auto         method = MethodOf(stack);
@@ -296,7 +297,7 @@ TEST(SensorNoiseStrongIllumination, PlanesOfAMosaicFindWhatTheyFindAlone)
   Stack<Codes>         stack = Simulate<Codes>(settings, 128, 128);
   const MosaicGeometry geometry{ { stack.width, stack.height, 1 }, BayerPattern::RGGB };
   const std::size_t    pixels = stack.width * stack.height;
-  // The last plane is steady, and needs no further reading: the planes are not in step.
+  // The last plane has steady illumination and needs no additional pass: the planes are not in step.
   for (std::size_t t = 0; t < stack.frames; ++t)
   {
     for (std::size_t y = 1; y < stack.height; y += 2)
