@@ -39,7 +39,7 @@ GeometryOf(FlickerOf part)
   return { Width, Height, part == FlickerOf::Columns ? 0U : 1U };
 }
 
-/** A random flicker, whose series do not have mean 0: the class centres them. */
+/** Random flicker whose mean over time is not 0; the class centres it. */
 FlickerEstimate
 RandomFlicker(FlickerOf part)
 {
@@ -63,7 +63,7 @@ RandomFlicker(FlickerOf part)
   return flicker;
 }
 
-/** Frames that follow the flicker, with noise, as 16-bit codes. */
+/** Returns frames with the flicker and noise, as digital numbers of 16 bits. */
 std::vector<std::uint16_t>
 FramesWith(const FlickerEstimate & flicker, const FrameGeometry & geometry)
 {
@@ -79,7 +79,7 @@ FramesWith(const FlickerEstimate & flicker, const FrameGeometry & geometry)
   return stack;
 }
 
-/** Mean and squared deviations of a series, by two passes in long double. */
+/** Returns mean and squared deviations of values over time, by two passes in long double. */
 struct Series
 {
   long double mean{ 0.0L };
@@ -99,7 +99,7 @@ struct Series
   }
 };
 
-/** The variance of u^ = u - (1 + gamma_t)(ubar - mu), frame by frame as in (3.18). */
+/** Returns the variance of u^ = u - (1 + gamma_t)(ubar - mu), frame by frame as in (3.18). */
 void
 ExpectVarianceOfTheExplicitStack(FlickerOf part)
 {
@@ -119,9 +119,9 @@ ExpectVarianceOfTheExplicitStack(FlickerOf part)
       return stack[t * Pixels + p] - (1.0L + gamma) * (raw.mean - static_cast<long double>(OffsetDn));
     });
     const auto   expected = static_cast<double>(hat.squares / (Frames - 1));
-    // The series are rounded to multiples of 2^-36, by d = 4e-12 rms, which adds 2 flux d noise / sqrt(frames):
-    // relative to the variance, noise^2 >= flux, at most 2 sqrt(3200) 4e-12 / sqrt(21) = 1e-10 rms. The contract is
-    // 1e-9.
+    // gamma_t is rounded to multiples of 2^-36, by d = 4e-12 rms, which adds 2 flux d noise / sqrt(frames). Relative to
+    // the variance, noise^2 >= flux, this is at most 2 sqrt(3200) 4e-12 / sqrt(21) = 1e-10 rms. The guaranteed accuracy
+    // is 1e-9.
     ASSERT_NEAR(corrected.GetVariance(p, static_cast<double>(raw.mean), static_cast<double>(raw.squares)),
                 expected,
                 1e-9 * expected)
@@ -223,7 +223,7 @@ TEST(SensorNoiseCorrectedVariance, NoiseFreeFlickerLeavesNothing)
   const Series      raw([&](std::size_t t) { return static_cast<long double>(value(t)); });
   CorrectedVariance corrected(flicker, geometry, Frames);
   corrected.AddRow(stack.data(), Layout, Frames, 0, 3);
-  // What cancels is the raw variance, (0.05 * 2000)^2 = 1e4 DN^2, to double precision.
+  // The raw variance, (0.05 * 2000)^2 = 1e4 DN^2, cancels within double precision.
   EXPECT_NEAR(corrected.GetVariance(p, static_cast<double>(raw.mean), static_cast<double>(raw.squares)), 0.0, 1e-9);
   EXPECT_GT(static_cast<double>(raw.squares) / (Frames - 1), 1e3);
 }

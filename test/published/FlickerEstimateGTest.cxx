@@ -19,15 +19,15 @@ using namespace sensornoise;
 
 namespace
 {
-/** A stack of frames of 20 x 20 pixels: the upper half bright, the lower half dark. */
+/** Stack of frames of 20 x 20 pixels: the upper half is bright, the lower half is dark. */
 struct Stack
 {
   static constexpr std::size_t     Side = 20;
   static constexpr std::size_t     Pixels = Side * Side;
   std::vector<std::vector<double>> frames;
 
-  /** Pixels follow mu + g (1 + gamma_t) p with normal noise of the given standard deviation. The dark half may have a
-   * flicker of its own. */
+  /** Makes pixels mu + g (1 + gamma_t) p with normal noise of the given standard deviation. The dark half may have
+   * another flicker. */
   Stack(const std::vector<double> & brightFlicker, const std::vector<double> & darkFlicker, double mu, double noise)
   {
     std::mt19937_64            random(7);
@@ -65,7 +65,7 @@ struct Stack
     }
     return mean;
   }
-  /** The pixels [first, last), equally weighted, with the statistics that the finder would give. */
+  /** Returns the set of the pixels [first, last), equally weighted, with the statistics of the finder. */
   IsoIntensitySet
   SetOf(std::size_t first, std::size_t last) const
   {
@@ -110,7 +110,7 @@ NormalFlicker(std::size_t frames, double sd, std::uint64_t seed)
   return gamma;
 }
 
-/** (1 + gamma) / mean(1 + gamma) - 1: what can be known of the flicker. */
+/** Returns (1 + gamma) / mean(1 + gamma) - 1, the identifiable part of the flicker. */
 std::vector<double>
 Normalised(std::vector<double> gamma)
 {
@@ -180,8 +180,8 @@ TEST(SensorNoiseFlickerEstimate, AddingAConstantShiftsTheOffset)
   const FlickerEstimate before = stack.Estimate();
   stack.Map([](double u) { return u + 70.0; });
   const FlickerEstimate after = stack.Estimate();
-  // v = u / ubar is relative to each pixel's mean, which noise of 20 / sqrt(30) DN spreads by r = 1.7e-3 of the level:
-  // the constant changes the pixels' weights by r^2.
+  // v = u / ubar is relative to the mean of each pixel, whose noise, 20 / sqrt(30) DN, is r = 1.7e-3 of the level. The
+  // constant changes the weights of the pixels by r^2.
   constexpr double r2 = 3e-6;
   EXPECT_NEAR(after.offsetDn, before.offsetDn + 70.0, r2 * 2100.0);
   EXPECT_NEAR(after.flickerSd, before.flickerSd, r2 * before.flickerSd);
@@ -213,7 +213,7 @@ TEST(SensorNoiseFlickerEstimate, NoiseWithoutFlickerIsNotTakenForFlicker)
 
 TEST(SensorNoiseFlickerEstimate, SixStandardDeviationsOfTheNoiseAreTheThreshold)
 {
-  // Noise of v^*: sd = 20 / 2100 / sqrt(200) = 6.7e-4. Flicker of three times that: 9 / sqrt(2 / 199) = 90.
+  // Noise of v^*: sd = 20 / 2100 / sqrt(200) = 6.7e-4. A flicker of three times this noise: 9 / sqrt(2 / 199) = 90.
   const auto gamma = NormalFlicker(200, 0.002, 6);
   EXPECT_GT(Stack(gamma, gamma, 100.0, 20.0).Estimate().flickerZ, 30.0);
   const auto faint = NormalFlicker(200, 0.0002, 6);
@@ -231,7 +231,7 @@ TEST(SensorNoiseFlickerEstimate, DifferentLampsForBrightAndDarkMissTheLine)
 {
   const FlickerEstimate estimate =
     Stack(NormalFlicker(100, 0.05, 9), NormalFlicker(100, 0.05, 10), 100.0, 20.0).Estimate();
-  // v_* carries the dark lamp's 15 DN against 1.4 DN of noise: about 100.
+  // v_* contains the 15 DN of the lamp at the dark half, and a noise of 1.4 DN: about 100.
   EXPECT_GT(estimate.offsetLinePhi, 30.0);
 }
 

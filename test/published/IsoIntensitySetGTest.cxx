@@ -19,7 +19,7 @@ namespace
 {
 constexpr std::size_t Frames = 100;
 
-/** Maps of a scene; the mask is 1 everywhere until a test changes it. */
+/** Maps of a scene, with a mask of 1. */
 struct Scene
 {
   std::vector<double>       mean;
@@ -38,7 +38,7 @@ struct Scene
   }
 };
 
-/** Evenly spaced means: 100, 100 + spacing, ... */
+/** Returns equidistant means: 100, 100 + spacing, ... */
 std::vector<double>
 Ladder(std::size_t pixels, double spacing)
 {
@@ -61,7 +61,7 @@ SumOfWeights(const IsoIntensitySet & set)
   return sum;
 }
 
-/** The set holds all pixels of the mask within 3 sd of its level and no other, with Gaussian weights. */
+/** Expects that the set has exactly the pixels of the mask within 3 sd of its level, with Gaussian weights. */
 void
 ExpectGaussianWeightsWithinThreeSd(const IsoIntensitySet & set, const Scene & scene, double sdDn)
 {
@@ -122,7 +122,7 @@ TEST(SensorNoiseIsoIntensitySet, VarianceIsTheMedianOfThePixelsNearTheLevel)
   {
     scene.variance[p] = p < 500 ? 1.0 : 9.0;
   }
-  scene.variance[10] = 1e6; // one pixel that blinks
+  scene.variance[10] = 1e6; // one blinking pixel
   EXPECT_EQ(scene.Find(0.01).temporalVarianceDn2, 1.0);
   EXPECT_EQ(scene.Find(0.99).temporalVarianceDn2, 9.0);
 }
@@ -137,7 +137,7 @@ TEST(SensorNoiseIsoIntensitySet, EqualMeansHaveEqualWeights)
 
 TEST(SensorNoiseIsoIntensitySet, QuantileMovesInwardsWhereTheSetIsTooSmall)
 {
-  // Sd of the mean 0.1 DN. Sparse ends, 10 DN apart, hold 2.5 % of the pixels each; the middle is dense.
+  // The sd of the mean is 0.1 DN. At both ends 2.5 % of the pixels are 10 DN apart; the middle is dense.
   auto mean = Ladder(1000, 0.01);
   for (std::size_t p = 0; p < 25; ++p)
   {
@@ -146,7 +146,7 @@ TEST(SensorNoiseIsoIntensitySet, QuantileMovesInwardsWhereTheSetIsTooSmall)
   }
   const Scene           scene(std::move(mean), 1.0);
   const IsoIntensitySet dark = scene.Find(0.01);
-  EXPECT_EQ(dark.wideningSteps, 2u); // 1 % and 2 % are sparse, 3 % is not
+  EXPECT_EQ(dark.wideningSteps, 2u); // the levels at 1 % and 2 % are sparse, at 3 % not
   EXPECT_DOUBLE_EQ(dark.quantile, 0.03);
   ExpectGaussianWeightsWithinThreeSd(dark, scene, dark.levelSdDn);
   const IsoIntensitySet bright = scene.Find(0.99);
@@ -157,7 +157,8 @@ TEST(SensorNoiseIsoIntensitySet, QuantileMovesInwardsWhereTheSetIsTooSmall)
 
 TEST(SensorNoiseIsoIntensitySet, BandWidensByFactorsOfTwoWhereNoQuantileServes)
 {
-  // Sd of the mean 0.1 DN, a pixel a DN: within 3 sd 2^k lie 2 floor(0.3 2^k) + 1 pixels, 30 or more from k = 6 on.
+  // The sd of the mean is 0.1 DN, with one pixel per DN: within 3 sd 2^k are 2 floor(0.3 2^k) + 1 pixels, at least 30
+  // from k = 6 on.
   const Scene           scene(Ladder(1000, 1.0), 1.0);
   const IsoIntensitySet set = scene.Find(0.01);
   EXPECT_EQ(set.wideningSteps, 4u + 6u);
@@ -186,7 +187,7 @@ TEST(SensorNoiseIsoIntensitySet, TooFewPixelsAreRefusedWithTheirNumber)
 
 TEST(SensorNoiseIsoIntensitySet, SceneWithoutEvenAreasIsRefused)
 {
-  // Sd of the mean 1e-6 DN, a pixel a DN: the widest band, 3e-6 * 2^12 = 0.012 DN, holds the level's pixel alone.
+  // The sd of the mean is 1e-6 DN, with one pixel per DN: the widest band, 3e-6 * 2^12 = 0.012 DN, has one pixel.
   try
   {
     Scene(Ladder(101, 1.0), 1e-10).Find(0.01);
@@ -205,7 +206,7 @@ TEST(SensorNoiseIsoIntensitySet, RowSetHoldsThePixelsWithinSixSdEquallyWeighted)
     scene.mean.data(), scene.variance.data(), scene.mask.data(), scene.mean.size(), Frames);
   const IsoIntensitySet bright = finder.Find(0.9);
   const IsoIntensitySet rowSet = finder.FindRowSet(bright);
-  // 6 sd are 0.6 DN: 60 pixels on either side of the level, but for those on the edge.
+  // 6 sd are 0.6 DN: 60 pixels on each side of the level, apart from pixels at the limit.
   EXPECT_NEAR(static_cast<double>(rowSet.pixels.size()), 121.0, 2.0);
   for (std::size_t i = 0; i < rowSet.pixels.size(); ++i)
   {

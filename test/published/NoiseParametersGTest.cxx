@@ -15,7 +15,7 @@ using namespace sensornoise;
 
 namespace
 {
-/** The line of a camera: slope g, intercept sigma^2 - g mu. */
+/** Returns the line of a camera, with the slope g and the intercept sigma^2 - g mu. */
 PolynomialFit
 LineOf(double gain, double intercept)
 {
@@ -57,14 +57,14 @@ TEST(SensorNoiseNoiseParameters, CameraIsRecoveredFromItsLineAndOffset)
   for (const Quantity & quantity : ParametersOf(report))
   {
     EXPECT_EQ(quantity.status, EstimateStatus::Identified);
-    EXPECT_FALSE(quantity.standardError || quantity.interval95); // the paper has none
+    EXPECT_FALSE(quantity.standardError || quantity.interval95); // the paper has no errors
   }
   EXPECT_DOUBLE_EQ(*report.gain.value, 0.3);
   EXPECT_DOUBLE_EQ(*report.offset.value, 40.0);
   EXPECT_NEAR(*report.readNoise.value, 3.0, 1e-12);
   EXPECT_NEAR(*report.readNoiseElectrons.value, 10.0, 1e-12);
   EXPECT_DOUBLE_EQ(*report.intercept.value, 9.0 - 12.0);
-  EXPECT_EQ(report.totalIntercept.value, report.intercept.value); // nothing is removed for the codes
+  EXPECT_EQ(report.totalIntercept.value, report.intercept.value); // no quantization noise is removed
   EXPECT_TRUE(report.warnings.empty());
   EXPECT_TRUE(report.IsUsable());
 }
@@ -80,7 +80,7 @@ TEST(SensorNoiseNoiseParameters, WithoutOffsetTheBracketsStand)
     EXPECT_EQ(quantity->status, EstimateStatus::NotIdentifiable);
     EXPECT_FALSE(quantity->value);
   }
-  // sigma^2 = 0 at mu = 40 - 9/0.5 = 22; at mu = 60, sigma^2 = 9 + 0.5 (60 - 40) = 19: both ends hold the camera's.
+  // sigma^2 = 0 at mu = 40 - 9/0.5 = 22, and sigma^2 = 9 + 0.5 (60 - 40) = 19 at mu = 60: the bounds contain the truth.
   ExpectInterval(report.offset.bracket, 22.0, 60.0);
   ExpectInterval(report.readNoise.bracket, 0.0, std::sqrt(19.0));
   ExpectInterval(report.readNoiseElectrons.bracket, 0.0, std::sqrt(19.0) / 0.5);
@@ -91,7 +91,7 @@ TEST(SensorNoiseNoiseParameters, WithoutDarkestMeanThereIsNoBracket)
   Report report;
   FillNoiseParameters(report, LineOfCamera(0.5, 40.0, 3.0), std::nullopt, std::nullopt);
   EXPECT_FALSE(report.offset.bracket || report.readNoise.bracket);
-  Report contradiction; // the darkest mean below the level where sigma^2 = 0
+  Report contradiction; // the darkest mean is below the level at which sigma^2 = 0
   FillNoiseParameters(contradiction, LineOfCamera(0.5, 40.0, 3.0), std::nullopt, 21.9);
   EXPECT_FALSE(contradiction.offset.bracket || contradiction.readNoise.bracket);
 }

@@ -42,7 +42,7 @@ TEST(SensorNoisePublishedMethod, RecoversTheCamera)
     const auto     method = Measure(stack, WithGlobalShutter());
     const Report & report = method.GetReport();
     const double   pixels = static_cast<double>(report.pixels.used);
-    const double   full = truth.electrons * truth.gainDnPerElectron; // [DN] above the offset
+    const double   full = truth.electrons * truth.gainDnPerElectron; // largest signal [DN]
     // Levels k/15 of the full scale: sd 0.31, root mean square of the variance at most 0.6 (g full) + sigma^2 + 1/12.
     const double spread = 0.31 * full;
     const double noise = 0.6 * truth.gainDnPerElectron * full + truth.readNoiseDn * truth.readNoiseDn + 0.1;
@@ -50,14 +50,14 @@ TEST(SensorNoisePublishedMethod, RecoversTheCamera)
     // The vibration test prefers pixels of low variance: level -ln(level) 2 / (T-1) = 0.16 % of the variance.
     EXPECT_NEAR(ValueOf(report.gain) / truth.gainDnPerElectron, 1.0, 5.0 * gainSd / truth.gainDnPerElectron + 0.0016)
       << camera;
-    // v_* and v^* average 30 pixels at least; sd(K) is their noise over the flicker's, d mu / d K = 1 + mu / full.
+    // v_* and v^* average at least 30 pixels. sd(K) is their noise over the flicker, and d mu / d K = 1 + mu / full.
     const double darkNoise = (truth.readNoiseDn * truth.readNoiseDn + 0.1) / 30.0;
     const double brightNoise = truth.offsetDn * truth.offsetDn * truth.gainDnPerElectron / full / 30.0;
     const double offsetSd = std::sqrt((darkNoise + brightNoise) / 59.0) / 0.08 * (1.0 + truth.offsetDn / full);
     EXPECT_NEAR(ValueOf(report.offset), truth.offsetDn, 5.0 * offsetSd) << camera;
     const double flicker = DrawTruth(simulation, 96).realisedFlickerSd;
-    EXPECT_NEAR(ValueOf(report.flickerSd), flicker, 0.02 * flicker) << camera; // offset and v^* to 1 % each
-    // Each pixel's term has variance 2 + 12/59; the noise of gamma_t, common to all pixels, adds 5 % at most.
+    EXPECT_NEAR(ValueOf(report.flickerSd), flicker, 0.02 * flicker) << camera; // offset and v^* within 1 % each
+    // The term of each pixel has the variance 2 + 12/59; the noise of gamma_t, common to all pixels, adds at most 5 %.
     EXPECT_NEAR(*report.fit.reducedChi2, 1.0, 5.0 * std::sqrt(2.2 / pixels) + 0.05) << camera;
     EXPECT_EQ(report.bitDepth, 12) << camera;
     EXPECT_FALSE(HasWarning(report, WarningCode::CorrectedVarianceCurved)) << camera;
@@ -106,7 +106,7 @@ TEST(SensorNoisePublishedMethod, StacksWithoutInformationFailWithAReason)
   auto still = ConstantStack<Codes>(700);
   for (std::size_t t = 0; t < still.frames; ++t)
   {
-    still.pixels[t * 20 * 16] = static_cast<Codes>(700 + t); // else they would be one frame
+    still.pixels[t * 20 * 16] = static_cast<Codes>(700 + t); // otherwise all frames are equal
   }
   const auto constant = Measure(still);
   ExpectNothingMeasured(constant.GetReport(), WarningCode::NothingToMeasure);
@@ -152,7 +152,7 @@ TEST(SensorNoisePublishedMethod, WrongUseIsRefused)
   EXPECT_THROW(Method(settings, geometry, 20), std::invalid_argument);
   settings = {};
   settings.codes.bitDepth = 10;
-  EXPECT_THROW(Measure(FlickeringStack(), settings), std::invalid_argument); // the data reach beyond 1,023
+  EXPECT_THROW(Measure(FlickeringStack(), settings), std::invalid_argument); // the data exceed 1,023
 }
 
 TEST(SensorNoisePublishedMethod, PassOfWrongLengthIsRefused)

@@ -19,7 +19,7 @@ using namespace sensornoise::test;
 
 namespace
 {
-/** \a other has the values of \a report, scaled and shifted, to rounding errors. */
+/** Expects that \a other has the values of \a report, scaled and shifted, within rounding errors. */
 void
 ExpectSameCamera(const Report & report,
                  const Report & other,
@@ -118,8 +118,8 @@ TEST(SensorNoisePublishedMethod, AddedConstantShiftsTheOffset)
 {
   const auto before = Measure(FlickeringStack(), WithGlobalShutter());
   const auto after = Measure(FlickeringStack().Map<Codes>([](int u) { return u + 5000; }), WithGlobalShutter());
-  // v = u / ubar is relative to each pixel's mean, and S^* reaches over means up to 1 % from u^* (3 sd of a mean are
-  // 3 * 25 DN of 3,000, weighted): the constant re-weighs a flicker of 5 % by that, 5e-4.
+  // v = u / ubar is relative to the mean of each pixel. The means of S^* are up to 1 % from u^* (3 sd of a mean are
+  // 3 * 25 DN of 3,000, weighted). The constant changes the weights by so much, and a flicker of 5 % by 5e-4.
   ExpectSameCamera(before.GetReport(), after.GetReport(), 1.0, 5000.0, 5e-4);
 }
 
@@ -158,11 +158,11 @@ TEST(SensorNoisePublishedMethod, MaskedPixelsTakeNoPart)
     mask[p] = p / stack.width < 40 ? 7 : 0;
   }
   PublishedSettings settings = WithGlobalShutter();
-  settings.codes = MakeCodeSettings(12, 0.0, 4095.0, 1.0); // else the masked pixels' codes count
+  settings.codes = MakeCodeSettings(12, 0.0, 4095.0, 1.0); // otherwise the codes of masked pixels are used
   const auto expected = Measure(stack, settings, 1000, mask);
   for (std::size_t i = 0; i < stack.pixels.size(); ++i)
   {
-    if (i / stack.width % stack.height > 40) // row 40 is the neighbour of the last used one
+    if (i / stack.width % stack.height > 40) // row 40 is beside the last used row
     {
       stack.pixels[i] = static_cast<Codes>(i * 977 % 4096);
     }

@@ -35,7 +35,8 @@ MethodOf(const Stack<TPixel> & stack, const PublishedSettings & settings)
   return PublishedMethod<TPixel>(settings, { stack.width, stack.height, settings.shutterAxis }, stack.frames);
 }
 
-/** Every process reads every \a count-th frame, backwards if it may, and all merge the sums of all others. */
+/** Measures with \a count processes. Each reads every \a count-th frame, backwards if possible, and merges the sums of
+ * all others. */
 template <typename TPixel>
 std::vector<PublishedMethod<TPixel>>
 MeasureInTurn(const Stack<TPixel> & stack, const PublishedSettings & settings, std::size_t count)
@@ -120,7 +121,7 @@ TEST(SensorNoisePublishedMethodMerge, SumsOfAnotherStartAreRefused)
   auto         one = MethodOf(stack, {});
   auto         other = MethodOf(stack, {});
   one.AddFrames(stack.Frame(0), stack.frames);
-  other.AddFrames(stack.Frame(0), 2); // in another order: other frames
+  other.AddFrames(stack.Frame(0), 2); // another order: other frames
   other.AddFrames(stack.Frame(1), stack.frames - 2);
   one.EndPass();
   other.EndPass();

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
-// What is equal is counted once: the result is, bit by bit, that of the distinct frames.
+// Equal frames are counted once: the result has the bits of the result of the distinct frames.
 
 using namespace sensornoise;
 using namespace sensornoise::test;
@@ -32,7 +32,7 @@ TEST(SensorNoisePublishedRepeatedFrames, FlickerOfRowsIsThatOfTheDistinctOnes)
 {
   SimulationSettings simulation = SettingsOf(0.05, 30);
   simulation.rollingShutterPeriodRows = 40.0;
-  const auto stack = Simulate<float>(simulation, 64, 56, MakeBarsScene(64, 56)); // the flicker of each row is known
+  const auto        stack = Simulate<float>(simulation, 64, 56, MakeBarsScene(64, 56)); // the row set reaches each row
   PublishedSettings settings;
   settings.rollingShutter = RollingShutter::Fixed;
   settings.sigmaRows = 8.0;

@@ -10,14 +10,14 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-// What makes the published method warn, and that the same stack without it does not.
+// Causes of the warnings of the published method; without the cause the same stack gives no warning.
 
 using namespace sensornoise;
 using namespace sensornoise::test;
 
 namespace
 {
-/** Columns of grey levels; the lower half of the rows has \a lower of the light. */
+/** Returns columns of grey levels. The lower half of the rows has the fraction \a lower of the signal. */
 Report
 ReportOfHalves(double lower)
 {
@@ -32,7 +32,7 @@ ReportOfHalves(double lower)
   return Measure(Simulate<Codes>(settings, size, size, scene)).GetReport();
 }
 
-/** A small frame whose columns have these levels, or one ramp where there is none. */
+/** Returns the report of small frames whose columns have these levels, or a ramp if there are none. */
 Report
 ReportOfLevels(const std::vector<double> & levels)
 {
@@ -99,7 +99,7 @@ TEST(SensorNoisePublishedWarnings, SetsWidened)
 
 TEST(SensorNoisePublishedWarnings, OffsetLineMisfit)
 {
-  // A second lamp lights the dark areas.
+  // A second lamp illuminates the dark areas.
   const SimulationSettings settings = SettingsOf(0.05, 40);
   Stack<Codes>             stack = Simulate(settings);
   EXPECT_FALSE(HasWarning(Measure(stack).GetReport(), WarningCode::OffsetLineMisfit));

@@ -29,14 +29,14 @@ GlobalFlicker(std::size_t t, std::size_t)
   return 0.05 * std::sin(2.3 * static_cast<double>(t));
 }
 
-/** A lamp that pulses once in 25 rows. */
+/** Returns gamma of a lamp with a period of 25 rows. */
 double
 RowFlicker(std::size_t t, std::size_t y)
 {
   return 0.05 * std::sin(0.25 * static_cast<double>(y) + 2.3 * static_cast<double>(t));
 }
 
-/** Frames of mean 1000 with a flicker and normal noise; the rows [firstRow, lastRow) are the row set. */
+/** Frames of mean 1000 with flicker and normal noise. The rows [firstRow, lastRow) are the row set. */
 struct Stack
 {
   std::vector<double>              mean;
@@ -77,7 +77,7 @@ struct Stack
     }
     return sums;
   }
-  /** The same scene with x and y exchanged. */
+  /** Returns the same scene with x and y exchanged. */
   FlickerSums
   TransposedSums() const
   {
@@ -120,14 +120,15 @@ TEST(SensorNoiseRowFlicker, RowWeightsSumToOne)
 
 TEST(SensorNoiseRowFlicker, GlobalFlickerIsNotModelledByRow)
 {
-  // Cross-validation gains by 1 % of 2,400 row errors, their sum's sd, with about 1/3 of a sd's chance to begin with.
+  // By chance cross-validation improves by about 1/3 of a standard deviation of the sum of 2,400 row errors, which is
+  // 1 % of it.
   EXPECT_EQ(ChooseSigmaRows(Stack(GlobalFlicker, 20.0).Sums()), 0.0);
   EXPECT_EQ(ChooseSigmaRows(Stack([](std::size_t, std::size_t) { return 0.0; }, 20.0).Sums()), 0.0);
 }
 
 TEST(SensorNoiseRowFlicker, RowFlickerIsModelledByRow)
 {
-  // Half a period is 12.6 rows: a wider kernel averages the pulse away, a narrower one leaves noise in.
+  // Half a period is 12.6 rows: a wider kernel averages the pulse away, a narrower kernel leaves noise.
   const double sigma = ChooseSigmaRows(Stack(RowFlicker, 20.0).Sums());
   EXPECT_GE(sigma, 1.0);
   EXPECT_LE(sigma, 6.0);
@@ -203,5 +204,5 @@ TEST(SensorNoiseRowFlicker, ColumnsOfTheTransposedSceneAreItsRows)
   const RowRatios byRow = SmoothRowRatios(rows, 3.0);
   const RowRatios byColumn = SmoothRowRatios(columns, 3.0);
   EXPECT_EQ(byRow.known, byColumn.known);
-  EXPECT_EQ(byRow.ratio, byColumn.ratio); // pixels of a row are met in the same order: same bits
+  EXPECT_EQ(byRow.ratio, byColumn.ratio); // same order of the pixels of a row: same bits
 }

@@ -30,7 +30,7 @@ struct Scene
   }
 };
 
-/** The coefficients of (2.20). */
+/** Coefficients of (2.20). */
 struct Truth
 {
   double intercept{ -60.0 };
@@ -41,7 +41,7 @@ struct Truth
   double covariance{ -0.003 };
 };
 
-/** A smooth scene whose variance follows (2.20) exactly, with centred differences written out here. */
+/** Smooth scene whose variance follows (2.20) exactly, with centred differences that are computed here. */
 Scene
 SceneOf(const Truth & truth)
 {
@@ -90,7 +90,7 @@ Transposed(const Scene & scene)
 void
 ExpectTruth(const VibrationCovariance & fit, const Truth & truth)
 {
-  // Six coefficients of order 1 in scaled columns, conditioned better than 1e4: 1e-12; the smallest is 1e-2 of its sum.
+  // Six coefficients of order 1 in scaled columns, with a condition below 1e4: 1e-12. The smallest is 1e-2 of its sum.
   EXPECT_TRUE(fit.isDetermined);
   EXPECT_NEAR(fit.varianceXPixels2, truth.varianceX, 1e-9);
   EXPECT_NEAR(fit.varianceYPixels2, truth.varianceY, 1e-9);

@@ -20,7 +20,7 @@ constexpr std::size_t Width = 40;
 constexpr std::size_t Height = 30;
 constexpr std::size_t Frames = 50;
 
-/** A frame-sized map with the value of a function of (x, y). */
+/** Returns a map of a frame with the values of a function of (x, y). */
 template <typename TFunction>
 std::vector<double>
 MapOf(TFunction function)
@@ -101,7 +101,7 @@ TEST(SensorNoiseVibrationMask, NoiseAloneIsKeptWithProbabilityOneMinusLevel)
 {
   constexpr std::size_t      size = 400;
   std::mt19937_64            random(3);
-  std::normal_distribution<> normal(1000.0, std::sqrt(25.0 / Frames)); // the mean of frames of variance 25
+  std::normal_distribution<> normal(1000.0, std::sqrt(25.0 / Frames)); // mean of frames with the variance 25
   std::vector<double>        mean(size * size);
   std::generate(mean.begin(), mean.end(), [&] { return normal(random); });
   const std::vector<double>       variance(mean.size(), 25.0);
@@ -111,7 +111,7 @@ TEST(SensorNoiseVibrationMask, NoiseAloneIsKeptWithProbabilityOneMinusLevel)
     const auto   mask = VibrationMask(mean.data(), variance.data(), valid.data(), size, size, Frames, level);
     const double inner = (size - 2.0) * (size - 2.0);
     const double kept = static_cast<double>(std::count(mask.begin(), mask.end(), 1)) / inner;
-    // Binomial; each pixel shares its mean with 4 statistics, a correlation that at most quadruples the variance.
+    // Binomial; the mean of each pixel is in 4 statistics, and this correlation at most quadruples the variance.
     EXPECT_NEAR(kept, 1.0 - level, 4.0 * 2.0 * std::sqrt(level * (1.0 - level) / inner)) << level;
   }
 }
@@ -128,7 +128,7 @@ TEST(SensorNoiseVibrationMask, ScalingAndOffsetChangeNothing)
   auto shifted = mean;
   std::transform(mean.begin(), mean.end(), shifted.begin(), [](double u) { return u + 1000.0; });
   EXPECT_EQ(MaskOf(shifted, std::vector<double>(mean.size(), 2.0)), mask);
-  EXPECT_GT(std::count(mask.begin(), mask.end(), 0), 200); // the border has 136: the test did leave pixels out
+  EXPECT_GT(std::count(mask.begin(), mask.end(), 0), 200); // the border has 136 pixels: the test left out others, too
 }
 
 TEST(SensorNoiseVibrationMask, NeighboursOfNaNAreLeftOut)
@@ -157,7 +157,7 @@ TEST(SensorNoiseVibrationMask, PixelsThatAreNotValidOrNeverVaryAreLeftOut)
   const auto mask = VibrationMask(mean.data(), variance.data(), valid.data(), Width, Height, Frames, 0.01);
   EXPECT_EQ(mask[5 * Width + 5], 0);
   EXPECT_EQ(mask[6 * Width + 9], 0);
-  EXPECT_EQ(mask[5 * Width + 6], 1); // its neighbour's mean still serves
+  EXPECT_EQ(mask[5 * Width + 6], 1); // the mean of its neighbour is still used
 }
 
 TEST(SensorNoiseVibrationMask, FramesWithoutInnerPixelsKeepNone)

@@ -47,7 +47,7 @@ TEST(SensorNoiseGuardBand, WithoutClipLevelsNothingIsGuarded)
 
 TEST(SensorNoiseGuardBand, ExtremesOfTheNoiseDecide)
 {
-  // Steady light and no motion: level +- 3 sd against the levels, half a code step inside.
+  // Steady illumination without motion: level ± 3 sd is compared with the clip levels, half a step inside.
   Scene scene;
   scene.codes.clipLowDn = 700.0;
   scene.codes.clipHighDn = 1400.0;
@@ -82,7 +82,7 @@ TEST(SensorNoiseGuardBand, BrighterFramesAndMotionWidenTheBand)
 
 TEST(SensorNoiseGuardBand, UnderStrongChangesTheLevelsThatAreReachedDecide)
 {
-  // The darkest frame has a tenth of the signal above an offset of 500, the brightest one twice: known offset.
+  // With the known offset of 500 the darkest frame has a tenth of the signal, and the brightest frame twice the signal.
   Scene scene;
   scene.codes.clipLowDn = 505.0;
   scene.codes.clipHighDn = 2200.0;
@@ -106,7 +106,7 @@ TEST(SensorNoiseGuardBand, UnderStrongChangesTheLevelsThatAreReachedDecide)
                         low - 3.0 * std::sqrt(model.NoiseVariance(low)) <= 505.0 + 2.0;
     ASSERT_EQ(guarded[p] != 0, scene.frames.take[p] != 0 && isNear) << p;
   }
-  // An offset that is not known widens the band.
+  // An unknown offset widens the band.
   const auto wider = guardedAbout(450.0, 500.0);
   EXPECT_GT(Count(wider), Count(guarded));
   for (std::size_t p = 0; p < guarded.size(); ++p)

@@ -24,7 +24,7 @@ namespace
 constexpr std::size_t Width = 70;
 constexpr std::size_t Height = 60;
 
-/** A frame whose variance is that of \a truth, but for \a spoiled pixels of 50 times as much. */
+/** Returns a frame with the variance of \a truth, and with \a spoiled pixels of 50 times the variance. */
 ReferenceFrame
 FrameOf(const InitialNoiseModel & truth, std::size_t every = 0)
 {
@@ -73,7 +73,7 @@ ExpectTruth(const InitialNoiseModel & model)
 
 TEST(SensorNoiseInitialNoiseModel, VarianceOfTheModelIsRecoveredExactly)
 {
-  const double darkest = FitInitialNoiseModel(FrameOf(Truth(300.0))).darkestDn; // of the mean alone
+  const double darkest = FitInitialNoiseModel(FrameOf(Truth(300.0))).darkestDn; // from the mean alone
   ExpectTruth(FitInitialNoiseModel(FrameOf(Truth(darkest))));
 }
 

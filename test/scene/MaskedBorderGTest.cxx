@@ -21,7 +21,7 @@ constexpr double        OffsetDn = 100.0;
 
 using Level = std::function<double(std::size_t x, std::size_t y)>;
 
-/** Mean levels with a noise of 0.4 DN. */
+/** Returns mean levels with a noise of 0.4 DN. */
 std::vector<double>
 MeanOf(const Level & level)
 {
@@ -96,13 +96,13 @@ TEST(SensorNoiseMaskedBorder, FindsNoneInScenes)
   EXPECT_TRUE(BorderOf(BlackSky).strips.empty());
   EXPECT_TRUE(BorderOf(Ramp).strips.empty());
   EXPECT_TRUE(BorderOf([](std::size_t, std::size_t) { return 700.0; }).strips.empty());
-  // Patches of a chart, one of them in the corner.
+  // Uniform fields of a test chart, one of them in the corner.
   EXPECT_TRUE(BorderOf([](std::size_t x, std::size_t y) {
                 return OffsetDn + 100.0 * static_cast<double>((x / 20 * 7 + y / 20 * 3) % 11);
               }).strips.empty());
 }
 
-// A black bar along the border whose image is blurred by 0.5 pixels is part of the scene.
+// A black bar along the border, blurred by 0.5 pixels, is part of the scene.
 TEST(SensorNoiseMaskedBorder, FindsNoneInABlurredBar)
 {
   const MaskedBorder border = BorderOf([](std::size_t x, std::size_t y) {

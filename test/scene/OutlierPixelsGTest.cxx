@@ -44,7 +44,7 @@ TEST(SensorNoiseUnexplainedPixels, AreThoseFarAboveTheModel)
   const auto alone = FindOutlierPixels(frame, frames.model, SerialFor);
   EXPECT_EQ(Count(alone), 1u);
   EXPECT_EQ(alone[lonely], 1);
-  // A spot that moves takes along the pixels in it whose variance is small by chance, and is told from single pixels.
+  // A moving spot includes its pixels of a variance that is small by chance, and is distinguished from single pixels.
   for (std::size_t y = 30; y < 37; ++y)
   {
     for (std::size_t x = 30; x < 37; ++x)

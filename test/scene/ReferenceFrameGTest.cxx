@@ -118,7 +118,7 @@ TEST(SensorNoiseReferenceFrame, PixelThatIsNotValidTakesItsNeighboursAlong)
     }
   }
   maps.valid[At(4, 4)] = 1;
-  maps.variance[At(4, 4)] = 0.0; // a pixel that never varies is alone
+  maps.variance[At(4, 4)] = 0.0; // a constant pixel is left out, without its neighbours
   const auto constant = maps.Make();
   EXPECT_EQ(constant.usable[At(4, 4)], 0);
   EXPECT_EQ(constant.usable[At(5, 4)], 1);
@@ -134,7 +134,7 @@ TEST(SensorNoiseReferenceFrame, PixelWithoutAMeanHasItsNeighbours)
   {
     EXPECT_TRUE(std::isfinite(frame.mean[p]) && std::isfinite(frame.neighbourMean[p])) << p;
   }
-  double sum = 0.0; // of the 7 other neighbours of (5, 4)
+  double sum = 0.0; // over the 7 other neighbours of (5, 4)
   for (std::size_t i = 0; i < 9; ++i)
   {
     const std::size_t p = At(4 + i % 3, 3 + i / 3);
@@ -145,7 +145,7 @@ TEST(SensorNoiseReferenceFrame, PixelWithoutAMeanHasItsNeighbours)
   {
     maps.Lose(p);
   }
-  EXPECT_EQ(maps.Make().mean, std::vector<double>(Width * Height, 0.0)); // nothing is known of any pixel
+  EXPECT_EQ(maps.Make().mean, std::vector<double>(Width * Height, 0.0)); // no pixel has a known level
 }
 
 TEST(SensorNoiseReferenceFrame, ThreadsChangeNoBit)

@@ -23,10 +23,11 @@ namespace
 constexpr std::size_t Size = 192;
 constexpr double      Freedom = 39.0;
 
-/** What is added to the variance of a pixel at (x, y) in units of the frame's size, of level \a meanDn [DN^2]. */
+/** Function that returns the addition to the variance [DN^2] of a pixel with the level \a meanDn at (x, y), in units of
+ * the size of the frame. */
 using Excess = std::function<double(double x, double y, double meanDn)>;
 
-/** A frame of noise, flicker and motion, with the scatter of 40 frames. */
+/** Frame with noise, flicker and motion, and with the scatter of 40 frames. */
 ReferenceFrame
 FrameWith(const Excess & excess, std::size_t size = Size)
 {
@@ -62,14 +63,14 @@ FindIn(const ReferenceFrame & frame)
   return FindTransientRegion(frame, FitInitialNoiseModel(frame));
 }
 
-/** A thing of 1,000 DN that hides every pixel it reaches for a quarter of the burst. */
+/** Returns the variance of an object of 1,000 DN that hides every pixel it reaches for a quarter of the burst. */
 double
 Hidden(double meanDn)
 {
   return 0.25 / 0.75 * (meanDn - 1000.0) * (meanDn - 1000.0) + 3e4;
 }
 
-/** Share of the pixels between two heights that are in the region. */
+/** Returns the fraction of the pixels between two heights that are in the region. */
 double
 ShareOfRows(const std::vector<std::uint8_t> & region, double top, double bottom)
 {
@@ -99,7 +100,7 @@ TEST(SensorNoiseTransientRegion, IsFoundWhereMostOfTheFrameIsCrossed)
       FindIn(FrameWith([top](double, double y, double mean) { return y >= top ? Hidden(mean) : 0.0; }));
     ASSERT_FALSE(region.empty()) << top;
     EXPECT_EQ(ShareOfRows(region, top, 1.0), 1.0) << top;
-    EXPECT_LT(ShareOfRows(region, 0.0, top - 2.0 / 24.0), 0.05) << top; // the neighbours of the region's cells
+    EXPECT_LT(ShareOfRows(region, 0.0, top - 2.0 / 24.0), 0.05) << top; // the tiles beside the region
   }
 }
 
@@ -121,14 +122,14 @@ TEST(SensorNoiseTransientRegion, VerdictDoesNotDependOnTheNumberOfPixels)
       FindIn(FrameWith([](double, double y, double mean) { return y >= 1.0 / 3.0 ? Hidden(mean) : 0.0; }, size));
     ASSERT_FALSE(region.empty()) << size;
     EXPECT_EQ(ShareOfRows(region, 1.0 / 3.0, 1.0), 1.0) << size;
-    EXPECT_LT(ShareOfRows(region, 0.0, 1.0 / 3.0 - 0.17), 0.05) << size; // two cells of 12 in the small frame
+    EXPECT_LT(ShareOfRows(region, 0.0, 1.0 / 3.0 - 0.17), 0.05) << size; // two tiles of 12 in the small frame
     EXPECT_TRUE(FindIn(FrameWith([](double, double, double) { return 0.0; }, size)).empty()) << size;
   }
 }
 
 TEST(SensorNoiseTransientRegion, LightThatDiffersOverTheFrameIsNone)
 {
-  // A third of the frame has steady light, the rest flickers by 9 %.
+  // A third of the frame has steady illumination, the rest flickers by 9 %.
   EXPECT_TRUE(FindIn(FrameWith([](double, double y, double mean) {
                 const double light = mean - 300.0;
                 return y >= 1.0 / 3.0 ? 0.0081 * light * light : 0.0;
@@ -146,7 +147,7 @@ TEST(SensorNoiseTransientRegion, SmallThingsAreLeftToTheLaterPasses)
 
 TEST(SensorNoiseTransientRegion, FrameOfWhichLittleIsStillIsLeftAlone)
 {
-  // A corner of 6 % is still, of which 3 % are no neighbours of what moves.
+  // A corner of 6 % is static; half of it is not next to moving pixels.
   EXPECT_TRUE(FindIn(FrameWith([](double x, double y, double mean) {
                 const double stripe = std::fmod(10.0 * (x + y), 2.0) < 1.0 ? 1.0 : 6.0;
                 return std::max(x, y) > 0.24 ? stripe * Hidden(mean) : 0.0;

@@ -82,7 +82,7 @@ TEST(SensorNoiseUsablePixels, GuardedAndCoarsePixelsAreLeftOut)
 {
   Scene scene;
   scene.codes.clipHighDn = 1400.0;
-  scene.codes.quantisationStepDn = 30.0; // coarse below the variance 225 DN^2, at 300 + (225 - 30) / 0.5 DN
+  scene.codes.quantisationStepDn = 30.0; // too coarse below 225 DN^2, at 300 + (225 - 30) / 0.5 DN
   const UsablePixels found = scene.Find();
   std::size_t        count = 0;
   for (std::size_t p = 0; p < found.usable.size(); ++p)
@@ -99,7 +99,7 @@ TEST(SensorNoiseUsablePixels, GuardedAndCoarsePixelsAreLeftOut)
   EXPECT_GT(found.nearClip, 0u);
   EXPECT_EQ(found.count, static_cast<double>(count));
   EXPECT_EQ(count + found.coarse + found.nearClip, (Width - 4) * (Height - 4));
-  // A bright frame brings more pixels to the clip level.
+  // In a bright frame more pixels reach the clip level.
   std::vector<double> frameMeans(Frames, 950.0);
   frameMeans[3] = 1050.0;
   EXPECT_GT(scene.Find(frameMeans).nearClip, found.nearClip);

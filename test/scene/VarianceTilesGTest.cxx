@@ -13,11 +13,12 @@ using namespace sensornoise;
 
 namespace
 {
-constexpr std::size_t Width = 64; // 8 x 4 cells of 8 x 8 pixels
+constexpr std::size_t Width = 64; // 8 x 4 tiles of 8 x 8 pixels
 constexpr std::size_t Height = 32;
 constexpr std::size_t Frames = 50;
 
-/** All pixels of a frame, of levels from 0 to 100 DN; a prediction of 10 DN^2, which the median pixel has. */
+/** All pixels of a frame with levels from 0 to 100 DN, and with a predicted variance of 10 DN^2, which the median pixel
+ * has. */
 struct Cells
 {
   std::vector<std::size_t> pixels = std::vector<std::size_t>(Width * Height);
@@ -43,7 +44,7 @@ struct Cells
   {
     return VarianceTiles(sample, pixels, { Width, Height, 1 }, Frames);
   }
-  /** Calls function(pixel) for the pixels of a cell. */
+  /** Calls function(pixel) for the pixels of a tile. */
   template <typename TFunction>
   void
   ForCell(std::size_t column, std::size_t row, TFunction function)
@@ -85,7 +86,7 @@ TEST(SensorNoiseVarianceTiles, AreJudgedByTheirMedianAndByCrowdsFarAbove)
 TEST(SensorNoiseVarianceTiles, FewPixelsTellNothing)
 {
   Cells input;
-  input.pixels.resize(7); // all in the first cell
+  input.pixels.resize(7); // all in the first tile
   input.sample.raw.resize(7);
   const TileComparison judged = input.Make().Judge(input.prediction);
   EXPECT_EQ(judged.fits, std::vector<CellFit>(32, CellFit::Unknown));
@@ -96,7 +97,7 @@ TEST(SensorNoiseVarianceTiles, LightChangesPixelsInProportionToTheirLevel)
 {
   Cells      input;
   const auto levelOf = [&](std::size_t p) { return 100.0 * input.sample.TermsOf(p)(1); };
-  // Two cells flicker by 20 and 10 %; one holds a thing, which changes the dark pixels most.
+  // Two tiles flicker by 20 and 10 %. An object moves in a third tile, and changes the dark pixels most.
   input.ForCell(0, 0, [&](std::size_t p) { input.sample.raw[p] += input.median * 0.04 * levelOf(p) * levelOf(p); });
   input.ForCell(1, 0, [&](std::size_t p) { input.sample.raw[p] += input.median * 0.01 * levelOf(p) * levelOf(p); });
   input.ForCell(
@@ -112,5 +113,5 @@ TEST(SensorNoiseVarianceTiles, LightChangesPixelsInProportionToTheirLevel)
   judged.fits[1] = CellFit::Unknown;
   const IlluminationTest light = cells.FindLight(judged, input.prediction, 2.5);
   EXPECT_EQ(light.explained, 1.0);
-  EXPECT_NEAR(light.modulation, 0.2, 0.01); // the median stands for the mean to 1 %
+  EXPECT_NEAR(light.modulation, 0.2, 0.01); // the median agrees with the mean within 1 %
 }

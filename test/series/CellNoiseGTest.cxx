@@ -15,15 +15,15 @@ namespace
 constexpr Eigen::Index Frames = 60;
 constexpr Eigen::Index Cells = 400;
 
-/** Cells with signals from 10 to 1000, read variance 9 and gain 0.5, seen in frames of any illumination. */
+/** Tiles with signals from 10 to 1000, a read variance of 9 and a gain of 0.5, in frames of any illumination. */
 struct SimulatedCells
 {
   Eigen::VectorXd gamma;
   Eigen::VectorXd signal;
-  Eigen::VectorXd fractions; ///< truth
-  Eigen::MatrixXd whole;     ///< in units of the noise at gamma = 0
+  Eigen::VectorXd fractions; ///< true shot fractions [1]
+  Eigen::MatrixXd whole;     ///< values in units of the noise at gamma = 0 [1]
   Eigen::MatrixXd basis;
-  Eigen::MatrixXd rest; ///< after an unweighted projection
+  Eigen::MatrixXd rest; ///< residuals of an unweighted projection [1]
 
   explicit SimulatedCells(const Eigen::VectorXd & illumination, double gain = 0.5, unsigned int seed = 3)
     : gamma(illumination.array() / illumination.mean() - 1.0)
@@ -46,7 +46,7 @@ struct SimulatedCells
   }
 };
 
-/** 1 in every fourth frame, else `low`. */
+/** Returns an illumination of 1 in every fourth frame, else `low`. */
 Eigen::VectorXd
 Pulses(double low)
 {
@@ -59,8 +59,8 @@ Pulses(double low)
 }
 } // namespace
 
-// The ratio of shot to read noise is looked for in steps of a factor of 2, which fractions within 0.17 = max |b(2 k) -
-// b(k)| of the truth allow for.
+// The ratio of shot to read noise is searched in steps of a factor of 2. The fractions b(k) then deviate from the truth
+// by at most max |b(2 k) - b(k)| = 0.17.
 TEST(SensorNoiseCellNoise, ShotFractionsAreFound)
 {
   for (const double low : { 0.0, 0.1, 0.3 })
@@ -75,7 +75,8 @@ TEST(SensorNoiseCellNoise, ShotFractionsAreFound)
   EXPECT_GT(EstimateShotFractions(shot.whole, shot.basis, shot.gamma, shot.signal).maxCoeff(), 0.99);
 }
 
-// Eight series that live in the 15 bright frames, as those of motion do, leave few and small residuals there.
+// Eight temporal components that are large in the 15 bright frames, as the components of motion, leave few and small
+// residuals there.
 TEST(SensorNoiseCellNoise, ShotFractionsOfDarkFramesAreUnbiased)
 {
   for (const unsigned int seed : { 3u, 4u, 5u })
@@ -91,16 +92,15 @@ TEST(SensorNoiseCellNoise, ShotFractionsOfDarkFramesAreUnbiased)
     }
     const Eigen::MatrixXd basis = Orthonormalise(columns, Frames);
     const Eigen::VectorXd found = EstimateShotFractions(cells.whole, basis, cells.gamma, cells.signal);
-    // 1 - b is the variance of a dark frame. The likelihood's second derivative is that of a relative error of 4 % of
-    // k.
+    // 1 - b is the variance of a dark frame. By the second derivative of the likelihood the relative error of k is 4 %.
     const Eigen::VectorXd ratio = (1.0 - found.array()) / (1.0 - cells.fractions.array());
     EXPECT_GT(ratio.minCoeff(), 0.85) << seed;
     EXPECT_LT(ratio.maxCoeff(), 1.15) << seed;
   }
 }
 
-// Whitened, the residuals have the variance 1 on average over the freedom that is left, and no direction that stands
-// out of Marchenko and Pastur's edge; unweighted they have.
+// The whitened residuals have the mean variance 1 over their degrees of freedom, and no direction above the edge of
+// Marchenko and Pastur. The unweighted residuals have such directions.
 TEST(SensorNoiseCellNoise, WhitenedResidualsAreWhite)
 {
   const auto largestOverEdge = [](const Eigen::MatrixXd & rest) {

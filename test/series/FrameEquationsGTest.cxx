@@ -30,7 +30,7 @@ constexpr std::size_t Width = 70;
 constexpr std::size_t Height = 45;
 constexpr std::size_t LastClass = GradientClasses - 1;
 
-/** Frames with flicker and motion of all orders, with noise of the model's variance. */
+/** Returns frames with flicker, motion of all orders, and noise of the variance of the model. */
 const SyntheticFrames &
 NoisyFrames()
 {
@@ -45,7 +45,8 @@ NoisySums()
   return sums;
 }
 
-/** Coefficients of frame \a t by weighted least squares over single pixels, with an orthogonal decomposition. */
+/** Returns the coefficients of frame \a t by weighted least squares over single pixels, with an orthogonal
+ * decomposition. */
 Eigen::VectorXd
 DenseFit(const SyntheticFrames &          frames,
          const FrameSums &                sums,
@@ -147,7 +148,7 @@ TEST(SensorNoiseFrameEquations, FindsWhatNoiseFreeFramesAreMadeOf)
 
 TEST(SensorNoiseFrameEquations, MotionIsPartialledOutOfTheLight)
 {
-  // The Schur complement is the inverse of the light's block of the inverse.
+  // The Schur complement is the inverse of the block of the illumination in the inverse matrix.
   const FrameEquations equations = MakeFrameEquations(NoisySums(), SomeNoise(), LastClass);
   ASSERT_GT(equations.active.size(), 2u);
   const Eigen::Matrix2d expected = equations.gram.inverse().topLeftCorner<2, 2>().inverse();
@@ -156,7 +157,8 @@ TEST(SensorNoiseFrameEquations, MotionIsPartialledOutOfTheLight)
 
 TEST(SensorNoiseFrameEquations, NoiseOfTheRegressorsIsTakenOffTheGramMatrix)
 {
-  // White noise of variance V / T in the mean adds its stencils' inner products; the mean is a stencil of one pixel.
+  // White noise of variance V / T in the mean adds the inner products of the stencils; the mean is a stencil of one
+  // pixel.
   const RegressorNoise       noise = SomeNoise();
   const std::vector<Stencil> own{ { "", 0, StencilTaps() }, { "1", 0, StencilTaps(StencilTap{ 0, 0, 1.0 }) } };
   for (const std::size_t last : { std::size_t{ 3 }, LastClass })
@@ -229,7 +231,7 @@ TEST(SensorNoiseFrameEquations, MotionThatIsNotThereIsEliminated)
 TEST(SensorNoiseFrameEquations, MotionThatIsLostInTheNoiseOfTheMeanIsNotActive)
 {
   RegressorNoise noise;
-  // More than the whole of the x derivative's energy.
+  // More than the whole energy of the x derivative.
   noise.variance[0] = 24.0 * NoisySums().GetClassGram(0)(2, 2) / InnerProduct(MotionStencils()[0], MotionStencils()[0]);
   const FrameEquations equations = MakeFrameEquations(NoisySums(), noise, 0);
   EXPECT_FALSE(equations.Find(2 + StencilX));
@@ -239,7 +241,7 @@ TEST(SensorNoiseFrameEquations, MotionThatIsLostInTheNoiseOfTheMeanIsNotActive)
 
 TEST(SensorNoiseFrameEquations, OneIntensityLeavesTheLightAlone)
 {
-  // No derivative is active, and the mean is a multiple of 1: nothing is left that could be eliminated.
+  // No derivative is active, and the mean is a multiple of 1: there is nothing to eliminate.
   const std::size_t         pixels = Width * Height;
   const std::vector<double> mean(pixels, 500.0);
   const ReferenceFrame      frame = MakeReferenceFrame(
@@ -255,7 +257,7 @@ TEST(SensorNoiseFrameEquations, OneIntensityLeavesTheLightAlone)
   }
   const FrameEquations equations = MakeFrameEquations(sums, {}, LastClass);
   EXPECT_EQ(equations.active, (std::vector<std::size_t>{ 0, 1 }));
-  // The frames' columns 1 and mean - centre are 1 and 300.
+  // The regressors 1 and mean - centre are 1 and 300.
   EXPECT_NEAR(equations.light.determinant(), 0.0, 1e-12 * equations.light.squaredNorm());
   EXPECT_NEAR(equations.light(0, 1), 300.0 * equations.light(0, 0), 1e-9 * equations.light(0, 1));
 }

@@ -17,7 +17,8 @@ constexpr double       Offset = -1000.0; // minus the centre [DN]
 constexpr double       LeastStepDn = 1.0;
 const ValueRange       Possible{ -4000.0, -950.0, 2 };
 
-/** Frames that flicker about the offset, with steps of some. The level at the centre is known to 0.2 DN. */
+/** Returns the line of frames that flicker about the offset, with steps of the offset in some frames. The level at the
+ * centre is known within 0.2 DN. */
 OffsetLine
 LineWithSteps(const std::map<Eigen::Index, double> & steps, double flicker = 0.01, unsigned int seed = 1)
 {

@@ -24,7 +24,7 @@ namespace
 constexpr std::size_t Width = 70;
 constexpr std::size_t Height = 45;
 
-/** 70 frames, of noise and change. */
+/** Returns 70 frames with noise and changes. */
 const SyntheticFrames &
 Frames()
 {
@@ -54,7 +54,7 @@ ExpectSameBits(const FrameSums & a, const FrameSums & b)
   }
 }
 
-/** The sums of the frames t with t % parts == part. */
+/** Returns the sums over the frames t with t % parts == part. */
 FrameSums
 PartOf(std::size_t part, std::size_t parts)
 {
@@ -139,7 +139,7 @@ TEST(SensorNoiseFrameSums, InstrumentsEqualBruteForce)
 
 TEST(SensorNoiseFrameSums, CellsPartTheWholeFrame)
 {
-  // The model has no motion, so the cells' weights are the classes'.
+  // The model has no motion, so that the weights of the tiles are the weights of the classes.
   const FrameSums sums = Frames().Sums();
   ASSERT_GT(sums.GetCells().size(), 1u);
   FrameSums::ClassMatrix gram = FrameSums::ClassMatrix::Zero();
@@ -212,7 +212,7 @@ TEST(SensorNoiseFrameSums, ChunksAndThreadsChangeNoBit)
 
 TEST(SensorNoiseFrameSums, ManyFramesAreAddedInBatchesWithTheSameBits)
 {
-  constexpr std::size_t count = 700; // 64 rows of cells: 170 are a batch
+  constexpr std::size_t count = 700; // 64 rows of tiles: a batch has 170 frames
   const SyntheticFrames frames(16, 512, FlickerAndMotion(count, 100.0, 0.1), 1.0);
   FrameSums             inParts = frames.EmptySums();
   for (std::size_t t = 0; t < count; t += 300)

@@ -38,7 +38,7 @@ Normal(std::size_t seed)
   return series;
 }
 
-/** Flicker of 5 % and two lamps that light the left and the lower part. */
+/** Flicker of 5 %, and two lamps that illuminate the left and the lower part. */
 struct Lights
 {
   Eigen::VectorXd flicker = 0.05 * Normal(1);
@@ -61,7 +61,7 @@ Find(const SyntheticFrames & frames,
     sums, series, motion.size() > 0 ? motion : Eigen::MatrixXd(series.coefficients), gamma, offset, most);
 }
 
-/** Frames with flicker, noise, and lamps of a relative size. */
+/** Returns frames with flicker, noise, and lamps of a relative size. */
 SyntheticFrames
 Lit(const Lights & lights, double lamps)
 {
@@ -84,7 +84,7 @@ Lit(const Lights & lights, double lamps)
   return frames;
 }
 
-/** The share of the centred \a series that the columns and the constant do not span. */
+/** Returns the fraction of the centred \a series outside the span of the columns and the constant. */
 double
 Unexplained(const Eigen::VectorXd & series, const Eigen::MatrixXd & columns)
 {
@@ -101,7 +101,7 @@ TEST(SensorNoiseLocalIllumination, TwoPlantedLampsAreFound)
   ASSERT_EQ(found.series.cols(), 2);
   EXPECT_EQ(found.series.rows(), static_cast<Eigen::Index>(Frames));
   EXPECT_GT(found.excess, 2.0);
-  // The lamps' series are known but for what the global flicker takes, up to the noise.
+  // The components of the lamps are found within the noise, together with the global flicker.
   Eigen::MatrixXd columns(Frames, 3);
   columns << lights.flicker, found.series;
   EXPECT_LT(Unexplained(lights.left, columns), 0.01);
@@ -118,11 +118,11 @@ TEST(SensorNoiseLocalIllumination, NothingIsFoundInNoise)
     const auto found = Find(Lit(lights, 0.0), lights);
     EXPECT_EQ(found.series.cols(), 0) << seed;
     EXPECT_LT(found.excess, 1.0) << seed;
-    EXPECT_GT(found.excess, 0.5) << seed; // the noise's edge is known, not only bounded
+    EXPECT_GT(found.excess, 0.5) << seed; // the edge of the noise is measured, not only bounded
   }
 }
 
-// Bright frames are noisier than dark ones: that is no second lamp, and does not hide one.
+// Bright frames have more noise than dark frames. This is not taken for a second lamp, and does not hide one.
 TEST(SensorNoiseLocalIllumination, StrongChangesOfIlluminationAreNoLocalLight)
 {
   Lights lights;
@@ -138,7 +138,7 @@ TEST(SensorNoiseLocalIllumination, StrongChangesOfIlluminationAreNoLocalLight)
     std::normal_distribution<> normal;
     for (std::size_t i = 0; i < frames.pixels.size(); ++i)
     {
-      // What noise of variance 30 + 0.5 (mean - darkest) lacks of the frame's own; with less light, less cannot be had.
+      // Adds the missing noise of the frame to the variance 30 + 0.5 (mean - darkest). For dark frames none is removed.
       const auto   t = static_cast<Eigen::Index>(i / frames.Pixels());
       const double signal = frames.reference.mean[i % frames.Pixels()] - Offset;
       frames.pixels[i] += std::sqrt(0.5 * (1.0 + lights.flicker(t)) * signal) * normal(random);
@@ -208,6 +208,6 @@ TEST(SensorNoiseLocalIllumination, MedianNoiseEigenvalueAgreesWithASimulation)
       mean += 0.5 * (values(shorter / 2 - 1) + values(shorter / 2)) / repeats;
     }
     const double expected = MedianNoiseEigenvalue(static_cast<double>(shorter) / longer);
-    EXPECT_NEAR(mean / expected, 1.0, 0.03) << shorter; // 5 standard deviations of such a mean, and 1 / 200
+    EXPECT_NEAR(mean / expected, 1.0, 0.03) << shorter; // 5 standard deviations of the mean, and 1 / 200
   }
 }

@@ -47,7 +47,7 @@ Flicker()
   return gamma;
 }
 
-/** The same, with so much of a third difference along an axis as the first one has of it, times \a third. */
+/** Returns Changes() with third differences along both axes, \a third times the first differences. */
 std::vector<FrameChange>
 ChangesWithThird(double third)
 {
@@ -61,7 +61,7 @@ ChangesWithThird(double third)
   return changes;
 }
 
-/** What the regression is given and finds. */
+/** Input and results of the regression. */
 struct Fit
 {
   SyntheticFrames frames;
@@ -118,7 +118,7 @@ TEST(SensorNoiseMotionSeries, MotionIsTheDenseFitOnceTheLightIsTakenOff)
   }
   const Eigen::VectorXd expected = gram.ldlt().solve(right);
   EXPECT_LT((fit.motion.coefficients.row(t).transpose() - expected).norm(), 1e-9 * expected.norm());
-  // With weights 1 / V the coefficients' covariance is the inverse of the Gram matrix.
+  // With weights 1 / V the covariance of the coefficients is the inverse of the Gram matrix.
   EXPECT_LT((fit.motion.covariance - gram.inverse()).norm(), 1e-8 * gram.inverse().norm());
 }
 
@@ -131,7 +131,7 @@ TEST(SensorNoiseMotionSeries, InactiveStencilsHaveTheCoefficientZero)
   EXPECT_EQ(series.Get(2, StencilX), 0.0);
 }
 
-// Between what cubics interpolate and what a band-limited scene has.
+// The third differences lie between those of cubics and of a band-limited scene.
 TEST(SensorNoiseMotionSeries, InstrumentsFindTheShiftsOfNoiseFreeFrames)
 {
   for (const double third : { 0.0, -1.0 / 12.0, -1.0 / 6.0 })
@@ -142,7 +142,7 @@ TEST(SensorNoiseMotionSeries, InstrumentsFindTheShiftsOfNoiseFreeFrames)
     for (std::size_t t = 0; t < Frames; ++t)
     {
       const auto row = static_cast<Eigen::Index>(t);
-      // Least squares finds the part of the third difference to 1e-4.
+      // Least squares finds the third difference within 1e-4.
       EXPECT_NEAR(shifts->coefficients(row, 0), Changes()[t].motion[StencilX], 1e-4) << t << ' ' << third;
       EXPECT_NEAR(shifts->coefficients(row, 1), Changes()[t].motion[StencilY], 1e-4) << t << ' ' << third;
     }
@@ -150,7 +150,7 @@ TEST(SensorNoiseMotionSeries, InstrumentsFindTheShiftsOfNoiseFreeFrames)
   }
 }
 
-// Of edges that are sharper than the pixels least squares finds more of a third difference than a derivative has.
+// At edges that are sharper than the pixels, least squares finds larger third differences than a derivative has.
 TEST(SensorNoiseMotionSeries, ThirdDifferencesBeyondADerivativeAreNotTakenOff)
 {
   const Fit             fit(0.0, ChangesWithThird(-0.5));
@@ -168,7 +168,7 @@ TEST(SensorNoiseMotionSeries, ThirdDifferencesBeyondADerivativeAreNotTakenOff)
   }
 }
 
-// The frames are noise, so that the shifts have no other variance.
+// The frames contain noise alone, so that the shifts have no other variance.
 TEST(SensorNoiseMotionSeries, TheCovarianceOfTheShiftsHoldsTheNoiseOfTheFlicker)
 {
   constexpr std::size_t frames = 400;
@@ -195,8 +195,8 @@ TEST(SensorNoiseMotionSeries, TheCovarianceOfTheShiftsHoldsTheNoiseOfTheFlicker)
 
 TEST(SensorNoiseMotionSeries, NoiseThatInstrumentsShareWithTheRegressorsIsTakenOff)
 {
-  // White noise of variance V / T in the mean adds V / T times the product of a smoothed derivative's and the plain
-  // derivative's weights to their Gram matrix; the weights of the smoothed one are its response to an impulse.
+  // White noise of variance V / T in the mean adds V / T times the product of the weights of the smoothed and the plain
+  // derivative to their Gram matrix. The weights of the smoothed derivative are its response to an impulse.
   ReferenceFrame impulse;
   impulse.geometry = { 41, 41, 1 };
   impulse.mean.assign(41 * 41, 0.0);
@@ -211,7 +211,7 @@ TEST(SensorNoiseMotionSeries, NoiseThatInstrumentsShareWithTheRegressorsIsTakenO
   constexpr double third = -1.0 / 12.0;
   const Fit        fit(0.0, ChangesWithThird(third));
   InstrumentNoise  noise;
-  // As much as takes a tenth off.
+  // The noise subtracts a tenth.
   noise.variance = 0.1 * static_cast<double>(Frames) / shared * fit.sums.GetInstrumentGram()(0, 2 + StencilX);
   const auto shifts = SolveShifts(fit.sums, fit.equations, fit.motion, noise, Flicker(), fit.offset);
   const auto plain = SolveShifts(fit.sums, fit.equations, fit.motion, {}, Flicker(), fit.offset);
@@ -220,7 +220,7 @@ TEST(SensorNoiseMotionSeries, NoiseThatInstrumentsShareWithTheRegressorsIsTakenO
   Eigen::Matrix2d        gradient = gram.middleCols<2>(2 + StencilX) + third * gram.middleCols<2>(2 + StencilXXX);
   const auto             rest = plain->coefficients * gradient.transpose();
   const Eigen::MatrixX2d expected = rest;
-  // A third difference shares as much as a first one, with the other sign.
+  // The product with a third difference is as large as with a first difference, with the opposite sign.
   gradient.diagonal().array() -= (1.0 - third) * shared * noise.variance / static_cast<double>(Frames);
   EXPECT_LT((shifts->coefficients * gradient.transpose() - expected).norm(), 1e-9 * expected.norm());
 }
@@ -247,7 +247,7 @@ TEST(SensorNoiseMotionSeries, SmoothedDerivativeOfARampIsItsSlope)
 
 TEST(SensorNoiseMotionSeries, SmoothedDerivativeIsThatOfTwoBoxesInEveryRow)
 {
-  ReferenceFrame frame; // higher than two bands of box sums
+  ReferenceFrame frame; // more rows than two bands of box sums
   frame.geometry = { 23, 140, 1 };
   const int width = 23;
   const int height = 140;

@@ -18,7 +18,7 @@ using namespace sensornoise::test;
 
 namespace
 {
-/** Equations of light alone: response = light (a_t, d_t)' + noise of covariance light. */
+/** Returns equations without motion: response = light (a_t, d_t)' + noise with the covariance `light`. */
 FrameEquations
 LightOf(std::size_t frames, double offset, double flicker, double noise, double drift = 0.0)
 {
@@ -38,7 +38,7 @@ LightOf(std::size_t frames, double offset, double flicker, double noise, double 
   return equations;
 }
 
-/** J(m) as it is defined. */
+/** Returns J(m) by its definition. */
 double
 Profile(const FrameEquations & equations, double m)
 {
@@ -51,7 +51,7 @@ Profile(const FrameEquations & equations, double m)
   return sum / v.dot(equations.light * v);
 }
 
-/** The place of the maximum of J: a grid, then ever finer ones. */
+/** Returns the maximiser of J, from a grid that is refined step by step. */
 double
 BruteForceMaximum(const FrameEquations & equations)
 {
@@ -101,7 +101,7 @@ TEST(SensorNoiseOffsetLine, OffsetMaximisesTheProfileLikelihood)
     const FrameEquations equations = LightOf(25, -40.0, flicker, 1.0, 0.05);
     const auto           line = FitOffsetLine(equations);
     ASSERT_TRUE(line);
-    // A maximum is flat: its place is known to the root of the precision of J.
+    // The maximum is flat: the maximiser is known within the root of the precision of J.
     EXPECT_NEAR(line->offset, BruteForceMaximum(equations), 1e-6 * line->standardError + 1e-5) << flicker;
     for (const double distance : { -1e5, -300.0, -1.0, 1.0, 300.0, 1e5 })
     {
@@ -127,7 +127,7 @@ TEST(SensorNoiseOffsetLine, IntervalIsWhereTheProfileIsHighEnough)
     EXPECT_NEAR(Profile(equations, line->high), Profile(equations, line->low), 1e-9 * top) << drift;
     EXPECT_NEAR(line->high - line->low,
                 2.0 * StudentQuantile(0.975, 38.0) * line->standardError,
-                0.2 * (line->high - line->low)); // about a parabola
+                0.2 * (line->high - line->low)); // J is nearly a parabola
   }
 }
 
@@ -138,7 +138,7 @@ TEST(SensorNoiseOffsetLine, DispersionIsWhatTheLineLeaves)
     const FrameEquations equations = LightOf(40, 100.0, 0.02, 1.0, drift);
     const auto           line = FitOffsetLine(equations);
     ASSERT_TRUE(line);
-    // sum_t r' G^-1 r is the fit of a_t and d_t by any numbers, J(m) that by the line.
+    // sum_t r' G^-1 r is the fit with free a_t and d_t, and J(m) is the fit with the line.
     const double all = (equations.response * equations.light.inverse() * equations.response.transpose()).trace();
     EXPECT_NEAR(line->phi, (all - Profile(equations, line->offset)) / 38.0, 1e-9 * all) << drift;
   }
@@ -146,7 +146,7 @@ TEST(SensorNoiseOffsetLine, DispersionIsWhatTheLineLeaves)
 
 TEST(SensorNoiseOffsetLine, IntervalIsUnboundedWhereNoDirectionStandsOut)
 {
-  // Noise alone, as strong in every direction: J(m) is the same everywhere.
+  // Noise alone, with the same strength in every direction: J(m) is constant.
   FrameEquations        equations = LightOf(40, 100.0, 0.0, 1.0);
   const Eigen::Matrix2d factor = equations.light.llt().matrixL();
   for (Eigen::Index t = 0; t < 40; ++t)
@@ -164,7 +164,8 @@ TEST(SensorNoiseOffsetLine, IntervalIsUnboundedWhereNoDirectionStandsOut)
 
 TEST(SensorNoiseOffsetLine, FollowsTheUnitsAndTheLevel)
 {
-  // mean -> mean + b: columns (1, I + b); the light's matrix and responses change by B = (1 0; b 1), the offset by b.
+  // mean -> mean + b: the regressors are (1, I + b). Matrix and responses of the illumination change by B = (1 0; b 1),
+  // the offset by b.
   const FrameEquations equations = LightOf(30, 100.0, 0.02, 1.0);
   const auto           line = FitOffsetLine(equations);
   Eigen::Matrix2d      b;
@@ -207,7 +208,7 @@ TEST(SensorNoiseOffsetLine, FramesWithMotionLieOnOneLine)
 
 TEST(SensorNoiseOffsetLine, RampTellsTheFlickerWhateverTheLevel)
 {
-  // Motion along a ramp changes all levels alike, as an offset does; across it nothing is seen.
+  // Motion along a ramp changes all levels equally, as an offset does; motion across it changes nothing.
   for (const double across : { 0.0, 0.5, 2.0 })
   {
     const std::vector<FrameChange> changes = FlickerAndMotion(24, 0.0, 0.0);

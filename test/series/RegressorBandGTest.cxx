@@ -31,7 +31,7 @@ Sums()
   return sums;
 }
 
-/** The columns of pixel \a p, times their weights. */
+/** Returns the regressors of pixel \a p, times their weights. */
 FrameRegressors::WeightedColumns
 ColumnsAt(const FrameRegressors & regressors, std::size_t p)
 {
@@ -62,12 +62,12 @@ SeriesAt(std::size_t k, std::size_t p)
 }
 } // namespace
 
-// Vectors of any width add the same products in the same order: a processor that has wider ones gets the same bits.
+// SIMD vectors of any width add the same products in the same order, and give the same bits.
 TEST(SensorNoiseRegressorBand, ProductsAreTheSumsOneAfterTheOther)
 {
   const FrameRegressors & regressors = Sums().GetRegressors();
   RegressorBand           band(regressors, Cells);
-  for (const std::size_t firstRow : { 7U, 20U, 0U }) // a band that moves forgets where it was
+  for (const std::size_t firstRow : { 7U, 20U, 0U }) // a band that moves keeps nothing of its old place
   {
     band.MoveTo(firstRow, firstRow == 20 ? 5 : 3);
     for (std::size_t k = 0; k < RegressorBand::Together; ++k)

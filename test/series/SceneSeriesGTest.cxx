@@ -49,7 +49,7 @@ TEST(SensorNoiseSceneSeries, WithoutFlickerTheDarkestLevelServes)
 
 TEST(SensorNoiseSceneSeries, OneIntensityTellsTheFlickerAboutAKnownOffset)
 {
-  // A flat field of 500 DN, of which each frame has 2 % more or less: dark frames can still tell its gain.
+  // A flat field of 500 DN whose frames deviate by 2 %. Its gain is identifiable with dark frames.
   std::vector<FrameChange> changes(24);
   for (std::size_t t = 0; t < changes.size(); ++t)
   {
@@ -68,14 +68,14 @@ TEST(SensorNoiseSceneSeries, OneIntensityTellsTheFlickerAboutAKnownOffset)
   const SceneSeries blind = FindSceneSeries(sums, RollingShutter::Auto);
   EXPECT_FALSE(blind.isOffsetIdentifiable);
   EXPECT_EQ(blind.line.contrast, 0.0);
-  EXPECT_EQ(blind.offset, 0.0 - 500.0); // about black
+  EXPECT_EQ(blind.offset, 0.0 - 500.0); // about the level 0
   const SceneSeries known = FindSceneSeries(sums, RollingShutter::Auto, 100.0);
   EXPECT_FALSE(known.isOffsetIdentifiable);
   EXPECT_EQ(known.offset, 100.0 - 500.0);
   ASSERT_EQ(known.line.gamma.size(), changes.size());
   for (std::size_t t = 0; t < changes.size(); ++t)
   {
-    EXPECT_NEAR(known.line.gamma[t], changes[t].level / (500.0 - 100.0), 1e-9) << t; // of the light
+    EXPECT_NEAR(known.line.gamma[t], changes[t].level / (500.0 - 100.0), 1e-9) << t; // relative to the signal
   }
 }
 

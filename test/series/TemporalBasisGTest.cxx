@@ -35,7 +35,8 @@ Vector(const Eigen::VectorXd & series)
   return { series.data(), series.data() + series.size() };
 }
 
-/** A basis of a flicker, \a light further series and \a motion ones. */
+/** Returns a basis of a flicker, \a light further components of the illumination, and \a motion components of motion.
+ */
 TemporalBasis
 BasisOf(const Eigen::MatrixXd & series, Eigen::Index light)
 {
@@ -53,7 +54,7 @@ RoundedOf(const TemporalBasis & basis)
   return rounded;
 }
 
-/** The residual sum of squares about the constant and the columns, by an orthogonal decomposition. */
+/** Returns the residual sum of squares about the constant and the columns, by an orthogonal decomposition. */
 double
 ExplicitRss(const Eigen::MatrixXd & columns, const Eigen::VectorXd & y)
 {
@@ -62,7 +63,7 @@ ExplicitRss(const Eigen::MatrixXd & columns, const Eigen::VectorXd & y)
   return (y - design * design.householderQr().solve(y)).squaredNorm();
 }
 
-/** Coordinates of a pixel's values from the sums that the third pass keeps. */
+/** Returns the coordinates of the values of a pixel from the sums of the third pass. */
 Eigen::VectorXd
 CoordinatesOf(const TemporalBasis & basis, const Eigen::VectorXd & y)
 {
@@ -103,11 +104,11 @@ TEST(SensorNoiseTemporalBasis, HoldsTheSeriesThatItWasMadeOf)
   {
     const Eigen::VectorXd centred = series.col(j).array() - series.col(j).mean();
     const double          rest = (centred - q * (q.transpose() * centred)).norm();
-    // Each of 7 columns is rounded by half a unit at most in each of 40 frames.
+    // Each of 7 columns is rounded by at most half a unit in each of 40 frames.
     EXPECT_LT(rest, 7.0 * 0.5 / TemporalBasis::Unit * std::sqrt(40.0) * centred.norm()) << j;
   }
   const Eigen::VectorXd first = series.col(0).array() - series.col(0).mean();
-  EXPECT_NEAR(std::abs(q.col(0).dot(first)), first.norm(), 1e-9 * first.norm()); // the first direction is the flicker's
+  EXPECT_NEAR(std::abs(q.col(0).dot(first)), first.norm(), 1e-9 * first.norm()); // the first direction is the flicker
 }
 
 TEST(SensorNoiseTemporalBasis, ToCoordinatesIsTheProjection)
@@ -148,7 +149,8 @@ TEST(SensorNoiseTemporalBasis, AffineChangeOfTheSeriesLeavesTheResiduals)
 {
   const Eigen::MatrixXd series = Normal(Frames, 6, 7);
   const TemporalBasis   basis = BasisOf(series, 2);
-  // Each series in another unit, with another level and with parts of those before it: the same directions in order.
+  // Each component has another unit, another level and parts of the previous components: the directions and their order
+  // are the same.
   Eigen::MatrixXd mixing = Normal(6, 6, 8).triangularView<Eigen::Upper>();
   mixing.diagonal() = Eigen::VectorXd::LinSpaced(6, 1e-3, 50.0);
   const Eigen::MatrixXd changed = (series * mixing).rowwise() + Normal(1, 6, 9).row(0);
@@ -156,7 +158,7 @@ TEST(SensorNoiseTemporalBasis, AffineChangeOfTheSeriesLeavesTheResiduals)
   const double          squares = (y.array() - y.mean()).square().sum();
   const double          rss = squares - CoordinatesOf(basis, y).squaredNorm();
   EXPECT_NEAR(squares - CoordinatesOf(BasisOf(changed, 2), y).squaredNorm(), rss, 1e-12 * squares);
-  // Mixed at will the directions differ, and with them their rounding: 3e-6 of the squares.
+  // After any mixing the directions differ, and so does their rounding: 3e-6 of the squares.
   const Eigen::MatrixXd mixed = (series * Normal(6, 6, 11)).rowwise() + Normal(1, 6, 12).row(0);
   EXPECT_NEAR(squares - CoordinatesOf(BasisOf(mixed, 2), y).squaredNorm(), rss, 3e-6 * squares);
 }
@@ -164,7 +166,7 @@ TEST(SensorNoiseTemporalBasis, AffineChangeOfTheSeriesLeavesTheResiduals)
 TEST(SensorNoiseTemporalBasis, SeriesThatAddNothingAreLeftOut)
 {
   Eigen::MatrixXd series = Normal(Frames, 6, 13);
-  series.col(1) = 3.0 * series.col(0).array() + 1.0; // light that is the flicker once more
+  series.col(1) = 3.0 * series.col(0).array() + 1.0; // a multiple of the flicker
   series.col(4).setConstant(2.0);
   series.col(5) = series.col(2) - series.col(3);
   const TemporalBasis basis = BasisOf(series, 1);
@@ -189,7 +191,7 @@ TEST(SensorNoiseTemporalBasis, MotionColumnsAreTheCoefficientsAndTheirProducts)
   motion.coefficients = Normal(Frames, 3, 15);
   const Eigen::VectorXd flicker = 0.1 * Normal(Frames, 1, 16);
   const Eigen::MatrixXd columns = MotionColumns(motion, Vector(flicker));
-  ASSERT_EQ(columns.cols(), 5); // of the products x y, x yy, xx y and xx yy those without yy
+  ASSERT_EQ(columns.cols(), 5); // the products x y and xx y, without those of yy
   const auto      x = motion.coefficients.col(0).array();
   const auto      y = motion.coefficients.col(1).array();
   const auto      xx = motion.coefficients.col(2).array();
