@@ -50,7 +50,7 @@ struct Extremes
   {
     return FindLevels(minima, maxima, scale * scale * varianceDn2, settings, depths);
   }
-  /** Expects that clip levels are found exactly where those of the codes are found. */
+  /** Expects the clip levels that pile-ups of the codes give, times the scale, and no others. */
   void
   ExpectThoseOfTheCodes(double varianceDn2 = NoisyDn2) const
   {

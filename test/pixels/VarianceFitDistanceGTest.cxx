@@ -26,7 +26,7 @@ namespace
 {
 constexpr std::size_t Pixels = 40000;
 constexpr float       Freedom = 30.0F;
-constexpr double      Gain = 0.05; // many electrons per DN, so that the variances are those of normal noise
+constexpr double      Gain = 0.05; // many electrons per DN, so that the noise is nearly normal
 constexpr double      BlackDn = 100.0;
 
 /** Maps with means from 110 to 600 DN. \a readVarianceOf draws the variance of the read noise [DN^2]. */

@@ -22,7 +22,7 @@ namespace
 {
 constexpr std::size_t Pixels = 20000; // more than two blocks
 constexpr float       Freedom = 30.0F;
-constexpr double      Gain = 0.05; // many electrons per DN, so that the variances are those of normal noise
+constexpr double      Gain = 0.05; // many electrons per DN, so that the noise is nearly normal
 constexpr double      Intercept = -2.0;
 
 /** Maps with means from 100 to 1,100 DN, and with variances about a line. */

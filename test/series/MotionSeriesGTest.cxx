@@ -131,7 +131,7 @@ TEST(SensorNoiseMotionSeries, InactiveStencilsHaveTheCoefficientZero)
   EXPECT_EQ(series.Get(2, StencilX), 0.0);
 }
 
-// The third differences lie between those of cubics and of a band-limited scene.
+// The third differences are between the values for cubics and for a band-limited scene.
 TEST(SensorNoiseMotionSeries, InstrumentsFindTheShiftsOfNoiseFreeFrames)
 {
   for (const double third : { 0.0, -1.0 / 12.0, -1.0 / 6.0 })

@@ -191,7 +191,7 @@ TEST(SensorNoiseTemporalBasis, MotionColumnsAreTheCoefficientsAndTheirProducts)
   motion.coefficients = Normal(Frames, 3, 15);
   const Eigen::VectorXd flicker = 0.1 * Normal(Frames, 1, 16);
   const Eigen::MatrixXd columns = MotionColumns(motion, Vector(flicker));
-  ASSERT_EQ(columns.cols(), 5); // the products x y and xx y, without those of yy
+  ASSERT_EQ(columns.cols(), 5); // the products x y and xx y, without products with yy
   const auto      x = motion.coefficients.col(0).array();
   const auto      y = motion.coefficients.col(1).array();
   const auto      xx = motion.coefficients.col(2).array();

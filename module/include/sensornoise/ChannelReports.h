@@ -61,9 +61,9 @@ struct JointMotion
  * vibration. */
 struct ChannelReports
 {
-  BayerPattern               pattern{ BayerPattern::RGGB };
-  BayerSource                source{ BayerSource::Given };
-  std::array<Report, 4>      channels; ///< the reports of the planes, in the order of BayerPlanes
+  BayerPattern               pattern{ BayerPattern::RGGB }; ///< pattern of the mosaic
+  BayerSource                source{ BayerSource::Given };  ///< source of the pattern
+  std::array<Report, 4>      channels;                      ///< the reports of the planes, in the order of BayerPlanes
   std::optional<JointOffset> joint;    ///< null: fewer than two channels measured an offset, without a given one
   std::optional<JointMotion> motion;   ///< null: not all channels measured a motion
   std::vector<Warning>       warnings; ///< warnings about all channels together; each report has its own, too

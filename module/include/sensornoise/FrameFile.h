@@ -34,7 +34,7 @@ public:
  * resolution of the clock of the file system. */
 struct FileIdentity
 {
-  std::string   name{};
+  std::string   name{};            ///< path of the file, as it was given
   std::uint64_t device{ 0 };       ///< number of the device; 0 where the operating system has none
   std::uint64_t inode{ 0 };        ///< number of the file on its device; 0 where the operating system has none
   std::uint64_t size{ 0 };         ///< size of the contents [bytes]
@@ -72,14 +72,14 @@ struct FrameAxis
     Plane, ///< Z, the focus
     Time
   };
-  Kind        kind{ Kind::Time };
-  std::size_t size{ 1 }; ///< number of positions along the axis, at least 1
+  Kind        kind{ Kind::Time }; ///< quantity that changes along the axis
+  std::size_t size{ 1 };          ///< number of positions along the axis, at least 1
 };
 
 /** Description of a file with a frame or a stack, as InspectFrameFile() returns it. */
 struct FrameFile
 {
-  std::string name{};
+  std::string name{}; ///< path of the file, as it was given
   /** Format of the contents, an entry of FrameFormats(); never null after InspectFrameFile(). */
   const FrameFormat * format{ nullptr };
   std::size_t         width{ 0 };                          ///< columns of a frame [pixel]

@@ -33,8 +33,10 @@ template <typename TPixel, typename TMethod>
 class MosaicMethod
 {
 public:
+  /** Least number of passes over the stack, as StackMethod::NumberOfPasses. */
   static constexpr unsigned int NumberOfPasses = TMethod::NumberOfPasses;
 
+  /** Settings of the method: RefinedSettings or PublishedSettings. */
   using Settings = typename TMethod::Settings;
 
   /** Starts the first pass, with the same \a settings for all planes. RefinedSettings::memoryLimitBytes limits all

@@ -82,8 +82,8 @@ enum class QuantityDomain : std::uint8_t
 /** Interval between two bounds. A bound that does not exist is null. */
 struct Interval
 {
-  std::optional<double> low;
-  std::optional<double> high;
+  std::optional<double> low;  ///< lower bound
+  std::optional<double> high; ///< upper bound
 };
 
 /** Estimated quantity. Its unit is in QuantityList(); value, standard error and bounds have this unit. */
@@ -151,15 +151,16 @@ struct NoiseCorrelationRecord
 /** Gains of parts of the frame or of the burst that differ. */
 struct GainByPartsRecord
 {
+  /** Part of the frame or of the burst. */
   struct Part
   {
-    std::string name;
+    std::string name;                 ///< name of the part, for example "upper left"
     double      gain{ 0.0 };          ///< system gain of the part [DN/e-]
     double      standardError{ 0.0 }; ///< standard error of the gain [DN/e-]
     double      pixelFraction{ 0.0 }; ///< fraction of the used pixels that are in the part [1]
   };
-  std::string       pattern; ///< name of the partition, as in PartitionTable
-  std::vector<Part> parts;
+  std::string       pattern; ///< name of the partition, for example "left-right"
+  std::vector<Part> parts;   ///< all parts of the partition
 };
 
 /** Linearity of the response, measured with the given exposures of the frames. */
@@ -190,7 +191,7 @@ struct LinearityRecord
 /** Warning of a report. */
 struct Warning
 {
-  WarningCode code;
+  WarningCode code;    ///< subject of the warning, with severity and general meaning in WarningTable
   std::string message; ///< one sentence, for people, with the numbers found and expected
 };
 
@@ -217,8 +218,8 @@ struct InputFiles
 /** Identification of all frames that were read. */
 struct InputRecord
 {
-  InputFiles                frames;
-  std::optional<InputFiles> dark; ///< dark frames; null: none
+  InputFiles                frames; ///< frames of the stack
+  std::optional<InputFiles> dark;   ///< dark frames; null: none
 };
 
 /** \class Report
@@ -228,6 +229,7 @@ struct InputRecord
  */
 struct Report
 {
+  /** Value of a setting. */
   using SettingValue = std::variant<double, bool, std::string, std::vector<double>>;
 
   std::string                                       method;   ///< "refined" or "published"

@@ -118,6 +118,7 @@ ResponseShapeOf(const std::string & name);
  * sensors (EMVA Standard 1288 measures them as the linearity error). */
 struct ResponseSettings
 {
+  /** Shape of the response; Straight (default): linear. */
   ResponseShape shape{ ResponseShape::Straight };
   /** Strength of the non-linearity [1]. For Quadratic, Wave and Shoulder it is the relative deviation of the local
    * gain, above -1 and below 1. For Gamma it is the exponent, for example 2.2, from 0.1 to 10. For SCurve it is the

@@ -32,6 +32,7 @@ enum class IlluminationShape
 /** Illumination factors of the frames of a simulated stack, without the flicker. */
 struct IlluminationSettings
 {
+  /** Shape of the illumination factor over the frames; Steady (default): 1. */
   IlluminationShape shape{ IlluminationShape::Steady };
   /** L, the lowest factor [1], 0 to 1; above 0 for Decay. Steady and Factors do not use it. */
   double low{ 0.0 };
@@ -92,7 +93,9 @@ PaperConditions(int number);
 /** All parameters of a simulated stack, without the reference image. */
 struct SimulationSettings
 {
-  CameraModel     camera{};
+  /** Parameters of the camera; camera B by default. */
+  CameraModel camera{};
+  /** Flicker and vibration; condition 3 by default. */
   SceneConditions conditions{};
   /** Illumination factors of the frames, by which 1 + gamma_t is multiplied; steady by default. */
   IlluminationSettings illumination{};

@@ -87,8 +87,8 @@ struct SimulatedSeries
  * (1 + gamma_t) / mean(1 + gamma) - 1 and the standard deviation of the shifts are identifiable. */
 struct SimulationTruth
 {
-  SimulationSettings settings;
-  SimulatedSeries    series;
+  SimulationSettings settings; ///< settings of the stack
+  SimulatedSeries    series;   ///< temporal components of the stack
   /** Normalised flicker of each frame, (1 + gamma_t) / mean(1 + gamma) - 1 [1]. */
   std::vector<double> normalisedFlicker;
   /** Standard deviation of the normalised flicker of this stack (divisor T - 1) [1]; with a rolling shutter the root
@@ -160,18 +160,21 @@ public:
                  std::size_t                 height,
                  const SimulationSettings &  settings);
 
+  /** Returns the number of columns of a frame. */
   std::size_t
   GetWidth() const
   {
     return m_Width;
   }
 
+  /** Returns the number of rows of a frame. */
   std::size_t
   GetHeight() const
   {
     return m_Height;
   }
 
+  /** Returns the true values of the stack. */
   const SimulationTruth &
   GetTruth() const
   {

@@ -160,6 +160,7 @@ struct SensorNoise_EXPORT StackSummary
  */
 struct SensorNoise_EXPORT IsoIntensitySet
 {
+  /** Least number of pixels of a set. */
   static constexpr std::size_t MinimumPixels = 30;
 
   double                     levelDn{ 0.0 };             ///< u^* or u_* [DN]
@@ -226,7 +227,7 @@ struct VibrationCovariance
 /** Number with its standard error. */
 struct MeasuredNumber
 {
-  double value{ 0.0 };
+  double value{ 0.0 };         ///< the number
   double standardError{ 0.0 }; ///< standard error, in the unit of the value
 
   /** Returns whether the absolute value exceeds \a least by more than \a z standard errors. */
@@ -251,7 +252,7 @@ struct CorrelationEstimate
   std::size_t framesUsed{ 0 }; ///< number of frames of the sample; equal frames are counted once
   std::size_t pixelsUsed{ 0 }; ///< number of pixels of the sample
 
-  NoiseCorrelationRecord correlation;
+  NoiseCorrelationRecord correlation; ///< correlation by lag, and noise class
   /** Total covariance of the noise over all lags, relative to the variance of a pixel [1]. If a linear filter whose
    * weights sum to 1 changed the noise, the variance times this number is the variance before the filter. The variance
    * refers to the mean over the T frames; correlation between frames makes it smaller than the true variance, by the

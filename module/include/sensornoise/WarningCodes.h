@@ -82,9 +82,9 @@ NameOf(Severity severity)
 /** Row of the table of warnings. */
 struct WarningKind
 {
-  WarningCode  code;
-  const char * name; ///< name in the JSON record; stable, for programs
-  Severity     severity;
+  WarningCode  code;     ///< subject of the warning
+  const char * name;     ///< name in the JSON record; stable, for programs
+  Severity     severity; ///< effect on the measurement
   const char * sentence; ///< meaning of the warning, and what to do
 };
 
