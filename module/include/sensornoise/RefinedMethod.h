@@ -46,9 +46,8 @@ public:
    * \param frames number of frames of the stack, at least 5
    * \param mask for each pixel a nonzero value if it is to be used; empty: all
    * \param parallelFor spreads the work over threads
-   * \throws std::invalid_argument for settings out of range, see RefinedSettings::Validate(), for fewer frames or
-   * smaller frames, for a mask of another size, for a number of exposures other than \a frames, and for a memory limit
-   * below the least that the method needs. */
+   * \throws std::invalid_argument for settings out of range, see RefinedSettings::Validate(), for fewer or smaller
+   * frames, for a mask or exposures of another size, and for a memory limit below the least need. */
   RefinedMethod(const RefinedSettings &           settings,
                 const FrameGeometry &             geometry,
                 std::size_t                       frames,
