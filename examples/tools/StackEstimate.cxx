@@ -5,6 +5,7 @@
 #include "tools/CompanionFiles.h"
 #include "tools/EstimateOptions.h"
 #include "tools/FilesHash.h"
+#include "tools/FramesTitle.h"
 #include "tools/MapFiles.h"
 #include "tools/SvgAsPng.h"
 #include "base/FreeMemory.h"
@@ -163,7 +164,10 @@ ResultOf(const itk::SensorNoiseEstimator<TStack> & estimator)
 /** The text of the file that --plot asks for. */
 template <typename TStack>
 std::string
-MakePlot(PlotKind kind, const MeasuredStack & measured, itk::SensorNoiseEstimator<TStack> & estimator)
+MakePlot(PlotKind                            kind,
+         const MeasuredStack &               measured,
+         const PageTitle &                   title,
+         itk::SensorNoiseEstimator<TStack> & estimator)
 {
   if (kind != PlotKind::Page)
   {
@@ -171,7 +175,7 @@ MakePlot(PlotKind kind, const MeasuredStack & measured, itk::SensorNoiseEstimato
     return kind == PlotKind::Png ? SvgAsPng(svg) : svg;
   }
   const PageMaps maps = itk::PageMapsOf(estimator.GetMean(), estimator.GetPixelUse());
-  return std::visit([&maps](const auto & report) { return ToHtml(report, maps); }, measured);
+  return std::visit([&](const auto & report) { return ToHtml(report, maps, title); }, measured);
 }
 
 /** Says what memory the estimate of a large frame will need, before it starts. */
@@ -257,7 +261,7 @@ Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * map
   }
   if (plot != nullptr)
   {
-    *plot = MakePlot(options.Plot(), measured, *estimator);
+    *plot = MakePlot(options.Plot(), measured, TitleOf(list), *estimator);
   }
   return measured;
 }

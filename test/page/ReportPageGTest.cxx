@@ -71,33 +71,71 @@ TEST(SensorNoiseReportPage, HoldsWhatWasFoundToItsErrors)
 {
   const std::string page = ToHtml(MakeGoodReport(100));
   ExpectSound(page);
-  for (const char * const part : { "The gain is 0.5000 \u00B1&#160;0.0010 DN/e\u207B",
-                                   "95 %: 0.4980 to 0.5020",
-                                   "95.00 \u00B1 0.50",
-                                   "every number below stands",
-                                   "rolling_shutter",
-                                   "not given by this method",
-                                   "<sub>e.sat</sub>",
-                                   "\u2248 8000 e\u207B" }) // (4095 - 95) / 0.5
+  for (const char * const part :
+       { "<h1>Noise of an image sensor</h1>",
+         "<span class=\"word\">Measured, without warnings</span>.",
+         "<dt>Gain</dt><dd><b>0.5000</b> <span class=\"nowrap\">\u00B1&#160;0.0010 DN/e\u207B</span></dd><dd "
+         "class=\"soft\">95 %: 0.4980 to 0.5020</dd>",
+         "<dt>Read noise</dt><dd><b>8</b> <span class=\"nowrap\">e\u207B</span></dd>",
+         "<dt>Offset</dt><dd><b>95.00</b> <span class=\"nowrap\">\u00B1&#160;0.50 DN</span></dd>",
+         "<td role=\"cell\" class=\"number\">4.000</td><td role=\"cell\" class=\"number\">\u00B1&#160;0.050</td>",
+         "rolling_shutter",
+         "not given by this method",
+         "<sub>e.sat</sub>",
+         "\u2248 8000 e\u207B" }) // (4095 - 95) / 0.5
   {
     EXPECT_TRUE(Contains(page, part)) << part;
   }
+  EXPECT_FALSE(Contains(page, "class=\"date\""));
 }
 
-TEST(SensorNoiseReportPage, HoldsEveryWarningAndWhatWouldHelp)
+TEST(SensorNoiseReportPage, TheTitleIsTheFileElseTheCamera)
 {
   Report report = MakeGoodReport(20);
-  for (const WarningKind & kind : WarningTable)
-  {
-    report.Warn(kind.code, "found <" + std::string(kind.name) + "> & \"more\"");
-  }
-  const std::string page = ToHtml(report);
+  report.camera.camera = "Maker <7>";
+  EXPECT_TRUE(Contains(ToHtml(report), "<title>Noise of Maker &lt;7&gt;</title>"));
+  const std::string page = ToHtml(report, {}, { "a & b.tif", "2026-11-24 23:30 UTC" });
   ExpectSound(page);
-  for (const WarningKind & kind : WarningTable)
+  EXPECT_TRUE(Contains(page, "<title>Noise of a &amp; b.tif</title>"));
+  EXPECT_TRUE(Contains(page, "<h1>Noise of a &amp; b.tif</h1>\n<p class=\"soft\">Maker &lt;7&gt; \u00B7 "));
+  EXPECT_TRUE(Contains(page, "files of <time>2026-11-24 23:30 UTC</time>"));
+}
+
+TEST(SensorNoiseReportPage, QuantitiesStandInTheirGroups)
+{
+  const std::string page = ToHtml(MakeGoodReport(20));
+  std::size_t       at = 0;
+  for (const char * const part : { ">Sensor</th>",
+                                   "<span>gain g</span>",
+                                   "<span>offset \u03BC</span>",
+                                   ">Illumination and motion</th>",
+                                   "<span>flicker sd</span>",
+                                   "<span>vibration sd x</span>",
+                                   ">For a denoiser: variance = slope \u00D7 level + intercept</th>",
+                                   "<span>variance slope</span>",
+                                   "<span>total intercept</span>" })
   {
-    EXPECT_TRUE(Contains(page, "Found &lt;" + std::string(kind.name) + "&gt; &amp; &quot;more&quot;.")) << kind.name;
-    EXPECT_TRUE(Contains(page, std::string(kind.sentence).substr(0, 20))) << kind.name;
+    const std::size_t next = page.find(part);
+    ASSERT_NE(next, std::string::npos) << part;
+    EXPECT_LT(at, next) << part;
+    EXPECT_EQ(page.find(part, next + 1), std::string::npos) << part;
+    at = next;
   }
+}
+
+TEST(SensorNoiseReportPage, AReadNoiseThatIsNotDistinguishedHasItsLimit)
+{
+  Report report = MakeGoodReport(20);
+  for (Quantity * const quantity : { &report.readNoise, &report.readNoiseElectrons })
+  {
+    *quantity = Quantity::Without(EstimateStatus::UpperLimit);
+  }
+  report.readNoise.bracket = Interval{ 0.0, 1.58 };
+  report.readNoiseElectrons.bracket = Interval{ 0.0, 3.16 };
+  EXPECT_TRUE(Contains(ToHtml(report),
+                       "<div class=\"key is-warning\"><dt>Read noise</dt><dd><b>&lt; 3.16</b> <span "
+                       "class=\"nowrap\">e\u207B</span></dd><dd class=\"soft\">upper limit, limits 0 to 3.16; <span "
+                       "class=\"nowrap\">&lt; 1.58 DN</span></dd>"));
 }
 
 TEST(SensorNoiseReportPage, AnEmptyReportSaysThatThereIsNothing)
@@ -108,8 +146,9 @@ TEST(SensorNoiseReportPage, AnEmptyReportSaysThatThereIsNothing)
   ExpectSound(page);
   EXPECT_FALSE(Contains(page, "<svg"));
   EXPECT_FALSE(Contains(page, "<td>\u2013"));
-  for (const char * const part : { "Not measured.",
-                                   "No gain could be measured: there are 3 different frames; expected 5.",
+  EXPECT_FALSE(Contains(page, "<dl"));
+  for (const char * const part : { "<span class=\"word\">Not measured</span>: <a href=\"#nothing-to-measure\">",
+                                   "There are 3 different frames; expected 5.",
                                    "No point of the noise curve was measured.",
                                    "Neither flicker nor motion was measured." })
   {
@@ -128,6 +167,7 @@ TEST(SensorNoiseReportPage, OfAFailedReportTheErrorComesFirst)
   const std::size_t table = page.find("<table");
   const std::size_t note = page.find("Many pixels move.");
   EXPECT_LT(page.find("<span class=\"word\">error</span>"), note);
+  EXPECT_LT(note, page.find("Noise curve"));
   EXPECT_LT(note, table);
 }
 
@@ -214,7 +254,7 @@ TEST(SensorNoiseReportPage, OfAMosaicItHasAllChannels)
   channels[3].Warn(WarningCode::IntensityRangeTooSmall, "the blue plane has one level");
   const std::string page = ToHtml(MakeChannelReports(BayerPattern::RGGB, BayerSource::Given, channels));
   ExpectSound(page);
-  for (const char * const part : { "Channel R<", "Channel G1", "Channel G2", "Channel B", "of the channels B." })
+  for (const char * const part : { "Channel R<", "Channel G1", "Channel G2", "Channel B", ">Not measured in B</span>" })
   {
     EXPECT_TRUE(Contains(page, part)) << part;
   }

@@ -60,7 +60,7 @@
   // 3: text lies inside the box that it belongs to, a pixel of rounding aside.
   const inside = (line, box) =>
     line.left >= box.left - 1 && line.right <= box.right + 1 && line.top >= box.top - 1 && line.bottom <= box.bottom + 1;
-  const boxes = "li, td, th, p, figcaption, summary, h1, h2, h3";
+  const boxes = "li, td, th, dt, dd, p, figcaption, summary, h1, h2, h3";
   for (const { node, owner, lines, inSvg } of pieces) {
     let box = inSvg ? owner.ownerSVGElement : owner.closest(boxes);
     while (box && getComputedStyle(box).display === "contents") box = box.parentElement;
@@ -100,6 +100,24 @@
   for (const image of document.images) {
     if (!image.complete || !image.naturalWidth) faults.push(`no picture: ${image.alt}`);
     if (!image.alt) faults.push("a picture without words");
+  }
+
+  // 6: who does not see the page finds their way.
+  const ids = [...document.querySelectorAll("[id]")].map((part) => part.id);
+  ids.filter((id, i) => ids.indexOf(id) < i).forEach((id) => faults.push(`is there twice: #${id}`));
+  for (const link of document.querySelectorAll('a[href^="#"]')) {
+    if (!ids.includes(link.hash.slice(1))) faults.push(`leads nowhere: ${link.hash}`);
+  }
+  let level = 0;
+  for (const heading of document.querySelectorAll("h1, h2, h3, h4")) {
+    if (heading.tagName[1] > level + 1) faults.push(`skips a level: ${words(heading.innerText)}`);
+    level = +heading.tagName[1];
+  }
+  for (const figure of document.querySelectorAll("svg[role=img]")) {
+    if (!figure.getAttribute("aria-label")) faults.push("a figure without a name");
+  }
+  for (const head of document.querySelectorAll("th")) {
+    if (!head.scope) faults.push(`a head of a table without a scope: ${words(head.innerText)}`);
   }
   return faults;
 })();

@@ -5,6 +5,7 @@ see them: on a telephone and on a wide screen, light and dark. `pytest test_brow
 of all of them; `-k documentation --screenshots documentation` makes those of the documentation."""
 
 import json
+import os
 import re
 import subprocess
 from pathlib import Path
@@ -88,6 +89,20 @@ def pages(tool, tmp_path_factory):
     return single | {name: compared(tool, folder, name, bursts) for name, bursts in COMPARED.items()}
 
 
+def test_title_has_the_files_and_their_date(tool, tmp_path):
+    stacks = [tmp_path / name for name in ("a&b.mha", "c.mha")]
+    for seconds, stack in enumerate(stacks):
+        tool("simulate-sensor-noise", "--output", stack, *["--size", "64x48", "--frames", "10"], "--seed", seconds + 1)
+        os.utime(stack, (0, 1_000_000_000 + 60 * seconds))  # 2001-09-09 01:46:40 UTC
+    for given, title, date in (
+        (stacks[:1], "Noise of a&amp;b.mha", "2001-09-09 01:46 UTC"),
+        (stacks, "Noise of a&amp;b.mha to c.mha", "2001-09-09 01:47 UTC"),
+    ):
+        assert code_of(tool, *given, "--plot", tmp_path / "page.html") in (0, 3)
+        page = (tmp_path / "page.html").read_text()
+        assert f"<title>{title}</title>" in page and f"<h1>{title}</h1>" in page and f"<time>{date}</time>" in page
+
+
 def outside(browser: Browser, file: Path) -> list[str]:
     """What the page asked others for: neither itself nor "data:"."""
     asked = [event["request"]["url"] for method, event in browser.events if method == "Network.requestWillBeSent"]
@@ -119,6 +134,35 @@ def test_page_is_whole_and_readable(chrome, pages, situation, screen, scheme, sc
     assert dark == (scheme == "dark") and (ground == "rgb(255, 255, 255)") == (scheme == "light")
 
 
+@pytest.mark.parametrize("situation", ["good", "flat-field", "smoothed", "gamma", "warnings"])
+def test_first_screen_has_verdict_key_numbers_and_curve(chrome, pages, situation):
+    """Of a screen of 1280 x 800 pixels. On a telephone it has the verdict and the key numbers."""
+    bottoms = "[...document.querySelectorAll('WHAT')].map((part) => part.getBoundingClientRect().bottom)"
+    for screen, what in (("telephone", ".verdict, .keys"), ("desk", ".verdict, .keys, .two svg[role=img]")):
+        chrome.open(pages[situation], WIDTHS[screen], "light")
+        found = chrome.run(bottoms.replace("WHAT", what))
+        assert len(found) == what.count(",") + 1
+        assert max(found) <= 800, (screen, found)
+
+
+def test_sections_open_by_the_keyboard(chrome, pages):
+    """The Tab key goes through the links of the verdict and the sections; Enter opens a section."""
+    chrome.open(pages["smoothed"], WIDTHS["desk"], "light")
+
+    def press(key: str, code: int, text: str = "") -> str:
+        for kind in ("keyDown", "keyUp"):
+            chrome.send("Input.dispatchKeyEvent", type=kind, key=key, windowsVirtualKeyCode=code, text=text)
+            text = ""
+        return chrome.run("document.activeElement.innerText")
+
+    count = chrome.run("document.querySelectorAll('a, summary').length")
+    reached = [press("Tab", 9) for _ in range(count)]
+    assert reached[0] == "noise correlated" and reached[-1].startswith("Input and settings")
+    assert not chrome.run("document.activeElement.parentElement.open")
+    press("Enter", 13, "\r")
+    assert chrome.run("document.activeElement.parentElement.open")
+
+
 def every_warning() -> list[tuple[str, str]]:
     """Code and sentence of each, as the library has them."""
     header = Path(__file__).resolve().parents[2] / "module/include/sensornoise/WarningCodes.h"
@@ -136,10 +180,12 @@ def test_every_warning_fits(chrome, pages, screen):
     chrome.run(
         f"""for (const [code, sentence] of {json.dumps(kinds)}) {{
           const item = document.querySelector(".warning").cloneNode(true);
-          const [head, message, help] = item.querySelectorAll("p");
-          head.lastElementChild.innerText = code;
-          message.innerText = sentence + " {name}";
-          help.innerText = sentence;
+          const [finding, action, name] = item.querySelectorAll("p");
+          item.id = "copy-of-" + code;
+          item.querySelector("h3").firstChild.data = code.replaceAll("-", " ") + " ";
+          finding.innerText = sentence + " {name}";
+          action.lastChild.data = " " + sentence;
+          name.firstElementChild.innerText = code;
           document.querySelector(".warnings").append(item);
         }}"""
     )
@@ -180,12 +226,12 @@ def test_page_of_24_megapixels_is_small_and_opens_at_once(chrome, tool, tmp_path
 
 # Pictures in documentation/: what is simulated, the colours, and the words of the headings where they begin.
 PICTURES = {
-    "page-good": ("--camera A --frames 50", "light", ("Noise of", "Variance against", "Light and")),
-    "page-bayer": ("--size 384x256 --frames 60 --bayer RGGB", "light", ("Noise of", "Variance against", "Channel B")),
+    "page-good": ("--camera A --frames 50", "light", ("Noise of", "All quantities", "Illumination and")),
+    "page-bayer": ("--size 384x256 --frames 60 --bayer RGGB", "light", ("Noise of", "What was found", "Channel B")),
     "page-smoothed": (
         "--size 256x192 --frames 60 --smoothing 0.7",
         "dark",
-        ("Noise of", "Warnings, and", "Correlation of"),
+        ("Noise of", "What was found", "Correlation of"),
     ),
 }
 SCREEN = (390, 800)  # of a telephone [CSS pixels]
@@ -197,6 +243,7 @@ def test_pictures_of_the_documentation(chrome, tool, tmp_path, name, screenshots
     flags, scheme, headings = PICTURES[name]
     page = measured(tool, tmp_path, name, flags)
     chrome.open(page, SCREEN[0], scheme)
+    chrome.run("document.querySelectorAll('details').forEach((part) => (part.open = true))")
     screens = []
     for words in headings:
         heading = f"[...document.querySelectorAll('h1, h2')].find((h) => h.innerText.startsWith('{words}'))"
@@ -233,6 +280,11 @@ BAD = {
     "consoleAPICalled": "<p>words</p><script>console.error('wrong')</script>",
     "is no number": "<p>from -nan to 3</p>",
     "no text": "<style>p { color: red }</style>",
+    "leads nowhere": "<p><a href='#there'>words</a></p>",
+    "twice": "<p id='one'>words</p><p id='one'>words</p>",
+    "skips a level": "<h1>words</h1><h3>words</h3>",
+    "without a name": "<p>words</p><svg role='img'></svg>",
+    "without a scope": "<table><tr><th>words</th></tr></table>",
 }
 
 

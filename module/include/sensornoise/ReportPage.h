@@ -30,16 +30,24 @@ struct PageMaps
   }
 };
 
-/** Returns the report as one HTML page, without network access and scripts. The page has the result in a sentence, in a
- * table and in figures, the meaning of the warnings and what to do, and the symbols of EMVA 1288. The maps are shown
- * with at most 256 x 256 points; without \a maps the page has none. */
-SensorNoise_EXPORT std::string
-ToHtml(const Report & report, const PageMaps & maps = {});
+/** What the title of a page says besides the report. Both are plain text. */
+struct PageTitle
+{
+  std::string name; ///< name of what was measured, for example a file; "": the camera, if its files name it
+  std::string date; ///< date of the files, for example "2026-11-24 23:30 UTC"; "": not known
+};
 
-/** Returns the reports of a mosaic as one HTML page: a table of all channels, followed by the report of each channel.
- * The maps are maps of the whole frame. */
+/** Returns the report as one HTML page, without network access and scripts. The first screen has the verdict in one
+ * sentence, gain, read noise and offset with their errors, the noise curve, and each warning with its action. Below are
+ * all quantities, the other figures, the symbols of EMVA 1288, and the settings. The maps are shown with at most
+ * 256 x 256 points; without \a maps the page has none. */
 SensorNoise_EXPORT std::string
-ToHtml(const ChannelReports & reports, const PageMaps & maps = {});
+ToHtml(const Report & report, const PageMaps & maps = {}, const PageTitle & title = {});
+
+/** Returns the reports of a mosaic as one HTML page: a table of all channels and their noise curves, followed by the
+ * report of each channel. The maps are maps of the whole frame. */
+SensorNoise_EXPORT std::string
+ToHtml(const ChannelReports & reports, const PageMaps & maps = {}, const PageTitle & title = {});
 
 /** Returns figure 1 of the page, variance against mean, as an SVG file. */
 SensorNoise_EXPORT std::string

@@ -151,7 +151,8 @@ ToHtml(const Comparison & comparison)
   }
   return Page("Noise of image sensors, compared",
               body + Heading("h2", "How changes are judged") + "<p class=\"soft\">" + Escaped(RuleText(comparison)) +
-                "</p>\n<p class=\"soft\">ITKSensorNoise " + Escaped(GetModuleVersion()) + "</p>\n");
+                "</p>\n<p class=\"soft\">ITKSensorNoise " + Escaped(GetModuleVersion()) + "</p>\n",
+              "");
 }
 
 std::string

@@ -270,7 +270,7 @@ SeriesFigure(const FigureData & data)
                    FrameAxis(data),
                    flicker.Axis(5),
                    hasMotion ? "" : "frame",
-                   "flicker \u03B3 [1], relative to the mean light");
+                   "flicker \u03B3 [1], relative to the mean");
     panel.Level(0.0, "zero");
     DrawSeries(panel, data.flicker, "after");
     top += 200.0;
@@ -294,7 +294,7 @@ CorrelationFigure(const FigureData & data)
   const auto lags = ClearestLags(data);
   if (lags.empty())
   {
-    return "<p>What neighbours and frames share of their noise was not measured.</p>\n";
+    return "<p>The correlation of the noise was not measured.</p>\n";
   }
   constexpr double rowHeight = 20.0;
   FiniteRange      range;

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace sensornoise
 {
@@ -33,6 +34,7 @@ RoundedTo(double number, const std::optional<double> & error)
   const std::string text = Measured(number, *error);
   return WithMinus(text.substr(0, text.find(PlusMinus)));
 }
+
 std::string
 WithReplaced(std::string text, const std::string & found, const std::string & replacement)
 {
@@ -93,6 +95,25 @@ Escaped(const std::string & text)
     }
   }
   return escaped;
+}
+
+std::string
+WithCode(const std::string & text)
+{
+  std::string html;
+  bool        isCode = false;
+  for (const char c : Escaped(text))
+  {
+    html += c == '`' ? std::string(isCode ? "</code>" : "<code>") : std::string(1, c);
+    isCode = c == '`' ? !isCode : isCode;
+  }
+  return isCode ? html + "</code>" : html;
+}
+
+std::string
+Unbroken(std::string html)
+{
+  return WithReplaced(std::move(html), "\u00B1 ", "\u00B1&#160;");
 }
 
 std::string

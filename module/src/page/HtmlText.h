@@ -14,6 +14,14 @@ namespace sensornoise
 std::string
 Escaped(const std::string & text);
 
+/** Returns \a text escaped, with `names` as code. */
+std::string
+WithCode(const std::string & text);
+
+/** Returns HTML in which no line ends behind a "±". */
+std::string
+Unbroken(std::string html);
+
 /** A unit of QuantityList() as people write it: "DN²", "DN/e⁻", and "" for "1". */
 std::string
 UnitText(const std::string & unit);

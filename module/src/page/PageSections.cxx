@@ -7,6 +7,7 @@
 #include "page/FigureStyle.h"
 #include "page/HtmlText.h"
 #include "page/PageStyle.h"
+#include "page/QuantityTable.h"
 #include "sensornoise/ReportText.h"
 #include "report/ReportJson.h"
 #include "report/ReportTable.h"
@@ -25,6 +26,8 @@ namespace sensornoise
 {
 namespace
 {
+const std::string Separator = " \u00B7 ";
+
 std::string
 TextOfSetting(const Report::SettingValue & value)
 {
@@ -48,46 +51,6 @@ TextOfSetting(const Report::SettingValue & value)
   return std::get<std::string>(value);
 }
 
-/** Whether the page has a line for it: what has a value, and what every table has. */
-bool
-HasRow(const QuantityEntry & entry, const Report & report)
-{
-  const Quantity * const quantity = entry.of(report);
-  return quantity != nullptr &&
-         (entry.shown == ShownIn::EveryTable || (quantity->value && std::isfinite(*quantity->value)) ||
-          (entry.shown == ShownIn::TableIfLimited && quantity->status == EstimateStatus::UpperLimit));
-}
-
-/** Escaped, and `names` as code. */
-std::string
-WithCode(const std::string & sentence)
-{
-  std::string text;
-  bool        isCode = false;
-  for (const char c : Escaped(sentence))
-  {
-    text += c == '`' ? std::string(isCode ? "</code>" : "<code>") : std::string(1, c);
-    isCode = c == '`' ? !isCode : isCode;
-  }
-  return isCode ? text + "</code>" : text;
-}
-
-std::string
-QuantityRow(const QuantityEntry & entry, const Quantity & quantity)
-{
-  const std::string  value = Escaped(ValueText(quantity));
-  const std::string  unit = UnitText(entry.unit);
-  const bool         hasNumber = (quantity.value && std::isfinite(*quantity.value)) || value.rfind("&lt;", 0) == 0;
-  const bool         isPlain = quantity.status == EstimateStatus::Identified;
-  const std::string  range = RangeText(quantity);
-  const char * const kindOfRange = quantity.interval95 ? "95 %: " : "limits: ";
-  return "<tr><th scope=\"row\">" + Escaped(LabelText(entry.label)) + "<small>" + WithCode(entry.meaning) +
-         "</small></th><td><span class=\"nowrap\">" + value + "</span>" +
-         (hasNumber && !unit.empty() ? " <span class=\"nowrap\">" + unit + "</span>" : "") +
-         (isPlain ? "" : "<small>" + std::string(NameOf(quantity.status)) + "</small>") +
-         (range.empty() ? "" : "<small>" + (kindOfRange + Escaped(range)) + "</small>") + "</td></tr>\n";
-}
-
 /** With indices: "mu_y.dark" is mu with y.dark below the line, of letters and points. */
 std::string
 WithIndices(const std::string & text)
@@ -109,16 +72,6 @@ WithIndices(const std::string & text)
   return html;
 }
 
-/** Whether any quantity has a value, or a limit. */
-bool
-HasValues(const Report & report)
-{
-  return std::any_of(QuantityList().begin(), QuantityList().end(), [&](const QuantityEntry & entry) {
-    const Quantity * const quantity = entry.of(report);
-    return quantity != nullptr && (quantity->value || quantity->status == EstimateStatus::UpperLimit);
-  });
-}
-
 std::string
 InputRow(const char * role, const InputFiles & input)
 {
@@ -138,75 +91,56 @@ Heading(const char * tag, const std::string & words)
 }
 
 std::string
-Page(const std::string & title, const std::string & body)
+Page(const std::string & title, const std::string & body, const std::string & style)
 {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
          "content=\"width=device-width, initial-scale=1\">\n<title>" +
-         Escaped(title) + "</title>\n<style>" + PageStyle + FigureStyle + "</style>\n</head>\n<body>\n" +
-         Heading("h1", title) + body + "</body>\n</html>\n";
+         Escaped(title) + "</title>\n<style>" + PageStyle + FigureStyle + "</style>\n</head>\n<body>\n<main class=\"" +
+         style + "\">\n" + Heading("h1", title) + body + "</main>\n</body>\n</html>\n";
 }
 
 std::string
-StackSentence(const Report & report)
+Details(const std::string & title, const std::string & summary, const std::string & body)
 {
-  std::string text = std::to_string(report.frames) + " frames";
-  text += TextOfCounted(report);
-  text += " of " + std::to_string(report.width) + " \u00D7 " + std::to_string(report.height) + " pixels";
-  text += report.bitDepth ? ", " + std::to_string(*report.bitDepth) + " bits (" + report.bitDepthSource + ")" : "";
-  text += report.quantisationStepDn ? ", code step " + Text(*report.quantisationStepDn) + " DN" : "";
-  if (report.clipLowDn && report.clipHighDn)
-  {
-    text +=
-      ", levels " + Text(*report.clipLowDn) + " to " + Text(*report.clipHighDn) + " DN (" + report.clipSource + ")";
-  }
-  text += "; method " + report.method;
-  if (report.pixels.total > 0)
-  {
-    text += "; " + Percent(static_cast<double>(report.pixels.used) / static_cast<double>(report.pixels.total)) +
-            " of the pixels used";
-    text += report.pixels.clipped * 100 >= report.pixels.total && report.pixels.total > 0
-              ? ", " + Percent(static_cast<double>(report.pixels.clipped) / static_cast<double>(report.pixels.total)) +
-                  " clipped"
-              : "";
-  }
-  return "<p class=\"soft\">" + Escaped(text) + ".</p>\n";
+  return "<details><summary><h2>" + Escaped(title) + "</h2>" +
+         (summary.empty() ? "" : " <span class=\"soft\">" + Unbroken(Escaped(summary)) + "</span>") + "</summary>\n" +
+         body + "</details>\n";
 }
 
 std::string
-QuantityTable(const Report & report)
+FrameWords(const Report & report)
 {
-  if (!HasValues(report))
-  {
-    return "<p>No quantity has a value.</p>\n";
-  }
-  std::string rows;
-  for (const QuantityEntry & entry : QuantityList())
-  {
-    rows += HasRow(entry, report) ? QuantityRow(entry, *entry.of(report)) : "";
-  }
-  return "<table class=\"quantities\"><thead><tr><th scope=\"col\">Quantity</th><th scope=\"col\">Value and standard "
-         "error</th></tr></thead>"
-         "<tbody>\n" +
-         rows + "</tbody></table>\n";
+  const CameraSettings & camera = report.camera;
+  std::string            text = camera.camera.empty() ? "" : camera.camera + Separator;
+  text += std::isfinite(camera.isoSpeed) ? "ISO " + Text(camera.isoSpeed) + Separator : "";
+  text += std::isfinite(camera.exposureSeconds) ? Text(camera.exposureSeconds) + " s" + Separator : "";
+  text += std::to_string(report.frames) + " frames" + TextOfCounted(report) + " of " + std::to_string(report.width) +
+          " \u00D7 " + std::to_string(report.height) + " pixels";
+  return report.bitDepth ? text + Separator + std::to_string(*report.bitDepth) + " bits" : text;
 }
 
 std::string
-WarningList(const std::vector<Warning> & warnings)
+PixelWords(const Report & report)
 {
-  std::vector<Warning> sorted = warnings;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Warning & a, const Warning & b) {
-    return KindOf(a.code).severity > KindOf(b.code).severity;
-  });
-  std::string items;
-  for (const Warning & warning : sorted)
+  if (report.pixels.total == 0)
   {
-    const WarningKind & kind = KindOf(warning.code);
-    const std::string   severity = NameOf(kind.severity);
-    items += "<li class=\"warning is-" + severity + "\"><p><span class=\"word\">" + severity + "</span> <span " +
-             "class=\"soft\">" + kind.name + "</span></p><p>" + Escaped(SentenceText(warning.message)) +
-             "</p><p class=\"soft\">" + WithCode(kind.sentence) + "</p></li>\n";
+    return "";
   }
-  return items.empty() ? "" : "<ul class=\"warnings\">\n" + items + "</ul>\n";
+  const auto fraction = [&report](std::size_t count) {
+    return Percent(static_cast<double>(count) / static_cast<double>(report.pixels.total));
+  };
+  const bool isClipped = report.pixels.clipped * 100 >= report.pixels.total;
+  return Separator + fraction(report.pixels.used) + " of the pixels used" +
+         (isClipped ? Separator + fraction(report.pixels.clipped) + " clipped" : "");
+}
+
+std::string
+TitleLine(const std::string & words, const std::string & date)
+{
+  const std::string time =
+    date.empty() ? "" : "<span class=\"date\">" + Separator + "files of <time>" + Escaped(date) + "</time></span>";
+  return "<p class=\"soft\">" + Escaped(words) + time + Separator + "ITKSensorNoise " + Escaped(GetModuleVersion()) +
+         "</p>\n";
 }
 
 std::string
@@ -289,11 +223,28 @@ InputTable(const std::optional<InputRecord> & input)
 std::string
 SettingsTable(const Report & report)
 {
-  std::string rows = "<tr><th scope=\"row\">version</th><td>ITKSensorNoise " + Escaped(GetModuleVersion()) +
-                     "</td></tr>\n<tr><th scope=\"row\">method</th><td>" + Escaped(report.method) + "</td></tr>\n";
+  std::string rows;
+  const auto  add = [&rows](const std::string & name, const std::string & value) {
+    rows += "<tr><th scope=\"row\">" + Escaped(name) + "</th><td>" + Escaped(value) + "</td></tr>\n";
+  };
+  add("version", "ITKSensorNoise " + std::string(GetModuleVersion()));
+  add("method", report.method);
+  if (report.bitDepth)
+  {
+    add("bit depth", std::to_string(*report.bitDepth) + " bits (" + report.bitDepthSource + ")");
+  }
+  if (report.quantisationStepDn)
+  {
+    add("quantization step", Text(*report.quantisationStepDn) + " DN");
+  }
+  if (report.clipLowDn && report.clipHighDn)
+  {
+    add("clip levels",
+        Text(*report.clipLowDn) + " and " + Text(*report.clipHighDn) + " DN (" + report.clipSource + ")");
+  }
   for (const auto & [name, value] : report.settings)
   {
-    rows += "<tr><th scope=\"row\">" + Escaped(name) + "</th><td>" + Escaped(TextOfSetting(value)) + "</td></tr>\n";
+    add(name, TextOfSetting(value));
   }
   return "<table class=\"settings\"><tbody>\n" + rows + "</tbody></table>\n";
 }

@@ -18,21 +18,27 @@ namespace sensornoise
 std::string
 Heading(const char * tag, const std::string & words);
 
-/** The whole page around its \a body, with the style of page and figures. */
+/** The whole page around its \a body, with the style of page and figures. \a style: "report" for a page of two
+ * columns, "" for a page of one. */
 std::string
-Page(const std::string & title, const std::string & body);
+Page(const std::string & title, const std::string & body, const std::string & style);
 
-/** How many frames of which size, codes and levels; method and pixels used. */
+/** A part of the page that the reader opens. Its line has the \a title and, in a few words, the result. */
 std::string
-StackSentence(const Report & report);
+Details(const std::string & title, const std::string & summary, const std::string & body);
 
+/** Camera, frames and bits, as plain text. */
 std::string
-QuantityTable(const Report & report);
+FrameWords(const Report & report);
 
-/** Each with its severity, the numbers found, and what it means and what helps, errors first. "" where there are none.
- */
+/** The fraction of the pixels that is used, and the fraction that is clipped from 1 % on, to follow FrameWords(). "" of
+ * a report without pixels. */
 std::string
-WarningList(const std::vector<Warning> & warnings);
+PixelWords(const Report & report);
+
+/** The line below the title: \a words, the date of the files ("": not known), and the version. */
+std::string
+TitleLine(const std::string & words, const std::string & date);
 
 std::string
 EmvaTable(const Report & report);
@@ -50,7 +56,7 @@ PartsTable(const Report & report);
 std::string
 InputTable(const std::optional<InputRecord> & input);
 
-/** Every setting as it was used, and the version of the program. */
+/** Version, method, properties of the digital numbers, and every setting as it was used. */
 std::string
 SettingsTable(const Report & report);
 

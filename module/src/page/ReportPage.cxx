@@ -8,7 +8,9 @@
 #include "page/HtmlText.h"
 #include "page/MapPicture.h"
 #include "page/PageSections.h"
+#include "page/QuantityTable.h"
 #include "page/Verdict.h"
+#include "page/WarningBoxes.h"
 #include "sensornoise/ReportText.h"
 #include "report/ReportTable.h"
 
@@ -16,35 +18,12 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace sensornoise
 {
 namespace
 {
-constexpr double LeastSpread = 1.05; ///< of residuals, to be worth a sentence
-
-/** Numbers stay with the signs that belong to them: a line ends in front of a "+-", not behind it. */
-std::string
-Unbroken(std::string text)
-{
-  const std::string sign = "\u00B1 ";
-  for (std::size_t at = text.find(sign); at != std::string::npos; at = text.find(sign, at + 1))
-  {
-    text.replace(at, sign.size(), "\u00B1&#160;");
-  }
-  return text;
-}
-
-std::string
-VerdictBox(const Verdict & verdict)
-{
-  const std::string word = verdict.severity == Severity::Note      ? "Measured."
-                           : verdict.severity == Severity::Warning ? "Measured, with warnings."
-                                                                   : "Not measured.";
-  return "<p class=\"verdict is-" + std::string(NameOf(verdict.severity)) + "\"><span class=\"word\">" + word +
-         "</span> " + Unbroken(Escaped(verdict.sentence)) + "</p>\n";
-}
+constexpr double LeastSpread = 1.05; ///< of residuals [1], from which on the caption names it
 
 /** A figure with its caption, if it has one, or the sentence that stands in its place. */
 std::string
@@ -59,18 +38,18 @@ FigureElement(const std::string & figure, const std::string & caption)
 }
 
 const char * const CurveWords =
-  "Temporal variance against mean, each point a bin of the pixels used: flicker and motion "
-  "lift it, and without them a line is left.";
+  "Each point is an intensity bin of the pixels used. Flicker and motion add to the "
+  "variance (orange rings). Without them the variance is a line (blue discs), whose slope "
+  "is the gain if the noise is white.";
 
-/** Of the residuals below the curve. \a spread: FigureData's. */
+/** Sentences on the residuals below the curve. \a spread: FigureData's. */
 std::string
 ResidualWords(double spread)
 {
-  const std::string text =
-    " Below, what is left of the points without the line, in units of the error that normal noise "
-    "of variance and mean gives; shaded: two of them.";
+  const std::string text = " Below: deviations from the line, in standard errors of the point for normal noise; the "
+                           "band is two of them.";
   return spread < LeastSpread ? text
-                              : text + " Neighbours share their noise, for which the points may scatter up to " +
+                              : text + " The noise of neighbours is correlated, and the points may scatter up to " +
                                   Rounded(spread) + " times as far.";
 }
 
@@ -82,25 +61,44 @@ CurveCaption(const FigureData & data)
          (data.residuals.empty() ? "" : ResidualWords(data.residualSpread));
 }
 
-/** "" of none. */
+/** An item of a list; "" of none. */
 std::string
-Paragraph(const std::string & sentence)
+Item(const std::string & sentence)
 {
-  return sentence.empty() ? "" : "<p>" + Escaped(SentenceText(sentence)) + "</p>\n";
+  return sentence.empty() ? "" : "<li>" + Escaped(SentenceText(sentence)) + "</li>\n";
+}
+
+/** How well the line fits, whether the response is linear, and the class of the noise. */
+std::string
+FitList(const Report & report)
+{
+  const std::string items = Item(DescribeFit(report)) + Item(DescribeResponse(report)) + Item(DescribeNoise(report));
+  return items.empty() ? "" : "<ul class=\"checks\">\n" + items + "</ul>\n";
 }
 
 std::string
-FitSentences(const Report & report)
+Section(const std::string & body)
 {
-  return Paragraph(DescribeFit(report)) + Paragraph(DescribeResponse(report));
+  return body.empty() ? "" : "<section>\n" + body + "</section>\n";
 }
 
 std::string
-CurveSection(const Report & report)
+WithHeading(const std::string & words, const std::string & body)
 {
-  const FigureData data = MakeFigureData(report);
-  return Heading("h2", "Variance against mean") + FigureElement(CurveFigure(data), CurveCaption(data)) +
-         FitSentences(report);
+  return body.empty() ? "" : Heading("h2", words) + body;
+}
+
+/** The noise curve beside the warnings and the quality of the fit; the warnings first where there is no gain. */
+std::string
+CurveAndWarnings(const Report & report)
+{
+  const FigureData  data = MakeFigureData(report);
+  const std::string curve =
+    Section(Heading("h2", "Noise curve") + FigureElement(CurveFigure(data), CurveCaption(data)));
+  const std::string words = Section(WithHeading("What was found, and what to do", WarningBoxes(report.warnings)) +
+                                    WithHeading("Quality of the fit", FitList(report)));
+  return report.gain.value ? "<div class=\"two\">\n" + curve + words + "</div>\n"
+                           : "<div class=\"two first-words\">\n" + words + curve + "</div>\n";
 }
 
 /** All channels' curves side by side, where there is room for that. */
@@ -117,64 +115,86 @@ CurvesOfChannels(const ChannelReports & reports)
     hasResiduals = hasResiduals || !data.residuals.empty();
     spread = std::max(spread, data.residualSpread);
   }
-  return Heading("h2", "Variance against mean") + "<div class=\"maps\">\n" + figures + "</div>\n<p class=\"soft\">" +
+  return Heading("h2", "Noise curves") + "<div class=\"maps\">\n" + figures + "</div>\n<p class=\"soft\">" +
          CurveWords + (hasResiduals ? ResidualWords(spread) : "") + "</p>\n";
 }
 
+/** "flicker sd 0.01 ± 0.001, motion sd x ..., y ... pixel", of what has a value. */
 std::string
-SeriesAndNoise(const Report & report, const char * heading)
+MotionSummary(const Report & report)
+{
+  const auto value = [](const Quantity & quantity, const std::string & before, const std::string & after) {
+    return quantity.value ? before + ValueText(quantity) + after : std::string();
+  };
+  const std::string motion =
+    value(report.vibrationSdX, "; motion x ", "") + value(report.vibrationSdY, ", y ", " pixel");
+  return value(report.flickerSd, "flicker ", "") + motion;
+}
+
+std::string
+SeriesAndNoise(const Report & report)
 {
   const FigureData data = MakeFigureData(report);
-  return Heading(heading, "Light and motion") +
-         FigureElement(SeriesFigure(data), "What every frame's light differs by from the mean, and its shift.") +
-         Heading(heading, "Correlation of the noise") + Paragraph(DescribeNoise(report)) +
-         FigureElement(CorrelationFigure(data),
-                       "What pixels x columns and y rows apart, or frames, share of their noise; of many lags those "
-                       "that differ most from 0.");
+  return Details("Illumination and motion",
+                 MotionSummary(report),
+                 FigureElement(SeriesFigure(data),
+                               "The illumination of each frame relative to the mean, and the shift of the scene.")) +
+         Details("Correlation of the noise",
+                 report.noiseCorrelation ? report.noiseCorrelation->kind : "",
+                 FigureElement(CorrelationFigure(data),
+                               "Correlation coefficient of the noise of pixels x columns and y rows apart, or of "
+                               "frames. Of many lags, those that differ most from 0."));
 }
 
 std::string
 MapsSection(const PageMaps & maps)
 {
-  return maps.IsEmpty()
-           ? ""
-           : Heading("h2", "Pixels") + "<div class=\"maps\">" + MeanPicture(maps) + PixelUsePicture(maps) + "</div>\n";
-}
-
-std::string
-WarningsSection(const std::vector<Warning> & warnings)
-{
-  return warnings.empty() ? "" : Heading("h2", "Warnings, and what would help") + WarningList(warnings);
-}
-
-std::string
-InputSection(const std::optional<InputRecord> & input)
-{
-  return input ? Heading("h2", "Input") + InputTable(input) : "";
+  return maps.IsEmpty() ? ""
+                        : Details("Pixels",
+                                  "mean image, and use of each pixel",
+                                  "<div class=\"maps\">" + MeanPicture(maps) + PixelUsePicture(maps) + "</div>\n");
 }
 
 /** The levels by exposure, where exposures were given. */
 std::string
-LinearitySection(const Report & report, const char * heading)
+LinearitySection(const Report & report)
 {
   return report.linearity.levels.empty()
            ? ""
-           : Heading(heading, "Linearity") + Paragraph(DescribeLinearity(report)) + LinearityTable(report);
+           : Details("Linearity",
+                     std::to_string(report.linearity.levels.size()) + " exposures",
+                     "<p>" + Escaped(SentenceText(DescribeLinearity(report))) + "</p>\n" + LinearityTable(report));
 }
 
 std::string
-PartsSection(const Report & report, const char * heading)
+EmvaSection(const Report & report)
 {
-  return report.gainByParts.empty() ? "" : Heading(heading, "Gain of the parts") + PartsTable(report);
+  return Details("EMVA 1288", "symbols of the standard", EmvaTable(report));
+}
+
+/** The files, and every setting. */
+std::string
+SettingsSection(const std::optional<InputRecord> & input, const Report & report)
+{
+  return Details("Input and settings", "method " + report.method, InputTable(input) + SettingsTable(report));
 }
 
 std::string
 ChannelSection(const Report & report)
 {
-  return Heading("h2", "Channel " + report.channel) + VerdictBox(VerdictOf(report)) +
-         "<details><summary>Everything of channel " + Escaped(report.channel) + "</summary>\n" + StackSentence(report) +
-         QuantityTable(report) + PartsSection(report, "h3") + FitSentences(report) + SeriesAndNoise(report, "h3") +
-         LinearitySection(report, "h3") + Heading("h3", "EMVA 1288") + EmvaTable(report) + "</details>\n";
+  return Details("Channel " + report.channel,
+                 report.gain.value ? "gain " + ValueText(report.gain) + " DN/e\u207B" : "not measured",
+                 "<p class=\"soft\">" + Escaped(FrameWords(report) + PixelWords(report)) + "</p>\n" +
+                   KeyNumbers(report) + QuantityTable(report) + WithHeading("Gain of the parts", PartsTable(report)) +
+                   WithHeading("Quality of the fit", FitList(report)) + SeriesAndNoise(report) +
+                   LinearitySection(report) + EmvaSection(report));
+}
+
+/** "Noise of " what the title says, else of the camera, else of \a kind. */
+std::string
+TitleText(const PageTitle & title, const CameraSettings & camera, const std::string & kind)
+{
+  return "Noise of " + (!title.name.empty() ? title.name : !camera.camera.empty() ? camera.camera : kind);
 }
 
 /** Four columns, one a channel. */
@@ -200,39 +220,40 @@ ChannelTable(const ChannelReports & reports)
   if (reports.motion)
   {
     text += "<p>Vibration of all channels together: x " + Unbroken(Escaped(ValueText(reports.motion->sdX))) + ", y " +
-            Unbroken(Escaped(ValueText(reports.motion->sdY))) + " pixel of a plane.</p>\n";
+            Unbroken(Escaped(ValueText(reports.motion->sdY))) + " pixel of a channel.</p>\n";
   }
   return text;
 }
 } // namespace
 
 std::string
-ToHtml(const Report & report, const PageMaps & maps)
+ToHtml(const Report & report, const PageMaps & maps, const PageTitle & title)
 {
-  const std::string table = QuantityTable(report);
-  const std::string warnings = WarningsSection(report.warnings);
-  return Page("Noise of an image sensor",
-              VerdictBox(VerdictOf(report)) + StackSentence(report) +
-                (report.gain.value ? table + warnings : warnings + Heading("h2", "Quantities") + table) +
-                PartsSection(report, "h2") + CurveSection(report) + SeriesAndNoise(report, "h2") +
-                LinearitySection(report, "h2") + MapsSection(maps) + Heading("h2", "EMVA 1288") + EmvaTable(report) +
-                InputSection(report.input) + Heading("h2", "Settings") + SettingsTable(report));
+  return Page(TitleText(title, report.camera, "an image sensor"),
+              TitleLine(FrameWords(report) + PixelWords(report), title.date) + VerdictBox(report) + KeyNumbers(report) +
+                CurveAndWarnings(report) + Heading("h2", "All quantities") + QuantityTable(report) +
+                WithHeading("Gain of the parts", PartsTable(report)) + SeriesAndNoise(report) +
+                LinearitySection(report) + MapsSection(maps) + EmvaSection(report) +
+                SettingsSection(report.input, report),
+              "report");
 }
 
 std::string
-ToHtml(const ChannelReports & reports, const PageMaps & maps)
+ToHtml(const ChannelReports & reports, const PageMaps & maps, const PageTitle & title)
 {
-  std::string body = VerdictBox(VerdictOf(reports)) + "<p class=\"soft\">Bayer mosaic " +
-                     std::string(NameOf(reports.pattern)) + " (" + NameOf(reports.source) +
-                     "); widths, heights and motion of a channel are in its own pixels.</p>\n" + ChannelTable(reports) +
-                     WarningsSection(WarningsOf(reports)) + CurvesOfChannels(reports);
+  const Report & first = reports.channels.front();
+  std::string body = TitleLine("Bayer mosaic " + std::string(NameOf(reports.pattern)) + " (" + NameOf(reports.source) +
+                                 "), each channel: " + FrameWords(first),
+                               title.date) +
+                     VerdictBox(reports) + ChannelTable(reports) + CurvesOfChannels(reports) +
+                     WithHeading("What was found, and what to do", WarningBoxes(WarningsOf(reports)));
   for (const Report & report : reports.channels)
   {
     body += ChannelSection(report);
   }
-  return Page("Noise of a colour sensor",
-              body + MapsSection(maps) + InputSection(reports.input) + Heading("h2", "Settings") +
-                SettingsTable(reports.channels.front()));
+  return Page(TitleText(title, first.camera, "a colour sensor"),
+              body + MapsSection(maps) + SettingsSection(reports.input, first),
+              "report");
 }
 
 std::string

@@ -80,10 +80,11 @@ class PagedRecord(Record):
     def to_html(self, path: None = None, *, title: str | None = None) -> str: ...
 
     def to_html(self, path: FileName | None = None, *, title: str | None = None) -> str | None:
-        """Makes the page that `estimate-sensor-noise --plot report.html` writes: the verdict in a sentence, a table and
-        figures, the maps of the pixels, the meaning of the warnings and their remedies. It needs no other file, no
-        network and no matplotlib. The page of a report that was read from JSON has the table, the warnings and the
-        noise curve alone.
+        """Makes the page that `estimate-sensor-noise --plot report.html` writes.
+
+        It has the verdict in one sentence, gain, read noise and offset, the noise curve, each warning with its action,
+        all quantities, and the maps of the pixels. It needs no other file, no network and no matplotlib. The page of a
+        report that was read from JSON has the table, the warnings and the noise curve alone.
 
         Parameters
         ----------
@@ -91,7 +92,7 @@ class PagedRecord(Record):
             Name of a file that ends in .html or .htm. It has the whole page, or is left as it was; its folder has to
             exist. Default: the text of the page is returned.
         title : str, optional
-            Title and first heading of the page. Default: the kind of the sensor.
+            Title and first heading of the page. Default: the camera if the frames name it, else the kind of the sensor.
 
         Returns
         -------
