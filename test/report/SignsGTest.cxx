@@ -18,6 +18,27 @@ TEST(SensorNoiseSigns, AreThoseThatPeopleWrite)
   EXPECT_EQ(WithoutSigns(WithSigns("0.474 +- 0.013 DN/e-, 5 DN^2")), "0.474 +- 0.013 DN/e-, 5 DN^2");
 }
 
+TEST(SensorNoiseSigns, ColumnsStayInLineWithoutThem)
+{
+  EXPECT_EQ(WithoutSigns("\u00B1 1   2"), "+- 1  2");
+  EXPECT_EQ(WithoutSigns("\u00B1 1 2"), "+- 1 2"); // one blank stays
+  EXPECT_EQ(WithoutSigns("\u00B1\na   b"), "+-\na   b");
+  Report report;
+  report.gain = Quantity::Identified(0.473912);
+  report.gain.standardError = 0.0131;
+  report.intercept = Quantity::Identified(-46.39);
+  report.intercept.standardError = 0.41;
+  const std::string table = WithoutSigns(MakeTable(report));
+  const std::size_t place = table.find("status") - table.find("quantity");
+  for (const char * const label : { "gain g", "offset mu", "intercept sigma^2 - g mu", "total intercept" })
+  {
+    const std::size_t line = table.find(std::string("\n") + label) + 1;
+    const std::size_t status = table.find_first_of("if", line + place); // "identified" or "failed"
+    EXPECT_EQ(status - line, place) << table.substr(line, table.find('\n', line) - line);
+    EXPECT_EQ(table[line + place - 1], ' ');
+  }
+}
+
 TEST(SensorNoiseSigns, CountAsOneCharacterEach)
 {
   EXPECT_EQ(PaddedRight("\u00B1 1", 5), "\u00B1 1  ");

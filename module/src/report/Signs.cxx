@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <utility>
 
 namespace sensornoise
@@ -47,7 +48,7 @@ WithSigns(std::string text)
 }
 
 std::string
-WithoutSigns(std::string text)
+WithoutSigns(const std::string & text)
 {
   constexpr std::array<Replacement, 10> letters{ { { "\u00A0", " " },
                                                    { "\u2212", "-" },
@@ -59,7 +60,26 @@ WithoutSigns(std::string text)
                                                    { "\u03BC", "mu" },
                                                    { "\u00D7", "x" },
                                                    { "\u2013", "-" } } };
-  return Replace(std::move(text), letters);
+  std::string                           ascii;
+  std::size_t                           excess = 0; // characters by which this line has become longer
+  for (std::size_t at = 0; at < text.size();)
+  {
+    const auto sign = std::find_if(letters.begin(), letters.end(), [&](const Replacement & letter) {
+      return text.compare(at, std::strlen(letter.first), letter.first) == 0;
+    });
+    if (sign != letters.end())
+    {
+      ascii += sign->second;
+      excess += std::strlen(sign->second) - 1;
+      at += std::strlen(sign->first);
+      continue;
+    }
+    const bool isPadding = text[at] == ' ' && !ascii.empty() && ascii.back() == ' ' && excess > 0;
+    excess = text[at] == '\n' ? 0 : excess - (isPadding ? 1 : 0);
+    ascii += isPadding ? std::string() : std::string(1, text[at]);
+    ++at;
+  }
+  return ascii;
 }
 
 std::size_t

@@ -15,9 +15,10 @@ namespace sensornoise
 SensorNoise_EXPORT std::string
 WithSigns(std::string text);
 
-/** The text in ASCII, as far as this library writes it, for terminals that show nothing else. */
+/** Returns the text in ASCII, as far as this library writes it, for terminals that show nothing else. A sign may become
+ * several letters. The blanks behind it, of which one stays, become fewer, so that columns stay in line. */
 SensorNoise_EXPORT std::string
-WithoutSigns(std::string text);
+WithoutSigns(const std::string & text);
 
 /** Counts the characters of a text in UTF-8; a character may have several bytes. */
 SensorNoise_EXPORT std::size_t
