@@ -31,7 +31,7 @@ TEST_F(EstimatePlotTool, AFailedMeasurementHasAPage)
 {
   const std::string constant = Write("s.mha", Make<StackType>({ { 32, 32, 10 } }, 500).GetPointer());
   ASSERT_EQ(Run(constant + " --plot p.html"), 3) << m_Message;
-  EXPECT_NE(ReadText(Path("p.html")).find("Not measured."), std::string::npos);
+  EXPECT_NE(ReadText(Path("p.html")).find(">Not measured</span>"), std::string::npos);
 }
 
 TEST_F(EstimatePlotTool, NoFileThatIsReadOrWrittenIsReplaced)
