@@ -183,7 +183,7 @@ TEST(SensorNoiseReportPage, SaysHowWellItFits)
   const std::string page = ToHtml(report);
   for (const char * const part : { "Fit: reduced \u03C7\u00B2 0.9876 (1: only sampling noise is left).",
                                    "by up to 2 % of itself.",
-                                   "Noise: filtered, neighbours share up to 40 % of it",
+                                   "Noise: filtered, correlation of neighbours up to 40 %",
                                    "up to 1.15 times as far.", // sqrt(1 + 2 * 0.16)
                                    "12.5 % clipped" })
   {

@@ -73,8 +73,9 @@ TEST(SensorNoiseReportTable, FitIsShownAsFarAsItIsKnown)
   report.fit.reducedChi2 = 1.02;
   EXPECT_EQ(LineOf(report, "fit:"), "fit: reduced chi2 1.02 (1: only sampling noise is left)");
   report.fit.offsetLinePhi = 0.98;
-  EXPECT_EQ(LineOf(report, "fit:"),
-            "fit: reduced chi2 1.02 (1: only sampling noise is left), offset line 0.98 (1: one flicker for all)");
+  EXPECT_EQ(
+    LineOf(report, "fit:"),
+    "fit: reduced chi2 1.02 (1: only sampling noise is left), offset line 0.98 (1: all pixels have one flicker)");
 }
 
 TEST(SensorNoiseReportTable, NoiseIsNamedWhereItWasLookedAt)
@@ -84,10 +85,10 @@ TEST(SensorNoiseReportTable, NoiseIsNamedWhereItWasLookedAt)
   NoiseCorrelationRecord & noise = report.noiseCorrelation.emplace();
   noise.kind = "white";
   noise.space = { { 1, 0, 0, 0.0004, 0.0005 } };
-  EXPECT_EQ(LineOf(report, "noise"), "noise: white (neighbours and frames share none of it)");
+  EXPECT_EQ(LineOf(report, "noise"), "noise: white (no correlation between neighbours or frames)");
   noise.kind = "not-linear";
   EXPECT_EQ(LineOf(report, "noise"),
-            "noise: not-linear (not as a sensor's or a linear filter's: what gain it had cannot be told)");
+            "noise: not-linear (not as a sensor or a linear filter leaves it: the gain is not identifiable)");
 }
 
 TEST(SensorNoiseReportTable, WhatNeighboursOrFramesShareIsThatOfTheLagThatSharesMost)
@@ -97,13 +98,13 @@ TEST(SensorNoiseReportTable, WhatNeighboursOrFramesShareIsThatOfTheLagThatShares
   noise.kind = "filtered";
   noise.space = { { 1, 0, 0, 0.1, 0.001 }, { 0, 1, 0, -0.442, 0.001 }, { 1, 1, 0, 0.2, 0.001 } };
   noise.time = { { 0, 0, 1, 0.251, 0.001 } };
-  EXPECT_EQ(LineOf(report, "noise"), "noise: filtered, neighbours share up to -44 % of it");
+  EXPECT_EQ(LineOf(report, "noise"), "noise: filtered, correlation of neighbours up to -44 %");
   report.gain = Quantity::Identified(1.0);
   EXPECT_EQ(LineOf(report, "noise"),
-            "noise: filtered, neighbours share up to -44 % of it; the gain is from the sum over all lags");
+            "noise: filtered, correlation of neighbours up to -44 %; the gain is from the covariance over all lags");
   noise.kind = "temporal";
   EXPECT_EQ(LineOf(report, "noise"),
-            "noise: temporal, frames share up to 25 % of it; the gain is from the sum over all lags");
+            "noise: temporal, correlation of frames up to 25 %; the gain is from the covariance over all lags");
 }
 
 TEST(SensorNoiseReportTable, RowsAndColumnsHaveALineWhereTheirNoiseIsTold)
@@ -116,7 +117,7 @@ TEST(SensorNoiseReportTable, RowsAndColumnsHaveALineWhereTheirNoiseIsTold)
   noise.columnNoise = Quantity::Identified(2.5);
   EXPECT_EQ(LineOf(report, "row noise"), "");
   EXPECT_EQ(LineOf(report, "column noise"), "column noise                      2.5  DN       identified");
-  EXPECT_EQ(LineOf(report, "noise"), "noise: white, but for rows and columns");
+  EXPECT_EQ(LineOf(report, "noise"), "noise: white, except for row and column noise");
 }
 
 TEST(SensorNoiseReportTable, VarianceSlopeHasALineWhereItIsNotTheGain)

@@ -145,13 +145,13 @@ IsShown(const QuantityEntry & entry, const Report & report)
   return false;
 }
 
-/** "share 44 %" of the lag that shares most. */
+/** " up to 44 %": the correlation coefficient of the lag at which it is largest; "" without lags. */
 std::string
-MostShared(const std::vector<NoiseCorrelationRecord::Lag> & lags)
+LargestCorrelation(const std::vector<NoiseCorrelationRecord::Lag> & lags)
 {
   const auto most = std::max_element(
     lags.begin(), lags.end(), [](const auto & a, const auto & b) { return std::abs(a.value) < std::abs(b.value); });
-  return most == lags.end() ? "share some of it" : Format("share up to %.2g %% of it", 100.0 * most->value);
+  return most == lags.end() ? "" : Format(" up to %.2g %%", 100.0 * most->value);
 }
 
 std::string
@@ -182,8 +182,9 @@ DescribeFit(const Report & report)
     return "";
   }
   return Format("fit: reduced chi2 %.4g (1: only sampling noise is left)", *report.fit.reducedChi2) +
-         (report.fit.offsetLinePhi ? Format(", offset line %.4g (1: one flicker for all)", *report.fit.offsetLinePhi)
-                                   : "");
+         (report.fit.offsetLinePhi
+            ? Format(", offset line %.4g (1: all pixels have one flicker)", *report.fit.offsetLinePhi)
+            : "");
 }
 
 std::string
@@ -194,9 +195,9 @@ DescribeResponse(const Report & report)
     return "";
   }
   return *report.fit.nonlinearity > 0.0
-           ? Format("response: the variance departs from its line by up to %.2g %% of itself",
+           ? Format("response: the variance deviates from its line by up to %.2g %% of itself",
                     100.0 * *report.fit.nonlinearity)
-           : "response: the variance departs from its line by no more than noise";
+           : "response: the variance deviates from its line by no more than noise";
 }
 
 std::string
@@ -210,21 +211,21 @@ DescribeNoise(const Report & report)
   if (noise.kind == "white")
   {
     const bool hasLines = IsIdentified(noise.rowNoise) || IsIdentified(noise.columnNoise);
-    return hasLines ? "noise: white, but for rows and columns"
-                    : "noise: white (neighbours and frames share none of it)";
+    return hasLines ? "noise: white, except for row and column noise"
+                    : "noise: white (no correlation between neighbours or frames)";
   }
   if (noise.kind == "not-linear")
   {
-    return "noise: not-linear (not as a sensor's or a linear filter's: what gain it had cannot be told)";
+    return "noise: not-linear (not as a sensor or a linear filter leaves it: the gain is not identifiable)";
   }
   if (noise.kind == "enlarged")
   {
-    return "noise: enlarged (fewer samples than pixels: the gain cannot be told)";
+    return "noise: enlarged (fewer samples than pixels: the gain is not identifiable)";
   }
-  const std::string text =
-    "noise: " + noise.kind +
-    (noise.kind == "temporal" ? ", frames " + MostShared(noise.time) : ", neighbours " + MostShared(noise.space));
-  return text + (report.gain.value ? "; the gain is from the sum over all lags" : "");
+  const std::string text = "noise: " + noise.kind +
+                           (noise.kind == "temporal" ? ", correlation of frames" + LargestCorrelation(noise.time)
+                                                     : ", correlation of neighbours" + LargestCorrelation(noise.space));
+  return text + (report.gain.value ? "; the gain is from the covariance over all lags" : "");
 }
 
 std::string

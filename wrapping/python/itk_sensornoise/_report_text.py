@@ -156,7 +156,9 @@ def _fit(record: Mapping[str, Any]) -> str:
     if chi2 is None:
         return ""
     text = f"fit: reduced chi2 {chi2:.4g} (1: only sampling noise is left)"
-    return text + (f", offset line {offset_line:.4g} (1: one flicker for all)" if offset_line is not None else "")
+    return text + (
+        f", offset line {offset_line:.4g} (1: all pixels have one flicker)" if offset_line is not None else ""
+    )
 
 
 def _response(record: Mapping[str, Any]) -> str:
@@ -164,7 +166,7 @@ def _response(record: Mapping[str, Any]) -> str:
     if bend is None:
         return ""
     by = f"up to {100.0 * bend:.2g} % of itself" if bend > 0 else "no more than noise"
-    return f"response: the variance departs from its line by {by}"
+    return f"response: the variance deviates from its line by {by}"
 
 
 def _noise(record: Mapping[str, Any]) -> str:
@@ -175,19 +177,19 @@ def _noise(record: Mapping[str, Any]) -> str:
     if kind == "white":
         lines = (noise[name]["status"] == "identified" for name in ("row_noise", "column_noise"))
         return (
-            "noise: white, but for rows and columns"
+            "noise: white, except for row and column noise"
             if any(lines)
-            else ("noise: white (neighbours and frames share none of it)")
+            else ("noise: white (no correlation between neighbours or frames)")
         )
     if kind == "not-linear":
-        return "noise: not-linear (not as a sensor's or a linear filter's: what gain it had cannot be told)"
+        return "noise: not-linear (not as a sensor or a linear filter leaves it: the gain is not identifiable)"
     if kind == "enlarged":
-        return "noise: enlarged (fewer samples than pixels: the gain cannot be told)"
+        return "noise: enlarged (fewer samples than pixels: the gain is not identifiable)"
     who, lags = ("frames", noise["time"]) if kind == "temporal" else ("neighbours", noise["space"])
     most = max((lag["value"] for lag in lags), key=abs, default=None)
-    share = "share some of it" if most is None else f"share up to {100.0 * most:.2g} % of it"
-    tail = "; the gain is from the sum over all lags" if record["gain"]["value"] is not None else ""
-    return f"noise: {kind}, {who} {share}{tail}"
+    size = "" if most is None else f" up to {100.0 * most:.2g} %"
+    tail = "; the gain is from the covariance over all lags" if record["gain"]["value"] is not None else ""
+    return f"noise: {kind}, correlation of {who}{size}{tail}"
 
 
 def _linearity(record: Mapping[str, Any]) -> str:
