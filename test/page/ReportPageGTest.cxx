@@ -272,6 +272,8 @@ TEST(SensorNoiseReportPage, OfAMosaicItHasAllChannels)
 TEST(SensorNoiseReportPage, TheFigureIsAFileOfItsOwn)
 {
   const std::string svg = ToSvg(MakeGoodReport(30));
+  EXPECT_TRUE(
+    Contains(svg, "<title>The gain is 0.5000 \u00B1 0.0010 DN/e\u207B, and the read noise 8 e\u207B.</title>"));
   EXPECT_EQ(svg.rfind("<svg ", 0), 0U);
   EXPECT_EQ(FaultOfTags(svg), "");
   EXPECT_TRUE(Contains(svg, "xmlns=\"http://www.w3.org/2000/svg\""));

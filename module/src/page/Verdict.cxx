@@ -32,15 +32,6 @@ WhyNot(const Report & report)
   });
   return error == report.warnings.end() ? "the warnings say why" : error->message;
 }
-
-std::string
-NumberOfWarnings(const std::vector<Warning> & warnings)
-{
-  const auto count = std::count_if(warnings.begin(), warnings.end(), [](const Warning & warning) {
-    return KindOf(warning.code).severity == Severity::Warning;
-  });
-  return count == 1 ? "one warning says" : std::to_string(count) + " warnings say";
-}
 } // namespace
 
 Verdict
@@ -55,33 +46,18 @@ VerdictOf(const Report & report)
   {
     sentence += ", and the read noise " + ValueText(report.readNoiseElectrons) + " e\u207B";
   }
-  const Severity worst = std::min(WorstOf(report.warnings), Severity::Warning);
-  sentence += worst == Severity::Note ? "; every number below stands."
-                                      : "; " + NumberOfWarnings(report.warnings) + " what is missing or does not fit.";
-  return { worst, sentence };
+  return { std::min(WorstOf(report.warnings), Severity::Warning), sentence + "." };
 }
 
-Verdict
-VerdictOf(const ChannelReports & reports)
+Severity
+SeverityOf(const ChannelReports & reports)
 {
-  std::string without;
-  Severity    worst = std::min(WorstOf(reports.warnings), Severity::Warning);
+  Severity worst = std::min(WorstOf(reports.warnings), Severity::Warning);
   for (const Report & report : reports.channels)
   {
-    if (!report.gain.value)
-    {
-      without += (without.empty() ? "" : ", ") + report.channel;
-    }
     worst = std::max(worst, VerdictOf(report).severity);
   }
-  if (!without.empty())
-  {
-    return { Severity::Error, "No gain could be measured of the channels " + without + "." };
-  }
-  return { worst,
-           worst == Severity::Note ? "All four channels of the mosaic have a gain; every number below stands."
-                                   : "All four channels of the mosaic have a gain; the warnings say what is missing "
-                                     "or does not fit." };
+  return worst;
 }
 
 } // namespace sensornoise

@@ -7,24 +7,24 @@
 #include "sensornoise/Report.h"
 
 #include <string>
-#include <vector>
 
 namespace sensornoise
 {
 
-/** What a measurement came to. */
+/** Result of a measurement or of a comparison. */
 struct Verdict
 {
-  Severity    severity; ///< the worst of its warnings; an error where there is no gain
+  Severity    severity; ///< the worst of its warnings; an error where nothing was found
   std::string sentence; ///< plain text
 };
 
+/** Returns the gain and the read noise of a report as a sentence, or the first error where there is no gain. */
 Verdict
 VerdictOf(const Report & report);
 
-/** Of all channels: names those without a gain. */
-Verdict
-VerdictOf(const ChannelReports & reports);
+/** Returns the worst severity of the channels of a mosaic; an error where a channel has no gain. */
+Severity
+SeverityOf(const ChannelReports & reports);
 
 } // namespace sensornoise
 

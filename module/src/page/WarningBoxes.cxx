@@ -227,7 +227,7 @@ VerdictBox(const ChannelReports & reports)
   {
     without += report.gain.value ? "" : (without.empty() ? "" : ", ") + report.channel;
   }
-  return BoxOf(VerdictOf(reports).severity, WarningsOf(reports), "Not measured in " + Escaped(without));
+  return BoxOf(SeverityOf(reports), WarningsOf(reports), "Not measured in " + Escaped(without));
 }
 
 } // namespace sensornoise
