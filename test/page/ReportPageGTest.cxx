@@ -78,6 +78,7 @@ TEST(SensorNoiseReportPage, HoldsWhatWasFoundToItsErrors)
          "class=\"soft\">95 %: 0.4980 to 0.5020</dd>",
          "<dt>Read noise</dt><dd><b>8</b> <span class=\"nowrap\">e\u207B</span></dd>",
          "<dt>Offset</dt><dd><b>95.00</b> <span class=\"nowrap\">\u00B1&#160;0.50 DN</span></dd>",
+         "<th role=\"rowheader\" scope=\"row\" abbr=\"read noise \u03C3\"><span>read noise \u03C3</span><small>",
          "<td role=\"cell\" class=\"number\">4.000</td><td role=\"cell\" class=\"number\">\u00B1&#160;0.050</td>",
          "rolling_shutter",
          "not given by this method",
@@ -98,7 +99,7 @@ TEST(SensorNoiseReportPage, TheTitleIsTheFileElseTheCamera)
   ExpectSound(page);
   EXPECT_TRUE(Contains(page, "<title>Noise of a &amp; b.tif</title>"));
   EXPECT_TRUE(Contains(page, "<h1>Noise of a &amp; b.tif</h1>\n<p class=\"soft\">Maker &lt;7&gt; \u00B7 "));
-  EXPECT_TRUE(Contains(page, "files of <time>2026-11-24 23:30 UTC</time>"));
+  EXPECT_TRUE(Contains(page, "file date <time>2026-11-24 23:30 UTC</time>"));
 }
 
 TEST(SensorNoiseReportPage, QuantitiesStandInTheirGroups)

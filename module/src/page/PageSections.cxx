@@ -138,7 +138,7 @@ std::string
 TitleLine(const std::string & words, const std::string & date)
 {
   const std::string time =
-    date.empty() ? "" : "<span class=\"date\">" + Separator + "files of <time>" + Escaped(date) + "</time></span>";
+    date.empty() ? "" : "<span class=\"date\">" + Separator + "file date <time>" + Escaped(date) + "</time></span>";
   return "<p class=\"soft\">" + Escaped(words) + time + Separator + "ITKSensorNoise " + Escaped(GetModuleVersion()) +
          "</p>\n";
 }

@@ -97,7 +97,8 @@ std::string
 QuantityRow(const QuantityEntry & entry, const Quantity & quantity)
 {
   const auto [value, error] = ValueAndError(quantity);
-  return "<tr role=\"row\"><th role=\"rowheader\" scope=\"row\"><span>" + Escaped(LabelText(entry.label)) +
+  const std::string label = Escaped(LabelText(entry.label));
+  return "<tr role=\"row\"><th role=\"rowheader\" scope=\"row\" abbr=\"" + label + "\"><span>" + label +
          "</span><small>" + WithCode(entry.meaning) + "</small></th><td role=\"cell\" class=\"number\">" + value +
          "</td><td role=\"cell\" class=\"number\">" + error + "</td><td role=\"cell\" class=\"unit\">" +
          UnitOf(quantity, entry.unit) + "</td><td role=\"cell\" class=\"range\">" +
