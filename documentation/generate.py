@@ -6,8 +6,8 @@
     generate.py [--check]
 
 A part stands between the comments `<!-- generated: NAME -->` and `<!-- end -->` of a page: the warnings, the
-quantities and the filters. --check writes nothing, and has the exit code 1 if a page is not as it would be written.
-The test SensorNoiseDocuments compares the tables with the library.
+quantities, the filters and the formats of exports. --check writes nothing, and has the exit code 1 if a page is not as
+it would be written. The test SensorNoiseDocuments compares the tables with the library.
 """
 
 import argparse
@@ -90,6 +90,16 @@ def quantities() -> str:
     return "\n".join(rows)
 
 
+def exports() -> str:
+    """Returns the table of the formats of `export-noise-model`."""
+    entry = re.compile(r"\{\s*(\"[\w-]+\",.*?)ExportTakes::(\w+),\s*ExportExactness::(\w+),(.*?)\}", re.DOTALL)
+    rows = ["| format | for | takes | model | what is written |", "|---|---|---|---|---|"]
+    for names, takes, exactness, rest in entry.findall(source_of("NoiseExport.cxx")):
+        name, consumer = strings_of(names)
+        rows.append(f"| `{name}` | {consumer} | {takes.lower()} | {exactness.lower()} | {strings_of(rest)[0]} |")
+    return "\n".join(rows)
+
+
 def class_docs() -> dict[str, tuple[str, dict[str, str]]]:
     """Reads the comments of the filters' headers, as the wheel's help() has them."""
     spec = importlib.util.spec_from_file_location("class_docs", SOURCE / "wrapping" / "class-docs.py")
@@ -143,7 +153,7 @@ def cell(text: str) -> str:
     return escaped(" ".join(text.split()))
 
 
-PARTS = {"warnings": warnings, "quantities": quantities, "filters": filters}
+PARTS = {"warnings": warnings, "quantities": quantities, "filters": filters, "exports": exports}
 
 
 def main() -> int:

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/NoiseExport.h"
 #include "sensornoise/WarningCodes.h"
 #include "sensornoise/ReportText.h"
 #include "helpers/CheckoutTestHelper.h"
@@ -70,6 +71,22 @@ TEST(SensorNoiseDocuments, DocumentationHasTheListOfQuantities)
     EXPECT_NE(document.find(row), std::string::npos) << "quantities.md lacks this row:" << row;
   }
   EXPECT_EQ(FirstCells(document, "| quantity |"), paths);
+}
+
+TEST(SensorNoiseDocuments, DocumentationHasTheTableOfExportFormats)
+{
+  const std::string     document = TextOfFile(SourceFolder() + "/documentation/reference/exports.md");
+  std::set<std::string> names;
+  for (const ExportFormat & format : ExportFormats())
+  {
+    EXPECT_TRUE(names.insert(format.name).second) << format.name;
+    const std::string row = std::string("\n| `") + format.name + "` | " + format.consumer + " | " +
+                            NameOf(format.takes) + " | " + NameOf(format.exactness) + " | " + format.fields + " |\n";
+    EXPECT_NE(document.find(row), std::string::npos) << "exports.md lacks this row:" << row;
+    EXPECT_NE(document.find("\n## " + std::string(format.name) + "\n"), std::string::npos)
+      << "exports.md does not say how " << format.name << " is used";
+  }
+  EXPECT_EQ(FirstCells(document, "| format |"), names);
 }
 
 TEST(SensorNoiseDocuments, EveryWarningOccursInATest)

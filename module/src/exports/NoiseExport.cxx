@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/NoiseExport.h"
+
+#include "exports/LineExports.h"
+#include "report/JsonWriter.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+namespace
+{
+/** A format that takes one setting of the camera. */
+template <NoiseExport (*VExport)(const CameraNoise &)>
+NoiseExport
+OfOneSetting(const std::vector<CameraNoise> & settings)
+{
+  return VExport(settings.front());
+}
+
+std::string
+NamesOfFormats()
+{
+  std::string names;
+  for (const ExportFormat & format : ExportFormats())
+  {
+    names += (names.empty() ? "" : ", ") + std::string(format.name);
+  }
+  return names;
+}
+} // namespace
+
+const std::vector<ExportFormat> &
+ExportFormats()
+{
+  static const std::vector<ExportFormat> formats{
+    { "dng",
+      "DNG files: Lightroom, Camera Raw, and others",
+      ExportTakes::Line,
+      ExportExactness::Exact,
+      "tag 51041 NoiseProfile: scale and offset, of a mosaic for R, G and B",
+      true,
+      1,
+      OfOneSetting<ExportDng> },
+    { "ndsafir",
+      "ndsafir, denoiser of microscope images",
+      ExportTakes::Line,
+      ExportExactness::Exact,
+      "JSON: gains, offsets of all channels",
+      true,
+      1,
+      OfOneSetting<ExportNdsafir> },
+    { "anscombe-transform",
+      "Python package anscombe-transform",
+      ExportTakes::Line,
+      ExportExactness::Rounded,
+      "JSON: conversion_gain, zero_level (a whole number)",
+      true,
+      1,
+      OfOneSetting<ExportAnscombeTransform> },
+    { "deepinv",
+      "deepinv's PoissonGaussianNoise",
+      ExportTakes::Line,
+      ExportExactness::Exact,
+      "JSON: gain, sigma, for levels from 0 to 1",
+      true,
+      1,
+      OfOneSetting<ExportDeepinv> },
+  };
+  return formats;
+}
+
+const char *
+NameOf(ExportTakes takes)
+{
+  return takes == ExportTakes::Line ? "line" : takes == ExportTakes::Sensor ? "sensor" : "maps";
+}
+
+const char *
+NameOf(ExportExactness exactness)
+{
+  return exactness == ExportExactness::Exact ? "exact" : exactness == ExportExactness::Rounded ? "rounded" : "fitted";
+}
+
+static void
+WriteJson(JsonWriter & json, const ExportFormat & format)
+{
+  json.Object([&] {
+    json.Member("name", format.name).Member("consumer", format.consumer);
+    json.Member("takes", NameOf(format.takes)).Member("exactness", NameOf(format.exactness));
+    json.Member("fields", format.fields).Member("is_text", format.isText);
+    json.Member("least_reports", format.leastReports);
+  });
+}
+
+std::string
+ExportFormatsAsJson()
+{
+  std::string text;
+  JsonWriter(text).Write(ExportFormats());
+  return text + '\n';
+}
+
+NoiseExport
+ExportNoise(const std::string & format, const std::vector<CameraNoise> & settings)
+{
+  const auto & formats = ExportFormats();
+  const auto   found =
+    std::find_if(formats.begin(), formats.end(), [&](const ExportFormat & each) { return format == each.name; });
+  if (found == formats.end())
+  {
+    throw ExportError("the format is \"" + format + "\"; expected one of " + NamesOfFormats());
+  }
+  if (settings.size() < found->leastReports || (found->leastReports == 1 && settings.size() != 1))
+  {
+    throw ExportError(std::to_string(settings.size()) + " reports were given; " + format + " takes " +
+                      (found->leastReports == 1
+                         ? "one"
+                         : std::to_string(found->leastReports) + " or more, each of another ISO setting"));
+  }
+  return found->write(settings);
+}
+
+} // namespace sensornoise
