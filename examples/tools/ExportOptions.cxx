@@ -65,6 +65,10 @@ ExportOptions::Parse(int argc, char ** argv)
   app.add_option("--black", settings.blackLevelDn, "black level [DN]; else the level in the report");
   app.add_option("--white", settings.whiteLevelDn, "white level [DN]; else the level in the report");
   app.add_option("--channel", settings.channel, "the only channel of a mosaic to be written: R, G1, G2 or B");
+  app.add_option("--analogue-gain", settings.analogueGain, "analogue gain of the burst, for libcamera")
+    ->capture_default_str();
+  app.add_option(
+    "--max-analogue-iso", settings.maxAnalogueIso, "ISO speed above which the gain is digital, for android");
   app.add_option("--into", into, "DNG file: --output becomes its copy with the tag NoiseProfile");
   app.set_version_flag("--version", std::string("export-noise-model ") + GetModuleVersion());
   try

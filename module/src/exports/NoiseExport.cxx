@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/NoiseExport.h"
 
+#include "exports/AndroidExport.h"
 #include "exports/CareamicsExport.h"
+#include "exports/LibcameraExport.h"
 #include "exports/LineExports.h"
 #include "exports/RecordExports.h"
 #include "exports/SensorExports.h"
@@ -152,6 +154,22 @@ ExportFormats()
       true,
       1,
       OfOneSetting<ExportEmva1288> },
+    { "libcamera",
+      "libcamera on Raspberry Pi",
+      ExportTakes::Line,
+      ExportExactness::Fitted,
+      "JSON: rpi.noise with reference_constant, reference_slope",
+      true,
+      1,
+      OfOneSetting<ExportLibcamera> },
+    { "android",
+      "Android's sensor noise model",
+      ExportTakes::Line,
+      ExportExactness::Fitted,
+      "JSON: noise_model_A to noise_model_D of each channel",
+      true,
+      2,
+      ExportAndroid },
   };
   return formats;
 }
