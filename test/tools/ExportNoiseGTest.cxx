@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "helpers/EstimateToolTestHelper.h"
+#include "sensornoise/NoiseExport.h"
+
+#include <cmath>
+#include <sstream>
+
+/** Runs export-noise-model on a report: a = 0.5 DN/e-, b = -30 DN^2, mu = 64 DN, sigma = 1.4 DN. */
+class ExportToolTest : public EstimateToolTest
+{
+protected:
+  void
+  SetUp() override
+  {
+    EstimateToolTest::SetUp();
+    const auto quantity = [](const nlohmann::json & value) {
+      return nlohmann::json{ { "value", value }, { "status", value.is_null() ? "upper-limit" : "identified" } };
+    };
+    m_Report = { { "schema", "itk-sensornoise-report/1" },
+                 { "channel", "mono" },
+                 { "variance_slope", quantity(0.5) },
+                 { "total_intercept", quantity(-30.0) },
+                 { "gain", quantity(0.5) },
+                 { "offset", quantity(64.0) },
+                 { "read_noise", quantity(1.4) },
+                 { "clip_high", nullptr },
+                 { "scatter", { { "mean", { 150, 1000, 3500 } } } },
+                 { "camera", { { "black_level", 64.0 }, { "white_level", nullptr } } } };
+    WriteText("report.json", m_Report.dump());
+  }
+
+  int
+  ExportModel(const std::string & arguments)
+  {
+    return RunCommand("\"" + ToolFolder() + "/export-noise-model\" " + arguments);
+  }
+  void
+  IsRefusedBy(const std::string & arguments, const std::vector<std::string> & parts, int exitCode)
+  {
+    SCOPED_TRACE(arguments);
+    const std::set<std::string> before = FilesLeft();
+    EXPECT_EQ(ExportModel(arguments), exitCode) << m_Message;
+    SaysInOneSentence(parts);
+    EXPECT_EQ(m_Output, "");
+    EXPECT_EQ(FilesLeft(), before);
+  }
+
+  nlohmann::json m_Report;
+};
+
+TEST_F(ExportToolTest, WritesTextToStandardOutputOrAFile)
+{
+  ASSERT_EQ(ExportModel("report.json --format dng --white 1088"), 0) << m_Message;
+  std::istringstream numbers(m_Output);
+  double             scale = 0.0;
+  double             offset = 0.0;
+  numbers >> scale >> offset;
+  // The black level is the report's: S = 0.5 / 1024, O = (-30 + 0.5 x 64) / 1024^2.
+  EXPECT_DOUBLE_EQ(scale, 0.5 / 1024.0);
+  EXPECT_DOUBLE_EQ(offset, 2.0 / (1024.0 * 1024.0));
+  EXPECT_EQ(m_Message, "");
+  const std::string text = m_Output;
+  ASSERT_EQ(ExportModel("report.json --format dng --white 1088 --output profile.txt"), 0) << m_Message;
+  EXPECT_EQ(m_Output, "");
+  EXPECT_EQ(ReadText(Path("profile.txt")), text);
+}
+
+TEST_F(ExportToolTest, ListsAllFormatsAndPrintsNotes)
+{
+  ASSERT_EQ(ExportModel("--list"), 0) << m_Message;
+  for (const auto & format : sensornoise::ExportFormats())
+  {
+    EXPECT_NE(m_Output.find(std::string(format.name) + ' '), std::string::npos) << format.name;
+    EXPECT_NE(m_Output.find(format.fields), std::string::npos) << format.name;
+  }
+  ASSERT_EQ(ExportModel("report.json --format anscombe-transform"), 0);
+  EXPECT_EQ(m_Message.find("note: The zero level is rounded from 60 DN"), 0U) << m_Message;
+}
+
+TEST_F(ExportToolTest, WritesTheTagIntoACopyOfADngFile)
+{
+  const std::string dng("II*\0\x08\0\0\0\0\0\0\0\0\0", 14); // a directory without tags
+  WriteText("photo.dng", dng);
+  ASSERT_EQ(ExportModel("report.json --format dng --white 1088 --into photo.dng --output copy.dng"), 0) << m_Message;
+  EXPECT_EQ(ReadText(Path("photo.dng")), dng);
+  EXPECT_EQ(ReadText(Path("copy.dng")),
+            sensornoise::WithNoiseProfile(dng, { { 0.5 / 1024.0, 2.0 / (1024.0 * 1024.0) } }));
+  IsRefusedBy("report.json --format dng --white 1088 --into photo.dng --output photo.dng", { "photo.dng" }, 2);
+  IsRefusedBy("report.json --format dng --white 1088 --into photo.dng", { "--output COPY.dng" }, 2);
+  IsRefusedBy("report.json --format fits --into photo.dng --output copy", { "--format dng" }, 2);
+  IsRefusedBy("report.json --format dng --white 1088 --into report.json --output x.dng", { "no classic TIFF" }, 3);
+}
+
+TEST_F(ExportToolTest, RefusesWithASentence)
+{
+  IsRefusedBy("report.json --format dng", { "report.json", "no white level", "--white" }, 3);
+  IsRefusedBy("report.json --format moon", { "moon", "expected one of dng" }, 3);
+  IsRefusedBy("report.json", { "--format", "--list" }, 2);
+  IsRefusedBy("--format dng", { "REPORT" }, 2);
+  IsRefusedBy("report.json --format careamics --white 1088", { "no text", "--output" }, 2);
+  IsRefusedBy("report.json --format fits --output report.json", { "report.json" }, 2);
+  IsRefusedBy("none.json --format fits", { "none.json", "cannot be read" }, 2);
+  IsRefusedBy("report.json --format dng --white many", { "--white" }, 2);
+  m_Report["read_noise"]["value"] = nullptr;
+  m_Report["read_noise"]["status"] = "upper-limit";
+  WriteText("report.json", m_Report.dump());
+  IsRefusedBy("report.json --format fits", { "read_noise", "upper-limit", "--dark" }, 3);
+}
