@@ -44,6 +44,7 @@ GROUPS = {
         "VibrationCovarianceEstimator",
     ],
     "Before and after a denoiser": ["GeneralizedAnscombeImageFilter", "InverseGeneralizedAnscombeImageFilter"],
+    "Exports": ["NoiseModelExporter"],
     "Files and planes": [
         "SensorNoiseFrameListSource",
         "SensorNoiseImageIO",

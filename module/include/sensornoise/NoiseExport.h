@@ -48,7 +48,7 @@ struct ExportSettings
 };
 
 /** One quantity of a report. */
-struct MeasuredNumber
+struct ReportedNumber
 {
   std::optional<double> value;         ///< none unless it is identified
   std::optional<double> standardError; ///< none if the method has none
@@ -59,11 +59,11 @@ struct MeasuredNumber
 struct ChannelNoise
 {
   std::string           channel{ "mono" };       ///< "mono", "R", "G1" (green of the red rows), "G2", "B"
-  MeasuredNumber        varianceSlope;           ///< a [DN/e-]
-  MeasuredNumber        totalIntercept;          ///< b [DN^2]
-  MeasuredNumber        gain;                    ///< g [DN/e-]; it differs from a where the frames were smoothed
-  MeasuredNumber        offset;                  ///< mu [DN]
-  MeasuredNumber        readNoise;               ///< sigma [DN]
+  ReportedNumber        varianceSlope;           ///< a [DN/e-]
+  ReportedNumber        totalIntercept;          ///< b [DN^2]
+  ReportedNumber        gain;                    ///< g [DN/e-]; it differs from a where the frames were smoothed
+  ReportedNumber        offset;                  ///< mu [DN]
+  ReportedNumber        readNoise;               ///< sigma [DN]
   std::optional<double> readNoiseElectronsError; ///< standard error of sigma / g [e-]
   std::optional<double> lowestDn;                ///< darkest measured level
   std::optional<double> highestDn;               ///< brightest measured level

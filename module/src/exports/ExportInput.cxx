@@ -24,7 +24,7 @@ ReportWords(const CameraNoise & noise, const ChannelNoise & channel)
 double
 RequireIdentified(const CameraNoise &    noise,
                   const ChannelNoise &   channel,
-                  const MeasuredNumber & quantity,
+                  const ReportedNumber & quantity,
                   const std::string &    path,
                   const char *           remedy)
 {

@@ -27,10 +27,10 @@ TextAt(const StoredReport & report, const std::string & pointer)
   return found == report.texts.end() ? "" : found->second;
 }
 
-MeasuredNumber
+ReportedNumber
 QuantityAt(const StoredReport & report, const std::string & pointer)
 {
-  MeasuredNumber quantity;
+  ReportedNumber quantity;
   quantity.value = NumberAt(report, pointer + "/value");
   quantity.standardError = NumberAt(report, pointer + "/standard_error");
   const std::string status = TextAt(report, pointer + "/status");

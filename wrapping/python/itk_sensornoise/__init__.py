@@ -34,6 +34,7 @@ from ._estimators import (
     temporal_statistics_image_filter,
     vibration_covariance_estimator,
 )
+from ._export import NoiseExport, export_formats, export_noise_model
 from ._protocol import NoiseReport
 from ._quantity import Quantity
 from ._rawpy import raw_metadata
@@ -47,6 +48,7 @@ __all__ = [
     "ChannelReports",
     "Comparison",
     "NoiseCorrelation",
+    "NoiseExport",
     "NoiseModelCheck",
     "NoiseReport",
     "Quantity",
@@ -57,6 +59,8 @@ __all__ = [
     "compare",
     "denoise_with_noise_model",
     "estimate_sensor_noise",
+    "export_formats",
+    "export_noise_model",
     "flicker_correction_image_filter",
     "generalized_anscombe_image_filter",
     "inverse_generalized_anscombe_image_filter",

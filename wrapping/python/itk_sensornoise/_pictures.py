@@ -8,13 +8,16 @@ import os
 import zlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 from . import _options
 from ._html import page, with_title
 from ._names import is_name
 from ._record import Record
 from ._types import FileName, ItkObject
+
+if TYPE_CHECKING:
+    from ._export import NoiseExport
 
 _ENDINGS = (".html", ".htm")
 
@@ -66,7 +69,7 @@ class Pictures:
 
 
 class PagedRecord(Record):
-    """A record that has a page."""
+    """A record that has a page, and can be exported."""
 
     def __init__(self, text: str, page: bytes | None) -> None:
         """`text`: the record as JSON. `page`: packed."""
@@ -110,6 +113,29 @@ class PagedRecord(Record):
         """
         return write_page(self._page_text(), path, title)
 
+    def export(
+        self,
+        format: str,
+        output: FileName | None = None,
+        *,
+        black: float | None = None,
+        white: float | None = None,
+        analogue_gain: float = 1.0,
+        into: FileName | None = None,
+    ) -> "NoiseExport":
+        """Writes the noise model for a program that asks for one, in its units. Parameters, result and errors are those
+        of export_noise_model().
+
+        Examples
+        --------
+        >>> print(report.export("dng", black=64, white=4095))
+        """
+        from ._export import export_noise_model
+
+        return export_noise_model(
+            self, format, output, black=black, white=white, analogue_gain=analogue_gain, into=into
+        )
+
     def _page_text(self) -> str:
         return page("Noise of an image sensor", self._notebook_html()) if self._page is None else unpack(self._page)
 
@@ -124,7 +150,7 @@ def write_page(text: str, path: FileName | None, title: str | None) -> str | Non
     text = with_title(text, title)
     if path is None:
         return text
-    _write(_target(path), text)
+    write_file(_target(path), text.encode())
     return None
 
 
@@ -141,11 +167,11 @@ def _target(path: FileName) -> Path:
     return Path(os.path.realpath(name))
 
 
-def _write(target: Path, text: str) -> None:
+def write_file(target: Path, content: bytes) -> None:
     """All of the file, or none of it: it takes its name when it is complete."""
     temporary = target.parent / f".{target.name}.{os.getpid()}"
     try:
-        temporary.write_bytes(text.encode())
+        temporary.write_bytes(content)
         os.replace(temporary, target)
     except OSError as error:
         raise OSError(error.errno, error.strerror, str(target)) from error  # the name that the caller knows

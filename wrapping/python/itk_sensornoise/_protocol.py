@@ -10,6 +10,7 @@ from ._types import FileName
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from ._export import NoiseExport
     from ._maps import Maps
 
 
@@ -41,6 +42,17 @@ class NoiseReport(Protocol):
     def to_html(self, path: None = None, *, title: str | None = None) -> str: ...
 
     def to_html(self, path: FileName | None = None, *, title: str | None = None) -> str | None: ...
+
+    def export(
+        self,
+        format: str,
+        output: FileName | None = None,
+        *,
+        black: float | None = None,
+        white: float | None = None,
+        analogue_gain: float = 1.0,
+        into: FileName | None = None,
+    ) -> "NoiseExport": ...
 
     def to_json(self) -> str: ...
 

@@ -1,0 +1,123 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "itkNoiseModelExporter.h"
+
+#include "itkSensorNoiseErrors.h"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace itk
+{
+namespace
+{
+/** A setting; none where it is NaN. */
+std::optional<double>
+SettingOf(double number)
+{
+  return std::isnan(number) ? std::nullopt : std::optional<double>(number);
+}
+
+std::string
+BytesOfDng(const std::string & name)
+{
+  std::ifstream file(name, std::ios::binary);
+  std::string   bytes{ std::istreambuf_iterator<char>(file), {} };
+  if (!file || bytes.empty())
+  {
+    throw std::runtime_error("the DNG file " + name + " cannot be read, or is empty; expected a DNG file");
+  }
+  return bytes;
+}
+} // namespace
+
+void
+NoiseModelExporter::SetNumber(const std::string & pointer, double number)
+{
+  m_Report.numbers[pointer] = number;
+}
+
+void
+NoiseModelExporter::SetText(const std::string & pointer, const std::string & text)
+{
+  m_Report.texts[pointer] = text;
+}
+
+void
+NoiseModelExporter::AddReport(const std::string & name)
+{
+  m_Report.name = name;
+  m_Reports.push_back(m_Report);
+  m_Report = {};
+  this->Modified();
+}
+
+sensornoise::NoiseExport
+NoiseModelExporter::MakeExport(const std::string & format) const
+{
+  sensornoise::ExportSettings settings;
+  settings.blackLevelDn = SettingOf(m_BlackLevel);
+  settings.whiteLevelDn = SettingOf(m_WhiteLevel);
+  settings.analogueGain = m_AnalogueGain;
+  settings.maxAnalogueIso = SettingOf(m_MaxAnalogueIso);
+  std::vector<sensornoise::CameraNoise> noise;
+  for (const sensornoise::StoredReport & report : m_Reports)
+  {
+    noise.push_back(sensornoise::ReadCameraNoise(report, settings));
+  }
+  sensornoise::NoiseExport made = sensornoise::ExportNoise(format, noise);
+  if (!m_DngFile.empty())
+  {
+    if (format != "dng")
+    {
+      throw std::invalid_argument("a DNG file was given for the format " + format + "; expected the format dng");
+    }
+    const std::string copy =
+      sensornoise::WithNoiseProfile(BytesOfDng(m_DngFile), sensornoise::NoiseProfileOf(noise.front()));
+    made.files = { { "noise_profile.dng", copy } };
+  }
+  return made;
+}
+
+void
+NoiseModelExporter::Export(const std::string & format)
+{
+  m_Export = {};
+  m_Export = WithItkErrors(this, [&] { return this->MakeExport(format); });
+}
+
+void
+NoiseModelExporter::PrintSelf(std::ostream & os, Indent indent) const
+{
+  Superclass::PrintSelf(os, indent);
+  os << indent << "Reports: " << m_Reports.size() << '\n';
+  os << indent << "BlackLevel: " << m_BlackLevel << '\n';
+  os << indent << "WhiteLevel: " << m_WhiteLevel << '\n';
+  os << indent << "AnalogueGain: " << m_AnalogueGain << '\n';
+  os << indent << "MaxAnalogueIso: " << m_MaxAnalogueIso << '\n';
+  os << indent << "DngFile: " << m_DngFile << '\n';
+  os << indent << "Files: " << m_Export.files.size() << '\n';
+}
+
+} // namespace itk

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "itkNoiseModelExporter.h"
+#include "helpers/ExportTestHelper.h"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+class NoiseModelExporter : public ExportTest
+{
+protected:
+  void
+  Give(itk::NoiseModelExporter * exporter) const
+  {
+    for (const auto & [pointer, number] : m_Report.numbers)
+    {
+      exporter->SetNumber(pointer, number);
+    }
+    for (const auto & [pointer, text] : m_Report.texts)
+    {
+      exporter->SetText(pointer, text);
+    }
+    exporter->AddReport("report.json");
+  }
+};
+
+TEST_F(NoiseModelExporter, MakesTheFilesOfTheLibrary)
+{
+  const auto exporter = itk::NoiseModelExporter::New();
+  this->Give(exporter);
+  for (const sensornoise::ExportFormat & format : sensornoise::ExportFormats())
+  {
+    if (format.leastReports > 1)
+    {
+      continue;
+    }
+    const sensornoise::NoiseExport expected = this->Export(format.name);
+    exporter->Export(format.name);
+    ASSERT_EQ(exporter->GetNumberOfFiles(), expected.files.size());
+    for (unsigned int i = 0; i < exporter->GetNumberOfFiles(); ++i)
+    {
+      EXPECT_EQ(exporter->GetFileName(i), expected.files[i].name);
+      EXPECT_EQ(exporter->GetFileBytes(i), expected.files[i].bytes);
+    }
+    EXPECT_EQ(exporter->GetNote(), expected.note);
+  }
+  EXPECT_EQ(itk::NoiseModelExporter::GetFormatsAsJson(), sensornoise::ExportFormatsAsJson());
+}
+
+TEST_F(NoiseModelExporter, TakesSeveralReportsAndSettings)
+{
+  const auto exporter = itk::NoiseModelExporter::New();
+  for (const double iso : { 100.0, 200.0 })
+  {
+    m_Report.numbers["/camera/iso_speed"] = iso;
+    this->Give(exporter);
+  }
+  exporter->Export("android");
+  EXPECT_NE(exporter->GetFileBytes(0).find("\"max_analog_iso\": null"), std::string::npos);
+  exporter->SetMaxAnalogueIso(150.0);
+  exporter->Export("android");
+  EXPECT_NE(exporter->GetFileBytes(0).find("\"max_analog_iso\": 150"), std::string::npos);
+
+  const auto one = itk::NoiseModelExporter::New();
+  this->Give(one);
+  one->SetBlackLevel(65.0);
+  one->SetWhiteLevel(165.0);
+  one->Export("deepinv");
+  EXPECT_EQ(NumberAfter(one->GetFileBytes(0), "\"gain\": "), slope / 100.0);
+  one->SetAnalogueGain(4.0);
+  one->Export("libcamera");
+  EXPECT_NE(one->GetNote().find("is taken as 4."), std::string::npos);
+}
+
+TEST_F(NoiseModelExporter, WritesTheTagIntoACopyOfAFile)
+{
+  const std::string name = (std::filesystem::temp_directory_path() / "NoiseModelExporterGTest.dng").string();
+  const std::string dng("II*\0\x08\0\0\0\0\0\0\0\0\0", 14); // a directory without tags
+  std::ofstream(name, std::ios::binary) << dng;
+  const auto exporter = itk::NoiseModelExporter::New();
+  this->Give(exporter);
+  exporter->SetDngFile(name);
+  exporter->Export("dng");
+  EXPECT_EQ(exporter->GetFileBytes(0),
+            sensornoise::WithNoiseProfile(dng, sensornoise::NoiseProfileOf(sensornoise::ReadCameraNoise(m_Report))));
+  EXPECT_THROW(exporter->Export("fits"), itk::ExceptionObject);
+  EXPECT_EQ(exporter->GetNumberOfFiles(), 0U) << "a failed export leaves no files";
+  std::filesystem::remove(name);
+  EXPECT_THROW(exporter->Export("dng"), itk::ExceptionObject);
+  std::ostringstream printed;
+  exporter->Print(printed);
+  EXPECT_NE(printed.str().find("NoiseModelExporterGTest.dng"), std::string::npos);
+}

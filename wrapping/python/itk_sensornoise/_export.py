@@ -1,0 +1,222 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""A measured noise model, for the programs that ask for one, in their units."""
+
+import functools
+import json
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from . import _options
+from ._errors import itk_errors
+from ._names import is_name
+from ._pictures import write_file
+from ._types import FileName, ItkObject
+
+# What the sentences of the library call the parameters, and their names here.
+_PARAMETERS = {
+    "--black": "black=",
+    "--white": "white=",
+    "--channel": "reports.channel(name).export()",
+    "--dark": "dark=",
+    "--offset": "offset=",
+}
+
+
+@dataclass(frozen=True)
+class NoiseExport:
+    """What a format makes of a noise model. Report.export() makes it, and print() shows its text.
+
+    Attributes
+    ----------
+    format : str
+        Name of the format, see export_formats().
+    files : dict of str to bytes
+        The bytes of each file, by its name.
+    note : str
+        A sentence about the misfit or the use; it may be empty.
+    """
+
+    format: str
+    files: dict[str, bytes]
+    note: str
+
+    @property
+    def text(self) -> str:
+        """The text of the only file. Raises ValueError where there are several files, or no text."""
+        if len(self.files) != 1:
+            raise ValueError(f"{self.format} has {len(self.files)} files; expected a format of one: use files")
+        (content,) = self.files.values()
+        try:
+            return content.decode()
+        except UnicodeDecodeError:
+            raise ValueError(f"{self.format} has a file that is no text; use files") from None
+
+    def __str__(self) -> str:
+        return self.text.rstrip("\n")
+
+    def __repr__(self) -> str:
+        sizes = ", ".join(f"{name} ({len(content)} bytes)" for name, content in self.files.items())
+        return f"<NoiseExport: {self.format}, {sizes}>"
+
+    def write(self, output: FileName) -> None:
+        """Writes the file to `output`, or several files into the folder `output`. Raises OSError where that fails."""
+        if not is_name(output):
+            raise _options.refuse_type("output", output, "the name of a file, or of a folder for several files")
+        target = Path(os.fsdecode(output))
+        for name, content in self.files.items():
+            write_file(target if len(self.files) == 1 else target / name, content)
+
+
+@functools.cache
+def _formats() -> tuple[dict[str, Any], ...]:
+    import itk
+
+    return tuple(json.loads(itk.NoiseModelExporter.GetFormatsAsJson()))
+
+
+def export_formats() -> list[dict[str, Any]]:
+    """Lists the formats of Report.export(): the table of the C++ library.
+
+    Returns
+    -------
+    list of dict
+        `name`, `consumer` (the program), `takes` ("line", "sensor" or "maps"), `exactness` ("exact", "rounded" or
+        "fitted"), `fields` (what is written), `is_text` and `least_reports` (how many reports it needs).
+
+    Examples
+    --------
+    >>> [entry["name"] for entry in itk_sensornoise.export_formats()]
+
+    See Also
+    --------
+    export_noise_model : Writes a report in one of them.
+    """
+    return [dict(entry) for entry in _formats()]
+
+
+def export_noise_model(
+    reports: Mapping[str, Any] | Sequence[Mapping[str, Any]],
+    format: str,
+    output: FileName | None = None,
+    *,
+    black: float | None = None,
+    white: float | None = None,
+    analogue_gain: float = 1.0,
+    max_analogue_iso: float | None = None,
+    into: FileName | None = None,
+) -> NoiseExport:
+    """Writes the noise model of a report, or of several, for a program that asks for one, in its units.
+
+    Parameters
+    ----------
+    reports : Report, ChannelReports, or a sequence of them
+        One report, or for the format "android" one for each ISO speed.
+    format : str
+        Name of the format, see export_formats().
+    output : str or os.PathLike, optional
+        File to write, or an existing folder for a format of several files. Default: nothing is written.
+    black, white : float, optional
+        Black and white level [DN]. Default: the camera settings in the report.
+    analogue_gain : float
+        Analogue gain of the burst [1], above 0, for "libcamera". Default: 1.
+    max_analogue_iso : float, optional
+        ISO speed above which the gain is digital, for "android". Default: no ISO speed is digital.
+    into : str or os.PathLike, optional
+        DNG file, for "dng": the export is then its copy with the tag NoiseProfile.
+
+    Returns
+    -------
+    NoiseExport
+
+    Raises
+    ------
+    TypeError
+        An argument is of another type.
+    ValueError
+        There is no such format, or the noise cannot be written in it: the sentence says what is missing.
+    OSError
+        The output cannot be written.
+
+    Examples
+    --------
+    >>> print(itk_sensornoise.export_noise_model([iso100, iso400], "android", white=4095))
+
+    See Also
+    --------
+    export_formats : The formats.
+    Report.export : Writes one report.
+    """
+    import itk
+
+    if not isinstance(format, str):
+        raise _options.refuse_type("format", format, "the name of a format, see export_formats()")
+    given = [reports] if isinstance(reports, Mapping) else list(reports)
+    exporter = itk.NoiseModelExporter.New()
+    for number, report in enumerate(given, 1):
+        _add(exporter, report, str(number) if len(given) > 1 else "of this export")
+    for name, value, set_value in (
+        ("black", black, exporter.SetBlackLevel),
+        ("white", white, exporter.SetWhiteLevel),
+        ("analogue_gain", analogue_gain, exporter.SetAnalogueGain),
+        ("max_analogue_iso", max_analogue_iso, exporter.SetMaxAnalogueIso),
+    ):
+        if value is not None:
+            set_value(_options.number(name, value))
+    if into is not None:
+        if not is_name(into):
+            raise _options.refuse_type("into", into, "the name of a DNG file")
+        exporter.SetDngFile(os.fsdecode(into))
+    try:
+        with itk_errors():
+            exporter.Export(format)
+    except ValueError as error:
+        raise type(error)(_in_python(str(error))) from None
+    made = _result(exporter, format)
+    if output is not None:
+        made.write(output)
+    return made
+
+
+def _in_python(sentence: str) -> str:
+    """Replaces the options of the program in a sentence by the parameters of Python."""
+    for option, parameter in _PARAMETERS.items():
+        sentence = sentence.replace(option, parameter)
+    return sentence
+
+
+def _add(exporter: ItkObject, report: Mapping[str, Any], name: str) -> None:
+    if not isinstance(report, Mapping):
+        raise _options.refuse_type("reports", report, "a report, or a sequence of reports")
+    for pointer, value in _flat(report, ""):
+        if isinstance(value, str):
+            exporter.SetText(pointer, value)
+        else:
+            exporter.SetNumber(pointer, value)
+    exporter.AddReport(name)
+
+
+def _flat(value: Any, pointer: str) -> Iterator[tuple[str, str | float]]:
+    """Yields the numbers and texts of a record, each with its JSON Pointer."""
+    if isinstance(value, Mapping):
+        for name, member in value.items():
+            yield from _flat(member, f"{pointer}/{name}")
+    elif isinstance(value, list):
+        for number, item in enumerate(value):
+            yield from _flat(item, f"{pointer}/{number}")
+    elif isinstance(value, str):
+        yield pointer, value
+    elif isinstance(value, (int, float)) and not isinstance(value, bool):
+        yield pointer, float(value)
+
+
+def _result(exporter: ItkObject, format: str) -> NoiseExport:
+    # SWIG makes a str of std::string; bytes that are no UTF-8 are surrogates.
+    files = {
+        exporter.GetFileName(index): exporter.GetFileBytes(index).encode("utf-8", "surrogateescape")
+        for index in range(exporter.GetNumberOfFiles())
+    }
+    return NoiseExport(format, files, exporter.GetNote())
