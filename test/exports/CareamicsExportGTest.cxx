@@ -36,7 +36,7 @@ TEST_F(CareamicsExport, GaussianIsTheLine)
   const double floor = ArrayOf(archive, "min_sigma", "", 1)[0];
   EXPECT_EQ(low, 100.0); // the darkest level that was measured
   EXPECT_EQ(high, white);
-  // getGaussianParameters(): the mean is the signal, the variance a polynomial of exp(weight), at least min_sigma.
+  // get_gaussian_parameters(): the mean is the signal, the variance a polynomial of exp(weight), at least min_sigma.
   IsTheLine([&](double level) {
     return std::max(floor, std::exp(weight[2]) + std::exp(weight[3]) * (level - low) / (high - low));
   });

@@ -1,0 +1,263 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Proves the exports of a noise model by the programs' own code, by hand.
+
+    prove_exports.py --bin build/bin [--torch-free FOLDER]
+
+Simulates a burst, measures it, exports the report, and lets each program read its export. The variance by the program
+is compared with the report's at several levels. Programs that are not installed are left out. Packages:
+anscombe-transform, ccdproc, emva1288, ndsafir (pre-release), PiDNG, tifffile.
+
+CAREamics and deepinv need PyTorch. --torch-free FOLDER names their unpacked wheels: the files of their noise models
+then run on NumPy, with the same arithmetic.
+"""
+
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import types
+from unittest import mock
+
+import numpy as np
+
+BLACK, WHITE = 90.0, 4095.0
+LEVELS = np.array([150.0, 500.0, 1500.0, 4000.0])
+
+
+class Bench:
+    """A folder with a report, and the exports of it."""
+
+    def __init__(self, tools: pathlib.Path, folder: pathlib.Path) -> None:
+        self.tools, self.folder = tools, folder
+        self.run("simulate-sensor-noise", "--output", "burst.mha", "--frames", "60", "--seed", "1")
+        self.run("estimate-sensor-noise", "burst.mha", "--json", "report.json", "--quiet")
+        report = json.loads((folder / "report.json").read_text())
+        names = ("variance_slope", "total_intercept", "gain", "offset", "read_noise")
+        self.slope, self.intercept, self.gain, self.offset, self.noise = (report[name]["value"] for name in names)
+
+    def run(self, tool: str, *arguments: str) -> None:
+        subprocess.run([self.tools / tool, *arguments], cwd=self.folder, check=True, stderr=subprocess.DEVNULL)
+
+    def export(self, name: str, *options: str) -> pathlib.Path:
+        levels = ("--black", str(BLACK), "--white", str(WHITE))
+        self.run("export-noise-model", "report.json", "--format", name, "--output", f"{name}.out", *levels, *options)
+        return self.folder / f"{name}.out"
+
+    def line(self) -> np.ndarray:
+        return self.slope * LEVELS + self.intercept
+
+    def sensor(self) -> np.ndarray:
+        return self.gain * (LEVELS - self.offset) + self.noise**2
+
+
+def worst(found: np.ndarray, expected: np.ndarray) -> float:
+    return float(np.max(np.abs(np.asarray(found) / expected - 1)))
+
+
+def dng(bench: Bench) -> tuple[str, float]:
+    """PiDNG writes a DNG, the program writes the tag into its copy, and tifffile reads it."""
+    import tifffile
+    from pidng.core import RAW2DNG, DNGTags, Tag
+
+    tags = DNGTags()
+    for tag, value in (
+        (Tag.ImageWidth, 64),
+        (Tag.ImageLength, 48),
+        (Tag.BitsPerSample, 16),
+        (Tag.BlackLevel, int(BLACK)),
+        (Tag.WhiteLevel, int(WHITE)),
+        (Tag.PhotometricInterpretation, 34892),
+        (Tag.SamplesPerPixel, 1),
+        (Tag.DNGVersion, [1, 4, 0, 0]),
+        (Tag.DNGBackwardVersion, [1, 2, 0, 0]),
+    ):
+        tags.set(tag, value)
+    pixels = np.arange(64 * 48, dtype=np.uint16).reshape(48, 64)
+    writer = RAW2DNG()
+    writer.options(tags, path=f"{bench.folder}/", compress=False)
+    writer.convert(pixels, filename="photo")
+    copy = bench.export("dng", "--into", "photo.dng")
+    with tifffile.TiffFile(copy) as file, tifffile.TiffFile(bench.folder / "photo.dng") as before:
+        page = file.pages[0]
+        scale, offset = page.tags[51041].value
+        others = {tag.code: tag.value for tag in page.tags if tag.code != 51041}
+        assert others == {tag.code: tag.value for tag in before.pages[0].tags}
+        assert np.array_equal(page.asarray(), pixels)
+    return "PiDNG, tifffile", worst(
+        (scale * (LEVELS - BLACK) / (WHITE - BLACK) + offset) * (WHITE - BLACK) ** 2, bench.line()
+    )
+
+
+def anscombe_transform(bench: Bench) -> tuple[str, float]:
+    """The slope of its lookup is 1 over the standard deviation, of gain (x - zero_level) + 3/8 gain^2."""
+    from anscombe_transform.codec import make_anscombe_lookup
+
+    model = json.loads(bench.export("anscombe-transform").read_text())
+    beta = 1e-7  # steps so small that rounding does not matter
+    lookup = make_anscombe_lookup(**model, input_max=5000, beta=beta, output_type="float64")
+    at = LEVELS.astype(int)
+    deviation = 2 / (beta * (lookup[at + 1] - lookup[at - 1]))
+    return "make_anscombe_lookup", worst(deviation**2 - 3 / 8 * model["conversion_gain"] ** 2, bench.line())
+
+
+def ndsafir(bench: Bench) -> tuple[str, float]:
+    """Its own calibration of a frame with our noise has the convention of the export; its gain is 8 % too large."""
+    import ndsafir as package
+
+    model = json.loads(bench.export("ndsafir").read_text())
+    random = np.random.default_rng(1)
+    signal = np.linspace(120, 3500, 1024)[None, :].repeat(1024, 0)
+    electrons = random.poisson((signal - bench.offset) / model["gains"][0])
+    noise = random.normal(0, np.sqrt(model["offsets"][0] + model["gains"][0] * bench.offset), signal.shape)
+    frame = (electrons * model["gains"][0] + bench.offset + noise).astype(np.float32)
+    found = np.ravel(package.calibrate_poisson_gaussian(frame))
+    package.denoise_poisson_gaussian(frame[:64, :64], gains=model["gains"], offsets=model["offsets"], max_iter=1)
+    return "calibrate_poisson_gaussian (estimated)", worst(found[0] * LEVELS + found[1], bench.line())
+
+
+def ccdproc(bench: Bench) -> tuple[str, float]:
+    """create_deviation() of frames without the offset."""
+    import astropy.units as u
+    import ccdproc as package
+    from astropy.nddata import CCDData
+
+    model = {
+        name: each["value"] * u.Unit(each["unit"])
+        for name, each in json.loads(bench.export("ccdproc").read_text()).items()
+    }
+    frame = CCDData(LEVELS - model["offset"].value, unit="adu")
+    made = package.create_deviation(frame, gain=model["gain"], readnoise=model["readnoise"])
+    return "create_deviation", worst(made.uncertainty.array**2, bench.sensor())
+
+
+def fits(bench: Bench) -> tuple[str, float]:
+    """astropy reads the cards."""
+    from astropy.io import fits as package
+
+    header = package.Header.fromstring(bench.export("fits").read_text(), sep="\n")
+    electrons = (LEVELS - bench.offset) * header["EGAIN"]
+    return "astropy.io.fits.Header", worst((electrons + header["RDNOISE"] ** 2) / header["EGAIN"] ** 2, bench.sensor())
+
+
+def emva1288(bench: Bench) -> tuple[str, float]:
+    """The package reads its own form of results."""
+    from emva1288.process.routines import xml_to_dict
+
+    section = xml_to_dict(str(bench.export("emva1288")))["sensitivity"]
+    gain, inverse, noise = (float(section[name.lower()]["value"]) for name in ("K", "inverse_K", "sigma_d"))
+    assert abs(gain * inverse - 1) < 1e-12
+    return "xml_to_dict", worst(gain * (LEVELS - bench.offset) + (gain * noise) ** 2, bench.sensor())
+
+
+class Module:
+    """What the noise models use of torch.nn.Module."""
+
+    def register_buffer(self, name: str, value: object) -> None:
+        setattr(self, name, value)
+
+    register_parameter = register_buffer
+
+
+class Tensor(np.ndarray):
+    """What the noise models use of a tensor."""
+
+    device = None
+
+    def dim(self) -> int:
+        return self.ndim
+
+    def to(self, _: object) -> "Tensor":
+        return self
+
+
+def tensor_of(values: object) -> Tensor:
+    return np.asarray(values, dtype=float).view(Tensor)
+
+
+class Noise:
+    """The variance of random numbers, instead of the numbers: of Poisson's their mean, of Gauss' 1."""
+
+    def __init__(self, variance: np.ndarray | float) -> None:
+        self.variance = variance
+
+    def __mul__(self, factor: np.ndarray) -> "Noise":
+        return Noise(self.variance * np.asarray(factor) ** 2)
+
+    def __add__(self, other: "Noise") -> "Noise":
+        return Noise(self.variance + other.variance)
+
+
+def run_on_numpy(file: pathlib.Path) -> dict[str, object]:
+    """Runs a file of a package with NumPy under the names of PyTorch; other names are mocks."""
+    torch, nn = mock.MagicMock(), types.ModuleType("torch.nn")
+    nn.Module, nn.Parameter = Module, lambda value: value
+    torch.nn, torch.exp, torch.sqrt, torch.any = nn, np.exp, np.sqrt, np.any
+    torch.tensor, torch.zeros_like = tensor_of, np.zeros_like
+    torch.clamp = torch.clip = lambda values, min: np.maximum(values, min)
+    torch.poisson = lambda rate, generator: Noise(np.asarray(rate))
+    others = ("careamics", "careamics.config", "careamics.utils", "deepinv")
+    modules = {"torch": torch, "torch.nn": nn, **{name: mock.MagicMock() for name in others}}
+    names: dict[str, object] = {"__name__": file.stem}
+    with mock.patch.dict(sys.modules, modules):
+        exec(compile(file.read_text(), file.name, "exec"), names)
+    return names
+
+
+def careamics(bench: Bench, folder: pathlib.Path) -> tuple[str, float]:
+    """Its own file of the model, on NumPy."""
+    names = run_on_numpy(folder / "careamics/models/lvae/noise_models.py")
+    config = types.SimpleNamespace(path=bench.export("careamics"))
+    _, deviation, weight = names["GaussianMixtureNoiseModel"](config).get_gaussian_parameters(tensor_of(LEVELS))
+    assert np.allclose(weight, 1)
+    return "GaussianMixtureNoiseModel, on NumPy", worst(deviation**2, bench.line())
+
+
+def deepinv(bench: Bench, folder: pathlib.Path) -> tuple[str, float]:
+    """Its own file of the noise, on NumPy, with the variance of the random numbers."""
+    model = json.loads(bench.export("deepinv").read_text())
+    physics = mock.MagicMock(
+        gain=np.asarray(model["gain"]), sigma=np.asarray(model["sigma"]), clip_positive=False, min_gain=1e-12
+    )
+    physics.randn_like = lambda _: Noise(1.0)
+    images = tensor_of((LEVELS - model["black_level"]) / (model["white_level"] - model["black_level"]))
+    names = run_on_numpy(folder / "deepinv/physics/noise.py")
+    noisy = names["PoissonGaussianNoise"].forward(physics, images)
+    return "PoissonGaussianNoise, on NumPy", worst(noisy.variance * (WHITE - BLACK) ** 2, bench.line())
+
+
+PROOFS = {
+    "dng": dng,
+    "ndsafir": ndsafir,
+    "anscombe-transform": anscombe_transform,
+    "fits": fits,
+    "ccdproc": ccdproc,
+    "emva1288": emva1288,
+}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--bin", type=pathlib.Path, required=True, help="folder of the built programs")
+    parser.add_argument("--torch-free", type=pathlib.Path, help="folder of unpacked wheels: CAREamics, deepinv")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        bench = Bench(options.bin.resolve(), pathlib.Path(folder))
+        proofs = dict(PROOFS)
+        if options.torch_free:
+            proofs["careamics"] = lambda given: careamics(given, options.torch_free)
+            proofs["deepinv"] = lambda given: deepinv(given, options.torch_free)
+        print(f"{'format':20}{'by':40}largest relative difference of the variance")
+        for name, prove in proofs.items():
+            try:
+                by, difference = prove(bench)
+                print(f"{name:20}{by:40}{difference:.1e}")
+            except ImportError as error:
+                print(f"{name:20}{'-':40}not installed: {error.name}")
+
+
+if __name__ == "__main__":
+    main()
