@@ -19,6 +19,7 @@
 #define itkNoiseModelExporter_h
 
 #include "SensorNoiseExport.h"
+#include "itkImage.h"
 #include "itkObject.h"
 #include "itkObjectFactory.h"
 #include "sensornoise/NoiseExport.h"
@@ -90,6 +91,10 @@ public:
   itkSetMacro(DngFile, std::string);
   itkGetConstReferenceMacro(DngFile, std::string);
 
+  /** Sets the maps of the first report, for the format maps: dark offset and read noise of each pixel [DN]. */
+  void
+  SetMaps(const Image<double, 2> * offset, const Image<double, 2> * readNoise);
+
   /** Makes the files of a format. Throws an ExceptionObject with a sentence if the noise cannot be written in it. */
   void
   Export(const std::string & format);
@@ -143,6 +148,7 @@ private:
 
   sensornoise::StoredReport              m_Report; // the values since the last report
   std::vector<sensornoise::StoredReport> m_Reports;
+  sensornoise::NoiseMaps                 m_Maps;
   sensornoise::NoiseExport               m_Export;
   std::string                            m_DngFile;
   double                                 m_BlackLevel{ std::numeric_limits<double>::quiet_NaN() };

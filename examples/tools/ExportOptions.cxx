@@ -69,6 +69,7 @@ ExportOptions::Parse(int argc, char ** argv)
     ->capture_default_str();
   app.add_option(
     "--max-analogue-iso", settings.maxAnalogueIso, "ISO speed above which the gain is digital, for android");
+  app.add_option("--maps", maps, "folder of maps that estimate-sensor-noise --dark --maps wrote, for maps");
   app.add_option("--into", into, "DNG file: --output becomes its copy with the tag NoiseProfile");
   app.set_version_flag("--version", std::string("export-noise-model ") + GetModuleVersion());
   try

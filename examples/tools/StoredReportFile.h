@@ -15,6 +15,11 @@ namespace sensornoise::tools
 StoredReport
 ReadStoredReport(const std::string & file);
 
+/** Reads the maps pixel_offset.mha and pixel_read_noise.mha of a folder that estimate-sensor-noise --maps wrote. Throws
+ * std::runtime_error if one of them cannot be read, or their sizes differ. */
+NoiseMaps
+ReadNoiseMaps(const std::string & folder);
+
 } // namespace sensornoise::tools
 
 #endif

@@ -52,6 +52,10 @@ MakeExport(const ExportOptions & options)
   {
     settings.push_back(sensornoise::ReadCameraNoise(ReadStoredReport(report), options.settings));
   }
+  if (!options.maps.empty())
+  {
+    settings.front().maps = ReadNoiseMaps(options.maps);
+  }
   NoiseExport made = sensornoise::ExportNoise(options.format, settings);
   if (!options.into.empty())
   {

@@ -73,6 +73,22 @@ NoiseModelExporter::AddReport(const std::string & name)
   this->Modified();
 }
 
+void
+NoiseModelExporter::SetMaps(const Image<double, 2> * offset, const Image<double, 2> * readNoise)
+{
+  WithItkErrors(this, [&] {
+    RequirePixels(offset, "the map of the offset");
+    RequirePixels(readNoise, "the map of the read noise");
+  });
+  const auto values = [](const Image<double, 2> * map) {
+    const double * const first = map->GetBufferPointer();
+    return std::vector<double>(first, first + map->GetBufferedRegion().GetNumberOfPixels());
+  };
+  const auto size = offset->GetBufferedRegion().GetSize();
+  m_Maps = { size[0], size[1], values(offset), values(readNoise) };
+  this->Modified();
+}
+
 sensornoise::NoiseExport
 NoiseModelExporter::MakeExport(const std::string & format) const
 {
@@ -85,6 +101,10 @@ NoiseModelExporter::MakeExport(const std::string & format) const
   for (const sensornoise::StoredReport & report : m_Reports)
   {
     noise.push_back(sensornoise::ReadCameraNoise(report, settings));
+  }
+  if (!noise.empty())
+  {
+    noise.front().maps = m_Maps;
   }
   sensornoise::NoiseExport made = sensornoise::ExportNoise(format, noise);
   if (!m_DngFile.empty())
@@ -117,6 +137,7 @@ NoiseModelExporter::PrintSelf(std::ostream & os, Indent indent) const
   os << indent << "AnalogueGain: " << m_AnalogueGain << '\n';
   os << indent << "MaxAnalogueIso: " << m_MaxAnalogueIso << '\n';
   os << indent << "DngFile: " << m_DngFile << '\n';
+  os << indent << "Maps: " << m_Maps.width << " x " << m_Maps.height << '\n';
   os << indent << "Files: " << m_Export.files.size() << '\n';
 }
 

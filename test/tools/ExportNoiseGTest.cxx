@@ -92,6 +92,22 @@ TEST_F(ExportToolTest, WritesTheTagIntoACopyOfADngFile)
   IsRefusedBy("report.json --format dng --white 1088 --into report.json --output x.dng", { "no classic TIFF" }, 3);
 }
 
+TEST_F(ExportToolTest, WritesTheMapsOfAFolderIntoAFolder)
+{
+  using MapType = itk::Image<double, 2>;
+  std::filesystem::create_directory(Path("maps"));
+  std::filesystem::create_directory(Path("out"));
+  IsRefusedBy("report.json --format maps --maps maps --output out", { "pixel_offset.mha", "--dark" }, 2);
+  Write<MapType>("maps/pixel_offset.mha", Make<MapType>({ { 3, 2 } }, 64.0));
+  Write<MapType>("maps/pixel_read_noise.mha", Make<MapType>({ { 3, 2 } }, 1.5));
+  IsRefusedBy("report.json --format maps --output out", { "no maps", "--maps" }, 3);
+  IsRefusedBy("report.json --format maps --maps maps --output none", { "none", "folder that exists" }, 2);
+  ASSERT_EQ(ExportModel("report.json --format maps --maps maps --output out"), 0) << m_Message;
+  EXPECT_EQ(Read<MapType>(Path("out/offset.tif"))->GetPixel({ { 2, 1 } }), 64.0);
+  EXPECT_EQ(Read<MapType>(Path("out/variance.tif"))->GetPixel({ { 2, 1 } }), 2.25);
+  EXPECT_EQ(Read<MapType>(Path("out/variance_electrons.tif"))->GetPixel({ { 2, 1 } }), 9.0);
+}
+
 TEST_F(ExportToolTest, RefusesWithASentence)
 {
   IsRefusedBy("report.json --format dng", { "report.json", "no white level", "--white" }, 3);

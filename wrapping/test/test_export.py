@@ -8,6 +8,7 @@ import re
 import struct
 import xml.etree.ElementTree as ElementTree
 
+import itk
 import itk_sensornoise as sn
 import numpy as np
 import pytest
@@ -133,6 +134,25 @@ def test_a_dng_file_gets_the_tag(report, tmp_path):
     assert of_profile(*struct.unpack_from("<2d", copy, place)) == pytest.approx(variance(report), rel=1e-6)
     with pytest.raises(ValueError, match="expected the format dng"):
         exported(report, "fits", into=tmp_path / "photo.dng")
+
+
+def test_maps_are_those_of_dark_frames(report, tmp_path):
+    options = {"size": (96, 64), "seed": 3}
+    stack, _ = sn.simulate_sensor_noise(frames=30, **options)
+    dark, _ = sn.simulate_sensor_noise(frames=20, dark=True, **options)
+    with_maps = sn.estimate_sensor_noise(stack, bayer="none", dark=dark, maps=True)
+    made = with_maps.export("maps", output=tmp_path)
+    assert set(made.files) >= {"offset.tif", "variance.tif"}
+    for name, expected in (
+        ("offset.tif", with_maps.maps["pixel_offset"]),
+        ("variance.tif", with_maps.maps["pixel_read_noise"] ** 2),
+    ):
+        found = itk.array_from_image(itk.imread(tmp_path / name))
+        np.testing.assert_allclose(found, expected, rtol=1e-6)
+    with pytest.raises(ValueError, match="3 files"):
+        str(made)
+    with pytest.raises(ValueError, match="no maps"):
+        report.export("maps")
 
 
 def test_what_is_written_is_what_the_program_writes(report, tmp_path):

@@ -77,7 +77,6 @@ struct NoiseMaps
   std::size_t         height{ 0 };
   std::vector<double> offsetDn;
   std::vector<double> readNoiseDn;
-  std::vector<double> gainDn; ///< [DN/e-]
 };
 
 /** The noise of a camera at one setting: all that exports use. */

@@ -6,6 +6,7 @@
 #include "exports/CareamicsExport.h"
 #include "exports/LibcameraExport.h"
 #include "exports/LineExports.h"
+#include "exports/MapExport.h"
 #include "exports/RecordExports.h"
 #include "exports/SensorExports.h"
 #include "report/JsonWriter.h"
@@ -170,6 +171,14 @@ ExportFormats()
       true,
       2,
       ExportAndroid },
+    { "maps",
+      "PYME, SMAP, navigate: correction of each pixel",
+      ExportTakes::Maps,
+      ExportExactness::Exact,
+      "TIFF: offset [DN], variance [DN^2], variance [e-^2]",
+      false,
+      1,
+      OfOneSetting<ExportMaps> },
   };
   return formats;
 }

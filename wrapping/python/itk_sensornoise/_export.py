@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from . import _options
 from ._errors import itk_errors
 from ._names import is_name
@@ -158,6 +160,8 @@ def export_noise_model(
     exporter = itk.NoiseModelExporter.New()
     for number, report in enumerate(given, 1):
         _add(exporter, report, str(number) if len(given) > 1 else "of this export")
+    if given and format == "maps":
+        _set_maps(exporter, getattr(given[0], "maps", {}))
     for name, value, set_value in (
         ("black", black, exporter.SetBlackLevel),
         ("white", white, exporter.SetWhiteLevel),
@@ -197,6 +201,15 @@ def _add(exporter: ItkObject, report: Mapping[str, Any], name: str) -> None:
         else:
             exporter.SetNumber(pointer, value)
     exporter.AddReport(name)
+
+
+def _set_maps(exporter: ItkObject, maps: Mapping[str, np.ndarray]) -> None:
+    """Sets the maps of dark frames, where there are some."""
+    import itk
+
+    names = ("pixel_offset", "pixel_read_noise")
+    if all(name in maps for name in names):
+        exporter.SetMaps(*(itk.image_from_array(np.ascontiguousarray(maps[name], float)) for name in names))
 
 
 def _flat(value: Any, pointer: str) -> Iterator[tuple[str, str | float]]:

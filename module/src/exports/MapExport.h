@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_exports_MapExport_h
+#define sensornoise_exports_MapExport_h
+
+#include "sensornoise/NoiseExport.h"
+
+namespace sensornoise
+{
+
+/** Maps of the pixels as TIFF files of 32-bit floating-point numbers, a row of the file for a row of the sensor:
+ * offset.tif [DN] and variance.tif, the square of the read noise [DN^2]. Of a sensor without a mosaic with a gain, also
+ * variance_electrons.tif [e-^2]. Throws ExportError if the report has no maps. */
+NoiseExport
+ExportMaps(const CameraNoise & noise);
+
+} // namespace sensornoise
+
+#endif
