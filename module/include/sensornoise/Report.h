@@ -188,6 +188,31 @@ struct LinearityRecord
   std::vector<Level>    levels;                     ///< in the order of the exposures; empty: no exposures were given
 };
 
+/** Results of the single-image method besides the line. */
+struct SingleImageRecord
+{
+  /** A line and its standard errors. */
+  struct Line
+  {
+    double slope{ 0.0 }; ///< [DN/e-]
+    double slopeStandardError{ 0.0 };
+    double intercept{ 0.0 }; ///< [DN^2]
+    double interceptStandardError{ 0.0 };
+  };
+  double evenFraction{ 0.0 }; ///< fraction of the finite windows that are without edges and texture [1]
+  /** Variance of horizontal and vertical details, relative to the variance of diagonal ones, less 1 [1]: 0 in white
+   * noise.
+   */
+  double                           bandExcess{ 0.0 };
+  double                           bandExcessStandardError{ 0.0 };
+  std::vector<std::optional<Line>> frames; ///< line of each frame; null: it has none
+  /** Squared scatter of the slopes of the frames, relative to their squared errors [1]; null: fewer than two lines. */
+  std::optional<double> frameReducedChi2;
+  /** The line of the mean image, times the number of frames: the same as that of the frames where all of the variance
+   * is temporal noise. Null: one frame, or no line. */
+  std::optional<Line> meanImage;
+};
+
 /** Warning of a report. */
 struct Warning
 {
@@ -308,6 +333,7 @@ struct Report
     std::optional<Baseline> line;          ///< line through the corrected variance; only indicative without a gain
   } fit;
   std::optional<NoiseCorrelationRecord> noiseCorrelation; ///< null: not measured
+  std::optional<SingleImageRecord>      singleImage;      ///< null: another method
   std::vector<GainByPartsRecord>        gainByParts;      ///< empty: the gain is uniform, or is not identified
   LinearityRecord                       linearity;        ///< linearity of the response, if exposures were given
   std::optional<Baseline> affineBaseline; ///< line through the uncorrected variance, for comparison; null: not fitted

@@ -61,7 +61,9 @@ enum class WarningCode : std::uint8_t
   GainNotUniform,
   VarianceSteps,
   BorderLeftOut,
-  LightSeriesLeft
+  LightSeriesLeft,
+  TextureDominates,
+  LineOnly
 };
 
 /** Severity of a warning: its effect on the measurement. */
@@ -90,7 +92,7 @@ struct WarningKind
 
 /** All warnings that a report can have, in the order of WarningCode. documentation/reference/warnings.md and the Python
  * package show this table. The message of a warning has the numbers. */
-inline constexpr std::array<WarningKind, 49> WarningTable{ {
+inline constexpr std::array<WarningKind, 51> WarningTable{ {
   { WarningCode::FewFrames,
     "few-frames",
     Severity::Warning,
@@ -339,6 +341,18 @@ inline constexpr std::array<WarningKind, 49> WarningTable{ {
     "The illumination changes in more independent ways than so many frames allow to remove, as with cells that flash "
     "one by one: the interval of `gain` contains what is left. Record more frames, or choose an evenly lit part "
     "(--roi)." },
+  { WarningCode::TextureDominates,
+    "texture-dominates",
+    Severity::Warning,
+    "Texture, edges, fixed-pattern noise or filtered noise are in the variance of a single image, so that the gain may "
+    "be "
+    "off by more than its error (single-image method). Include even areas in the scene, or record a burst and use "
+    "--method refined." },
+  { WarningCode::LineOnly,
+    "line-only",
+    Severity::Warning,
+    "A single image determines only slope and intercept of the variance: offset and read noise are not identifiable "
+    "(single-image method). Record a burst under changing illumination, or dark frames, and use --method refined." },
 } };
 
 /** Returns the row of the table for \a code. */
@@ -360,7 +374,7 @@ IsInOrder()
       return false;
     }
   }
-  return static_cast<std::size_t>(WarningCode::LightSeriesLeft) + 1 == WarningTable.size();
+  return static_cast<std::size_t>(WarningCode::LineOnly) + 1 == WarningTable.size();
 }
 static_assert(IsInOrder(), "the table has a line for every code, in their order");
 } // namespace detail

@@ -52,6 +52,27 @@ WriteJson(JsonWriter & json, const LeftOutFrame & frame)
   json.Object([&] { json.Member("frame", frame.frame).Member("reason", NameOf(frame.fault)); });
 }
 
+/** Found by JsonWriter, as all that it writes. */
+static void
+WriteJson(JsonWriter & json, const SingleImageRecord::Line & line)
+{
+  json.Object([&] {
+    json.Member("slope", line.slope).Member("slope_standard_error", line.slopeStandardError);
+    json.Member("intercept", line.intercept).Member("intercept_standard_error", line.interceptStandardError);
+  });
+}
+
+static void
+WriteJson(JsonWriter & json, const SingleImageRecord & record)
+{
+  json.Object([&] {
+    json.Member("even_fraction", record.evenFraction).Member("band_excess", record.bandExcess);
+    json.Member("band_excess_standard_error", record.bandExcessStandardError);
+    json.Member("frames", record.frames).Member("frame_reduced_chi2", record.frameReducedChi2);
+    json.Member("mean_image", record.meanImage);
+  });
+}
+
 void
 WriteQuantity(JsonWriter & json, const char * name, const Quantity & quantity, const char * unit)
 {
@@ -303,6 +324,10 @@ WriteJson(JsonWriter & json, const Report & report)
     }
     WriteSeries(json, report);
     json.Member("noise_correlation", report.noiseCorrelation);
+    if (report.singleImage)
+    {
+      json.Member("single_image", *report.singleImage);
+    }
     WriteLinearity(json, report);
     WriteFit(json, report);
     json.Member("warnings", report.warnings);

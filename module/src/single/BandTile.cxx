@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "single/BandTile.h"
+
+#include "base/Avx2.h"
+#include "sensornoise/FrameGeometry.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
+namespace sensornoise
+{
+namespace
+{
+/** to[i] = sum over the 6 rows of weights times rows; \a oldest is the first row in the ring. */
+void
+MixRows(const float *                            rows,
+        std::size_t                              stride,
+        std::size_t                              oldest,
+        const std::array<float, Wavelet::Taps> & weights,
+        std::size_t                              count,
+        float *                                  to)
+{
+  const auto         row = [&](std::size_t k) { return rows + (oldest + k) % Wavelet::Taps * stride; };
+  const float *const a = row(0), *const b = row(1), *const c = row(2), *const d = row(3), *const e = row(4),
+                     *const f = row(5);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    to[i] = ((weights[0] * a[i] + weights[1] * b[i]) + (weights[2] * c[i] + weights[3] * d[i])) +
+            (weights[4] * e[i] + weights[5] * f[i]);
+  }
+}
+
+/** The coefficient of column i: its even pixels are even[i], even[i + 1], even[i + 2]. */
+inline float
+AlongRow(const float * even, const float * odd, const std::array<float, Wavelet::Taps> & weights, std::size_t i)
+{
+  return ((weights[0] * even[i] + weights[1] * odd[i]) + (weights[2] * even[i + 1] + weights[3] * odd[i + 1])) +
+         (weights[4] * even[i + 2] + weights[5] * odd[i + 2]);
+}
+
+/** to[i] = sum of VSize x VSize values from \a from + i on. \a sums has room for count + VSize - 1 values. */
+template <std::size_t VSize>
+void
+SumWindows(const float * from, std::size_t stride, std::size_t count, float * sums, float * to)
+{
+  for (std::size_t i = 0; i < count + VSize - 1; ++i)
+  {
+    float sum = from[i];
+    for (std::size_t k = 1; k < VSize; ++k)
+    {
+      sum += from[i + k * stride];
+    }
+    sums[i] = sum;
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    float sum = sums[i];
+    for (std::size_t k = 1; k < VSize; ++k)
+    {
+      sum += sums[i + k];
+    }
+    to[i] = sum;
+  }
+}
+} // namespace
+
+template <typename TPixel>
+void
+BandTile::LoadRow(const SingleFrame<TPixel> & frame, std::size_t y)
+{
+  // Differences of pixels that are double are taken in double, those of others are exact in float.
+  using Real = std::conditional_t<std::is_same_v<TPixel, double>, double, float>;
+  const std::size_t    first = frame.layout.At(2 * m_Tile.x, y);
+  const std::size_t    step = frame.layout.step;
+  const TPixel * const from = frame.pixels + first;
+  const Real           origin = static_cast<Real>(frame.originDn);
+  const Real           perUnit = static_cast<Real>(1.0 / frame.unitDn);
+  float * const        even = m_Rows.data() + y % Wavelet::Taps * 2 * m_Half;
+  float * const        odd = even + m_Half;
+  for (std::size_t i = 0; i < m_Half; ++i)
+  {
+    even[i] = static_cast<float>((static_cast<Real>(from[2 * i * step]) - origin) * perUnit);
+    odd[i] = static_cast<float>((static_cast<Real>(from[(2 * i + 1) * step]) - origin) * perUnit);
+  }
+  if (frame.mask != nullptr)
+  {
+    constexpr float            missing = std::numeric_limits<float>::quiet_NaN();
+    const std::uint8_t * const mask = frame.mask + first;
+    for (std::size_t i = 0; i < m_Half; ++i)
+    {
+      even[i] = mask[2 * i * step] != 0 ? even[i] : missing;
+      odd[i] = mask[(2 * i + 1) * step] != 0 ? odd[i] : missing;
+    }
+  }
+}
+
+void
+BandTile::TransformRow(std::size_t row, bool hasDetails)
+{
+  const std::size_t oldest = 2 * (m_Tile.y + row) % Wavelet::Taps;
+  const std::size_t width = 2 * m_Half;
+  float * const     lowEven = m_Mixed.data();
+  float * const     lowOdd = lowEven + m_Half;
+  MixRows(m_Rows.data(), width, oldest, Wavelet::low, width, lowEven);
+  float * const approximation = m_Approximation.data() + row * m_Columns;
+  for (std::size_t i = 0; i < m_Columns; ++i)
+  {
+    approximation[i] = 0.5F * AlongRow(lowEven, lowOdd, Wavelet::low, i); // the sum of all weights is 2
+  }
+  if (!hasDetails)
+  {
+    return;
+  }
+  float * const highEven = lowEven + width;
+  float * const highOdd = highEven + m_Half;
+  MixRows(m_Rows.data(), width, oldest, Wavelet::high, width, highEven);
+  const std::size_t first = (row - WaveletWindow::Detail) * m_Tile.width;
+  float * const     toDiagonal = diagonal.data() + first;
+  float * const     toHorizontal = horizontal.data() + first;
+  float * const     toVertical = vertical.data() + first;
+  for (std::size_t i = 0; i < m_Tile.width; ++i)
+  {
+    const std::size_t at = i + WaveletWindow::Detail;
+    const float       d = AlongRow(highEven, highOdd, Wavelet::high, at);
+    const float       h = AlongRow(lowEven, lowOdd, Wavelet::high, at);
+    const float       v = AlongRow(highEven, highOdd, Wavelet::low, at);
+    toDiagonal[i] = d * d;
+    toHorizontal[i] = h * h;
+    toVertical[i] = v * v;
+  }
+}
+
+void
+BandTile::MeasureWindows()
+{
+  using Window = WaveletWindow;
+  constexpr auto    smooth = static_cast<float>(Window::Smooth * Window::Smooth);
+  constexpr auto    size = static_cast<float>(Window::Size * Window::Size);
+  const std::size_t columns = m_Tile.width + Window::Size - 1; // of the deviations
+  const std::size_t rows = m_Tile.height + Window::Size - 1;
+  m_SquaredDeviations.resize(columns * rows);
+  m_Sums.resize(m_Columns);
+  for (std::size_t y = 0; y < rows; ++y)
+  {
+    float * const to = m_SquaredDeviations.data() + y * columns;
+    SumWindows<Window::Smooth>(m_Approximation.data() + y * m_Columns, m_Columns, columns, m_Sums.data(), to);
+    const float * const centre = m_Approximation.data() + (y + Window::LevelFirst) * m_Columns + Window::LevelFirst;
+    for (std::size_t i = 0; i < columns; ++i)
+    {
+      const float deviation = centre[i] - to[i] * (1.0F / smooth);
+      to[i] = deviation * deviation;
+    }
+  }
+  // A pixel's variance is 4 times that of the approximation, whose deviation from the mean with it lacks 1 part of 25.
+  constexpr float perSquare = 4.0F / (size * (1.0F - 1.0F / smooth));
+  for (std::size_t y = 0; y < m_Tile.height; ++y)
+  {
+    float * const ofRow = roughness.data() + y * m_Tile.width;
+    SumWindows<Window::Size>(m_SquaredDeviations.data() + y * columns, columns, m_Tile.width, m_Sums.data(), ofRow);
+    float * const levels = level.data() + y * m_Tile.width;
+    SumWindows<Window::Size>(m_Approximation.data() + (y + Window::LevelFirst) * m_Columns + Window::LevelFirst,
+                             m_Columns,
+                             m_Tile.width,
+                             m_Sums.data(),
+                             levels);
+    for (std::size_t i = 0; i < m_Tile.width; ++i)
+    {
+      ofRow[i] *= perSquare;
+      levels[i] *= 1.0F / size;
+    }
+  }
+}
+
+template <typename TPixel>
+void
+BandTile::Compute(const SingleFrame<TPixel> & frame, const TileOfPositions & tile)
+{
+  m_Tile = tile;
+  m_Columns = tile.width + WaveletWindow::Reach;
+  m_Half = m_Columns + Wavelet::Taps / 2 - 1;
+  m_Rows.resize(Wavelet::Taps * 2 * m_Half);
+  m_Mixed.resize(4 * m_Half);
+  const std::size_t rows = tile.height + WaveletWindow::Reach;
+  m_Approximation.resize(m_Columns * rows);
+  for (std::vector<float> * const of : { &level, &roughness, &diagonal, &horizontal, &vertical })
+  {
+    of->resize(this->Positions());
+  }
+  CallWithAvx2([&] {
+    for (std::size_t k = 0; k + 2 < Wavelet::Taps; ++k)
+    {
+      this->LoadRow(frame, 2 * tile.y + k);
+    }
+    for (std::size_t row = 0; row < rows; ++row)
+    {
+      this->LoadRow(frame, 2 * (tile.y + row) + Wavelet::Taps - 2);
+      this->LoadRow(frame, 2 * (tile.y + row) + Wavelet::Taps - 1);
+      this->TransformRow(row, row >= WaveletWindow::Detail && row < WaveletWindow::Detail + tile.height);
+    }
+    this->MeasureWindows();
+  });
+}
+
+#define SensorNoise_INSTANTIATE(TPixel) \
+  template void BandTile::Compute(const SingleFrame<TPixel> &, const TileOfPositions &)
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
+
+} // namespace sensornoise

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_single_FrameNoise_h
+#define sensornoise_single_FrameNoise_h
+
+#include "base/PixelLayout.h"
+#include "sensornoise/Parallel.h"
+#include "sensornoise/Settings.h"
+#include "sensornoise/StepResults.h"
+#include "single/NoiseLine.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** Pixels of a frame, or of a plane of a mosaic. */
+template <typename TPixel>
+struct PlaneOfFrame
+{
+  const TPixel *       pixels{ nullptr };
+  PixelLayout          layout;
+  std::size_t          height{ 0 };
+  const std::uint8_t * mask{ nullptr }; ///< by place, as the pixels: 0 is left out; null: none is
+};
+
+/** What one frame shows of its noise. */
+struct FrameNoise
+{
+  std::vector<LevelSet> diagonal;      ///< by diagonal details
+  std::vector<LevelSet> sides;         ///< the same sets by horizontal and vertical details
+  NoiseLine             line;          ///< through the diagonal ones
+  double                finite{ 0.0 }; ///< positions without a pixel that is not finite
+  double                even{ 0.0 };   ///< those without edges and texture
+};
+
+/** What the frames' levels can be. */
+struct LevelLimits
+{
+  ClipLevels clip;
+  double     stepDn{ 0.0 }; ///< quantization step [DN]; 0: none
+};
+
+/** Returns the clip levels and the step of \a codes. */
+LevelLimits
+LimitsOf(const CodeRange & codes);
+
+/** Finds the codes of a frame, by a part of its rows, or takes those that \a settings give: FindCodes(), or
+ * FindLevels() of floating-point pixels. Throws NothingToMeasure as MeasureFrame(). */
+template <typename TPixel>
+CodeRange
+FindCodesOfFrame(const PlaneOfFrame<TPixel> & plane, const CodeSettings & settings, const ParallelFor & parallelFor);
+
+/** Measures the variance of the level sets of a frame, and fits the line. A line through a sample of the frame selects
+ * the windows without edges, and is fitted again; the last one selects those of the whole frame. The same bits for any
+ * number of threads. Throws NothingToMeasure for a frame that is too small, or whose pixels have one level. */
+template <typename TPixel>
+FrameNoise
+MeasureFrame(const PlaneOfFrame<TPixel> & plane, const LevelLimits & limits, const ParallelFor & parallelFor);
+
+} // namespace sensornoise
+
+#endif
