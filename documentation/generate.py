@@ -34,6 +34,7 @@ GROUPS = {
     "Estimates": [
         "SensorNoiseEstimator",
         "NoiseCorrelationEstimator",
+        "SingleImageNoiseEstimator",
         "SensorNoiseSums",
     ],
     "Steps of the published method": [
