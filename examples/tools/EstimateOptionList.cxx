@@ -170,8 +170,12 @@ AddCheckOptions(CLI::App & app, EstimateOptions & options)
 void
 AddOtherOptions(CLI::App & app, EstimateOptions & options)
 {
-  app.add_option("--method", options.method, "refined, or published: Figure 2 of Sur & Grediac 2015")
-    ->check(CLI::IsMember({ "refined", "published" }))
+  app
+    .add_option("--method",
+                options.method,
+                "refined; or published: Figure 2 of Sur & Grediac 2015; or single-image: the even areas of one frame, "
+                "after Foi et al. 2008, which gives the gain, but neither offset nor read noise")
+    ->check(CLI::IsMember({ "refined", "published", "single-image" }))
     ->type_name("NAME")
     ->capture_default_str()
     ->group("Other");

@@ -102,11 +102,11 @@ ReadLevelRange(EstimateOptions & options, const std::string & text)
   {
     throw CLI::ValidationError("--level-range", text + " holds no level; expected LOW,HIGH with LOW < HIGH");
   }
-  if (options.method == "published")
+  if (options.method != "refined")
   {
     throw CLI::ValidationError("--level-range",
-                               text + " was given and the method published fits all levels; leave it out, or set "
-                                      "--method refined");
+                               text + " was given and the method " + options.method +
+                                 " fits all levels; leave it out, or set --method refined");
   }
   options.levelRange = { levels[0], levels[1] };
 }
@@ -118,11 +118,11 @@ ReadExposuresOf(EstimateOptions & options)
   {
     return;
   }
-  if (options.method == "published")
+  if (options.method != "refined")
   {
     throw CLI::ValidationError("--exposures",
-                               "the method published does not measure the linearity; leave the exposures out, or set "
-                               "--method refined");
+                               "the method " + options.method +
+                                 " does not measure the linearity; leave the exposures out, or set --method refined");
   }
   options.exposures = ReadExposures(options.exposuresText);
 }
@@ -142,6 +142,18 @@ ReadOffset(EstimateOptions & options, const EstimateTexts & texts)
     throw CLI::ValidationError(texts.offset.empty() ? "--dark" : "--offset",
                                "the method published finds the offset from the flicker alone; leave it out, or set "
                                "--method refined");
+  }
+  if (options.method == "single-image" && (!texts.offset.empty() || !options.dark.empty()))
+  {
+    throw CLI::ValidationError(texts.offset.empty() ? "--dark" : "--offset",
+                               "the method single-image measures slope and intercept of the variance and uses no "
+                               "offset; leave it out, or set --method refined");
+  }
+  if (options.method == "single-image" && !options.maps.empty())
+  {
+    throw CLI::ValidationError("--maps",
+                               "the method single-image has no maps over time; leave the folder out, or set --method "
+                               "refined");
   }
 }
 

@@ -10,6 +10,7 @@
 #include "tools/SvgAsPng.h"
 #include "base/FreeMemory.h"
 #include "sensornoise/ReportPage.h"
+#include "report/StackSettings.h"
 #include "refined/MemoryNeed.h"
 #include "itkCommand.h"
 #include "itkExtractImageFilter.h"
@@ -17,7 +18,9 @@
 #include "itkSensorNoiseFrameListSource.h"
 #include "itkSensorNoiseMetaData.h"
 #include "itkSensorNoisePageMaps.h"
+#include "itkSingleImageNoiseEstimator.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdio>
@@ -129,12 +132,9 @@ CutOff(const EstimateOptions & options)
 }
 
 /** The pattern, given or of the file, as it is where the region begins: an image that was cut out has no metadata. */
-template <typename TStack>
+template <typename TStack, typename TEstimator>
 void
-SetPattern(const EstimateOptions &             options,
-           const TStack &                      whole,
-           TStack &                            cut,
-           itk::SensorNoiseEstimator<TStack> & estimator)
+SetPattern(const EstimateOptions & options, const TStack & whole, TStack & cut, TEstimator & estimator)
 {
   const auto [columns, rows] = CutOff(options);
   const auto cutPattern = [columns = columns, rows = rows](const std::string & name) {
@@ -199,6 +199,88 @@ NoteMemory(const EstimateOptions & options, const itk::ImageRegion<3> & region)
   std::cerr << '\n';
 }
 
+/** What was cut out of the recorded stack, for the report. */
+StackSelection
+SelectionOf(const EstimateOptions & options)
+{
+  StackSelection selection;
+  if (options.roi)
+  {
+    selection.roi.emplace();
+    std::transform(options.roi->begin(), options.roi->end(), selection.roi->begin(), [](long number) {
+      return static_cast<std::size_t>(number);
+    });
+  }
+  selection.frames = options.frames;
+  return selection;
+}
+
+/** Hash of the frames' files, and of those of dark frames. */
+void
+AddHash(const EstimateOptions & options, const FrameList & list, const FrameList & dark, MeasuredStack & measured)
+{
+  if (options.WantsHash())
+  {
+    const InputRecord input{ HashOf(list),
+                             options.dark.empty() ? std::nullopt : std::optional<InputFiles>(HashOf(dark)) };
+    std::visit([&input](auto & report) { report.input = input; }, measured);
+  }
+}
+
+/** Measures by the single-image method. */
+template <typename TStack>
+MeasuredStack
+EstimateSingleImages(const EstimateOptions &     options,
+                     const FrameList &           list,
+                     const itk::ImageRegion<3> & region,
+                     const TStack &              stack,
+                     TStack &                    selected,
+                     std::string *               plot)
+{
+  const auto estimator = itk::SingleImageNoiseEstimator<TStack>::New();
+  estimator->SetInput(&selected);
+  estimator->SetBitDepth(options.bitDepth);
+  estimator->SetClipLow(options.clipLow);
+  estimator->SetClipHigh(options.clipHigh);
+  estimator->SetQuantisationStep(options.step);
+  estimator->SetExcessNoiseFactor(options.excessNoiseFactor);
+  SetPattern(options, stack, selected, *estimator);
+  if (!options.mask.empty())
+  {
+    estimator->SetMask(SelectMask(options.mask, list, region));
+  }
+  if (!options.quiet && isatty(STDERR_FILENO) != 0)
+  {
+    ShowProgressOn(*estimator);
+  }
+  estimator->Update();
+  MeasuredStack        measured = estimator->GetResult();
+  const StackSelection selection = SelectionOf(options);
+  if (auto * const report = std::get_if<Report>(&measured))
+  {
+    NoteSelection(*report, selection);
+  }
+  else
+  {
+    for (Report & channel : std::get<ChannelReports>(measured).channels)
+    {
+      NoteSelection(channel, selection);
+    }
+  }
+  AddHash(options, list, {}, measured);
+  if (plot != nullptr && options.Plot() == PlotKind::Page)
+  {
+    *plot = std::visit([](const auto & report) { return ToHtml(report); }, measured);
+  }
+  else if (plot != nullptr)
+  {
+    const auto * const report = std::get_if<Report>(&measured);
+    const std::string  svg = ToSvg(report != nullptr ? *report : std::get<ChannelReports>(measured).channels[1]);
+    *plot = options.Plot() == PlotKind::Png ? SvgAsPng(svg) : svg;
+  }
+  return measured;
+}
+
 template <typename TPixel>
 MeasuredStack
 Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * maps, std::string * plot)
@@ -211,11 +293,15 @@ Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * map
   const itk::ImageRegion<3> region = SelectRegion(options, list, whole);
   const auto                crop = Crop<StackType>(stack, region);
 
-  const auto        estimator = itk::SensorNoiseEstimator<StackType>::New();
   StackType * const selected = region == whole ? stack : crop->GetOutput();
+  if (options.method == "single-image")
+  {
+    return EstimateSingleImages(options, list, region, *stack, *selected, plot);
+  }
+  const auto estimator = itk::SensorNoiseEstimator<StackType>::New();
   estimator->SetInput(selected);
   options.ApplyTo(*estimator);
-  SetPattern<StackType>(options, *stack, *selected, *estimator);
+  SetPattern(options, *stack, *selected, *estimator);
   if (!options.mask.empty())
   {
     estimator->SetMask(SelectMask(options.mask, list, region));
@@ -253,12 +339,7 @@ Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * map
       estimator->GetMean(), estimator->GetVariance(), estimator->GetCorrectedVariance(), estimator->GetPixelUse());
   }
   MeasuredStack measured = ResultOf(*estimator);
-  if (options.WantsHash())
-  {
-    const InputRecord input{ HashOf(list),
-                             options.dark.empty() ? std::nullopt : std::optional<InputFiles>(HashOf(darkList)) };
-    std::visit([&input](auto & report) { report.input = input; }, measured);
-  }
+  AddHash(options, list, darkList, measured);
   if (plot != nullptr)
   {
     *plot = MakePlot(options.Plot(), measured, TitleOf(list), *estimator);

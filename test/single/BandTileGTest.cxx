@@ -98,6 +98,18 @@ TEST(SensorNoiseBandTile, ParabolasHaveNoDiagonalDetail)
   }
 }
 
+TEST(SensorNoiseBandTile, EdgesAlongRowsAndColumnsHaveNoDiagonalDetail)
+{
+  const BandTile rows = TileOf([](double, double y) { return y < 60.0 ? 1.0 : 5.0; });
+  const BandTile columns = TileOf([](double x, double) { return x < 100.0 ? 1.0 : 5.0; });
+  EXPECT_NEAR(MeanOf(rows.diagonal), 0.0, 1e-9);
+  EXPECT_NEAR(MeanOf(columns.diagonal), 0.0, 1e-9);
+  EXPECT_NEAR(MeanOf(rows.horizontal), 0.0, 1e-9);
+  EXPECT_NEAR(MeanOf(columns.vertical), 0.0, 1e-9);
+  EXPECT_GT(MeanOf(rows.vertical), 1e-3);
+  EXPECT_GT(MeanOf(columns.horizontal), 1e-3);
+}
+
 TEST(SensorNoiseBandTile, WhiteNoiseHasItsVarianceInEveryBand)
 {
   std::mt19937_64                  random(5);
