@@ -40,6 +40,7 @@ from ._quantity import Quantity
 from ._rawpy import raw_metadata
 from ._report import Report
 from ._simulate import simulate_sensor_noise
+from ._single_image import single_image_noise_estimator
 from ._source import sensor_noise_frame_list_source
 from ._stabilise import generalized_anscombe_image_filter, inverse_generalized_anscombe_image_filter
 from ._sums import SensorNoiseSums
@@ -71,6 +72,7 @@ __all__ = [
     "sensor_noise_estimator",
     "sensor_noise_frame_list_source",
     "simulate_sensor_noise",
+    "single_image_noise_estimator",
     "temporal_statistics_image_filter",
     "vibration_covariance_estimator",
     "vibration_mask_image_filter",

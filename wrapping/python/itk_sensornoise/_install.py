@@ -17,6 +17,7 @@ _REPLACED = (
     "noise_regression_estimator",
     "sensor_noise_estimator",
     "sensor_noise_frame_list_source",
+    "single_image_noise_estimator",
     "temporal_statistics_image_filter",
     "vibration_covariance_estimator",
     "vibration_mask_image_filter",
