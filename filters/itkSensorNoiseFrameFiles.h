@@ -21,7 +21,6 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/FrameFile.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -30,17 +29,8 @@
 namespace sensornoise
 {
 
-/** Positions of the pixels of a stack in space, from the header of its file. For a list of frames, the header of the
- * first file gives x and y. The default is spacing 1, origin 0 and directions along the axes. The default replaces
- * values that the file does not give or that ITK images cannot have (a spacing of 0, a singular direction). */
-struct FrameListGeometry
-{
-  std::array<double, 3>                spacing{ { 1.0, 1.0, 1.0 } };
-  std::array<double, 3>                origin{ { 0.0, 0.0, 0.0 } };
-  std::array<std::array<double, 3>, 3> direction{
-    { { { 1.0, 0.0, 0.0 } }, { { 0.0, 1.0, 0.0 } }, { { 0.0, 0.0, 1.0 } } }
-  };
-};
+/** Positions of the pixels of a stack in space. For a list of frames, the header of the first file gives x and y. */
+using FrameListGeometry = StackGeometry;
 
 /** Frames in files, in time order: stacks, or one frame in each file. All headers have been checked. */
 struct FrameList

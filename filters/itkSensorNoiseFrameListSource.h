@@ -42,11 +42,9 @@ namespace itk
  * throws an error instead: one sentence that begins with the name of the file. No value is converted: the pixel type is
  * the component type of the files. A program that does not know this type calls ReadComponentType() first.
  *
- * A list of frames streams: only the requested frames are held in memory. Multi-page TIFF, SER, MRAW, raw frames
- * without a header, an uncompressed MetaImage, and all other formats that ITK reads in parts stream, too. Other stacks
- * (NRRD, compressed MetaImage) are read completely, and again at each reading. A frame is always read completely, even
- * if only a part is requested. Formats that this library reads itself, for example TIFF, are read by several threads at
- * once. Formats that ITK reads are read by one thread.
+ * All formats stream: only the requested frames are held in memory. A frame is always read completely, even if only a
+ * part is requested. Several threads read at once, except from a compressed MetaImage or NRRD stack: it is one stream,
+ * which is decompressed from its beginning when a frame before those of the last reading is requested.
  *
  * A file that has changed since the check, in its size, time or place on the disk, is also an error. The error is
  * thrown when the file is read. After an error the next Update() checks the files again and uses their new state.

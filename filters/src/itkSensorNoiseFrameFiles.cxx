@@ -24,9 +24,9 @@
 #include "files/FrameReader.h"
 #include "files/RawLayout.h"
 #include "files/StoredNumber.h"
+#include "files/UsableGeometry.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <exception>
 #include <iterator>
@@ -61,19 +61,14 @@ RequireAlike(const FrameFile & found, const FrameFile & first)
   }
 }
 
-/** Throws if there is not enough memory for a stack that cannot be read in parts, beside the stacks before it. */
+/** Throws unless there is memory for a frame, before any is allocated. */
 void
-RequireMemoryFor(const FrameFile & stack, std::uint64_t bytesBefore)
+RequireMemoryForFrame(const FrameFile & file)
 {
-  RequireMemory(static_cast<double>(stack.bytes) + static_cast<double>(bytesBefore),
-                stack.name + " cannot be read in parts: all of it");
-}
-
-double
-DeterminantOf(const std::array<std::array<double, 3>, 3> & m)
-{
-  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  const std::string size = std::to_string(file.width) + " x " + std::to_string(file.height);
+  RequireMemory(static_cast<double>(file.width) * static_cast<double>(file.height) *
+                  static_cast<double>(SizeOf(file.pixel)),
+                file.name + ": a frame of " + size + " pixels");
 }
 
 /** Returns spacing, origin and direction of a file, as ImageFileReader does. Values that an image cannot have are
@@ -82,40 +77,12 @@ FrameListGeometry
 GeometryOf(const itk::ImageIOBase & io)
 {
   FrameListGeometry  geometry;
-  FrameListGeometry  found;
   const unsigned int axes = std::min(io.GetNumberOfDimensions(), 3u);
   for (unsigned int axis = 0; axis < axes; ++axis)
   {
-    const double              spacing = io.GetSpacing(axis);
-    const std::vector<double> cosines = io.GetDirection(axis);
-    if (std::isfinite(spacing) && spacing != 0.0)
-    {
-      geometry.spacing[axis] = std::abs(spacing);
-    }
-    if (std::isfinite(io.GetOrigin(axis)))
-    {
-      geometry.origin[axis] = io.GetOrigin(axis);
-    }
-    for (unsigned int row = 0; row < axes && row < cosines.size(); ++row)
-    {
-      found.direction[row][axis] = spacing < 0.0 ? -cosines[row] : cosines[row];
-    }
+    geometry.spacing[axis] = io.GetSpacing(axis);
   }
-  const double determinant = DeterminantOf(found.direction);
-  if (std::isfinite(determinant) && determinant != 0.0)
-  {
-    geometry.direction = found.direction;
-  }
-  return geometry;
-}
-
-FrameListGeometry
-GeometryOf(const FrameFile & file)
-{
-  FrameListGeometry geometry;
-  geometry.spacing[0] = file.spacing[0];
-  geometry.spacing[1] = file.spacing[1];
-  return geometry;
+  return UsableGeometry(geometry);
 }
 
 /** Returns the geometry with the default spacing and origin along the third axis, for a file with a single frame. */
@@ -243,17 +210,17 @@ OpenFrames(const std::vector<std::string> & names,
   for (const std::string & name : names)
   {
     const auto requireFitting = [&](const FrameFile & file) {
-      if (!list.files.empty())
+      if (list.files.empty())
+      {
+        RequireMemoryForFrame(file);
+      }
+      else
       {
         RequireAlike(file, list.files.front());
       }
     };
     const auto beforeWork = [&](const FrameFile & known) {
       requireFitting(known);
-      if (known.frames > 1 && known.format->imageIO != nullptr)
-      {
-        RequireMemoryFor(known, list.bytes); // ITK does not read a compressed stack in parts
-      }
       if (beforeInflating)
       {
         beforeInflating(known);
@@ -277,15 +244,11 @@ OpenFrames(const std::vector<std::string> & names,
       list.width = file.width;
       list.height = file.height;
       list.camera = file.camera;
-      list.geometry = file.reader ? GeometryOf(file) : GeometryOf(*io);
+      list.geometry = file.reader ? file.geometry : GeometryOf(*io);
       list.geometry = list.isStack ? list.geometry : WithoutTime(list.geometry);
     }
     const bool streams = file.frames == 1 || file.reader || io->CanStreamRead();
     list.streams = streams && (list.files.empty() || list.streams);
-    if (!streams)
-    {
-      RequireMemoryFor(file, list.bytes);
-    }
     list.bytes += file.bytes;
     list.frames += file.frames;
     list.files.push_back(file);

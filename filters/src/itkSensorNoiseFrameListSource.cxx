@@ -20,6 +20,7 @@
 #include "itkSensorNoiseFileErrors.h"
 #include "itkSensorNoiseMetaData.h"
 #include "base/ForAll.h"
+#include "files/FrameReader.h"
 #include "sensornoise/Parallel.h"
 
 #include <algorithm>
@@ -198,8 +199,12 @@ SensorNoiseFrameListSource<TOutputStack>::GenerateData()
   const auto             first = static_cast<std::size_t>(region.GetIndex(2));
   const std::size_t      framePixels = m_FrameList.width * m_FrameList.height;
   OutputPixelType *      buffer = this->GetOutput()->GetBufferPointer();
-  const std::size_t      parts = m_FrameList.files.front().reader ? this->GetNumberOfWorkUnits() : 1;
-  // A list of single frames is read frame by frame, so that an abort acts after each frame.
+  const bool             isSequential =
+    m_FrameList.isStack && std::any_of(m_FrameList.files.begin(), m_FrameList.files.end(), [](const auto & file) {
+      return !file.reader || file.reader->IsSequential();
+    });
+  const std::size_t parts = isSequential ? 1 : this->GetNumberOfWorkUnits();
+  // of a list, frame by frame: each may be the last before an abort
   const std::size_t partFrames = m_FrameList.isStack ? std::max<std::size_t>(1, (frames + parts - 1) / parts) : 1;
   const std::size_t step = parts * partFrames;
   try

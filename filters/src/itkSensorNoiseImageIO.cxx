@@ -147,10 +147,13 @@ SensorNoiseImageIO::ReadImageInformation()
   }
   for (unsigned int axis = 0; axis < dimensions; ++axis)
   {
-    this->SetSpacing(axis, axis < 2 ? m_File.spacing[axis] : 1.0);
-    this->SetOrigin(axis, 0.0);
-    std::vector<double> direction(dimensions, 0.0);
-    direction[axis] = 1.0;
+    this->SetSpacing(axis, m_File.geometry.spacing[axis]);
+    this->SetOrigin(axis, m_File.geometry.origin[axis]);
+    std::vector<double> direction;
+    for (unsigned int row = 0; row < dimensions; ++row)
+    {
+      direction.push_back(m_File.geometry.direction[row][axis]);
+    }
     this->SetDirection(axis, direction);
   }
   sensornoise::SetCameraSettings(this->GetMetaDataDictionary(), m_File.camera);

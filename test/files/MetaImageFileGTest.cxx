@@ -3,6 +3,7 @@
 #include "helpers/CompressedBytesTestHelper.h"
 #include "helpers/FrameFileTestHelper.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -92,6 +93,25 @@ TEST_F(MetaImageFile, OfEveryKindThatIsCompleteIsAccepted)
   IsFrames("f.mha", Replaced(frame, "DOUBLE", "UCHAR") + RandomBytes(35), FramePixel::UnsignedChar, 7, 5, 1);
 }
 
+TEST_F(MetaImageFile, GivesTheGeometryOfTheFieldThatCountsMost)
+{
+  const std::string head = "NDims = 2\nDimSize = 1 1\nElementType = MET_UCHAR\n";
+  const auto        geometryOf = [&](const std::string & lines) {
+    return IsFrames("g.mha", head + lines + "ElementDataFile = LOCAL\na", FramePixel::UnsignedChar, 1, 1, 1).geometry;
+  };
+  const StackGeometry old = geometryOf("Position = 1 2\nElementSize = 3 4\nRotation = 0 1 1 0\n");
+  EXPECT_EQ(old.origin, (std::array<double, 3>{ 1.0, 2.0, 0.0 }));
+  EXPECT_EQ(old.spacing, (std::array<double, 3>{ 3.0, 4.0, 1.0 }));
+  EXPECT_EQ(old.direction[1], (std::array<double, 3>{ 1.0, 0.0, 0.0 }));
+  const StackGeometry both = geometryOf("Origin = 7 8\nOffset = 1 2\nElementSpacing = -5 6\nElementSize = 3 4\n");
+  EXPECT_EQ(both.origin, (std::array<double, 3>{ 7.0, 8.0, 0.0 }));
+  EXPECT_EQ(both.spacing, (std::array<double, 3>{ 5.0, 6.0, 1.0 }));
+  EXPECT_EQ(both.direction[0], (std::array<double, 3>{ -1.0, 0.0, 0.0 })); // a spacing below 0 turns its axis
+  const StackGeometry none = geometryOf("ElementSpacing = 0 2\nTransformMatrix = 1 0 1 0\n");
+  EXPECT_EQ(none.spacing, (std::array<double, 3>{ 1.0, 2.0, 1.0 }));
+  EXPECT_EQ(none.direction, StackGeometry().direction); // a singular matrix
+}
+
 TEST_F(MetaImageFile, WhatIsNoImageOfOneValueIsRefused)
 {
   const std::string good = MetaImageHeaderOf("LOCAL");
@@ -124,12 +144,10 @@ TEST_F(MetaImageFile, SizesThatCannotBeAreRefused)
   isRefused("7 5 3", "70 bytes are left over after its pixels; expected none");
 }
 
-TEST_F(MetaImageFile, LinesThatMetaIOWouldReadOtherwiseAreRefused)
+TEST_F(MetaImageFile, LinesThatAreNoFieldsAreRefused)
 {
-  LineIsRefused("Comment = " + std::string(255, 'c'), "gives Comment a value of 255 characters; expected 1 to 254");
-  LineIsRefused("Comment = " + std::string(5000, 'c'), "line 12 of its header has more than 500 characters");
-  LineIsRefused("Comment =", "gives Comment a value of 0 characters");
-  LineIsRefused(std::string(101, 'n') + " = a", "is not the name of a field");
+  LineIsRefused("Comment = " + std::string(5000, 'c'), "line 12 of its header has more than 4096 characters");
+  LineIsRefused("Comment =", "gives no value for Comment; expected one");
   LineIsRefused("a line without a separator", "line 12 of its header is not the name of a field");
   LineIsRefused("= a", "is not the name of a field");
   LineIsRefused("Offset = 0 0 0", "gives Offset a second time");
@@ -139,12 +157,6 @@ TEST_F(MetaImageFile, LinesThatMetaIOWouldReadOtherwiseAreRefused)
   LineIsRefused(std::string("Comment = a\0b", 13), "has the character of code 0; expected text");
   LineIsRefused("Comment = a\rb", "has a carriage return within it");
   HeaderIsRefused("Offset = 0 0 0\n" + MetaImageHeaderOf("LOCAL"), { "Offset stands before NDims" });
-  std::string late;
-  for (int i = 0; i < 100; ++i)
-  {
-    late += "Key" + std::to_string(i) + " = " + std::string(100, 'v') + "\n";
-  }
-  HeaderIsRefused(late + MetaImageHeaderOf("LOCAL"), { "NDims is not among the first 8000 bytes" });
   for (const std::string field : { "NDims", "DimSize", "ElementType", "ElementDataFile" })
   {
     const std::string good = MetaImageHeaderOf("LOCAL");

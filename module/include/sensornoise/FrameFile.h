@@ -76,7 +76,19 @@ struct FrameAxis
   std::size_t size{ 1 };          ///< number of positions along the axis, at least 1
 };
 
-/** Description of a file with a frame or a stack, as InspectFrameFile() returns it. */
+/** Positions of the pixels of a stack in space, from the header of its file: along x, y and time. The default is
+ * spacing 1, origin 0 and directions along the axes. The default replaces values that the file does not give or that an
+ * image cannot have (a spacing of 0, a singular direction). */
+struct StackGeometry
+{
+  std::array<double, 3>                spacing{ { 1.0, 1.0, 1.0 } }; // [mm], above 0
+  std::array<double, 3>                origin{ { 0.0, 0.0, 0.0 } };  // [mm]
+  std::array<std::array<double, 3>, 3> direction{
+    { { { 1.0, 0.0, 0.0 } }, { { 0.0, 1.0, 0.0 } }, { { 0.0, 0.0, 1.0 } } } // columns are the axes
+  };
+};
+
+/** What a file of a frame or of a stack says of itself, after it was found to be whole. */
 struct FrameFile
 {
   std::string name{}; ///< path of the file, as it was given
@@ -103,8 +115,7 @@ struct FrameFile
 
   /** Reader of the pixels; null: the class of ITK that `format` names reads them. */
   std::shared_ptr<const FrameReader> reader{};
-  /** Distance of neighbouring pixels along x and y [mm], for files with a `reader`. */
-  std::array<double, 2> spacing{ { 1.0, 1.0 } };
+  StackGeometry                      geometry{}; // of files with a `reader`
 
   std::vector<FileIdentity> identities{}; ///< identity of the file, then of each of its data files
 };

@@ -3,9 +3,12 @@
 #ifndef sensornoise_files_DataFile_h
 #define sensornoise_files_DataFile_h
 
-#include "files/FileIdentity.h"
+#include "sensornoise/FrameFile.h"
+#include "files/Inflate.h"
+#include "files/SamplePacking.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,20 +29,40 @@ struct DataPlace
 void
 AddDataFile(const std::string & file, const std::string & path, std::vector<FileIdentity> & identities);
 
-/** Throws FileError unless the file holds exactly \a expected bytes at that place, up to its end. Where only that end
- * is known, fewer bytes than a frame has may be left over before: with more, the header may have lost frames. */
-void
+/** Returns where the pixels begin. Throws FileError unless the file holds exactly \a expected bytes at that place, up
+ * to its end. Where only that end is known, fewer bytes than a frame has may be left over before: with more, the header
+ * may have lost frames. */
+std::uint64_t
 RequireExactly(const std::string & file, const DataPlace & place, std::uint64_t expected, std::uint64_t frameBytes);
 
-/** Throws FileError unless the bytes there, \a compressed of them or, where that is 0, all up to the end of the file,
- * are one stream of gzip (or, if \a orZlib, of zlib) that gives exactly \a expected bytes, and the file ends with it.
- */
+/** Throws FileError if \a left bytes, those behind the pixels, are any. */
 void
-RequireInflates(const std::string & file,
-                const DataPlace &   place,
-                std::uint64_t       compressed,
-                std::uint64_t       expected,
-                bool                orZlib);
+RequireNothingLeft(const std::string & file, const DataPlace & place, std::uint64_t left);
+
+/** " in its data file NAME", or nothing for a place in \a file itself. */
+std::string
+InDataFile(const std::string & file, const DataPlace & place);
+
+/** The path of a data file that the header of \a file names: relative to the folder of \a file. */
+std::string
+PathOfDataFile(const std::string & file, const std::string & name);
+
+/** How the numbers at the places of pixels are written. */
+struct DataCoding
+{
+  SampleFormat                    sample{};
+  std::optional<InflateContainer> compression{};
+  std::uint64_t                   compressedBytes{ 0 }; // of one place; 0: all up to the end of its file
+};
+
+/** Checks that the places, one for all frames or one for each, hold exactly the pixels of \a file, whose size is set;
+ * adds the identities of data files; and sets the reader of the frames. Calls \a beforeInflating before it inflates
+ * compressed pixels. Throws FileError. */
+void
+SetDataFrames(FrameFile &                    file,
+              const std::vector<DataPlace> & places,
+              const DataCoding &             coding,
+              const BeforeInflating &        beforeInflating);
 
 } // namespace sensornoise
 

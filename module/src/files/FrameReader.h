@@ -25,6 +25,14 @@ public:
    * that does not let them be read; RequireUnchanged() tells of others. May be called from several threads at once. */
   virtual void
   Read(const FrameFile & file, std::size_t first, std::size_t count, void * buffer) const = 0;
+
+  /** Returns whether frames have to be read in their order to be read fast: those of one compressed stream. Then
+   * several threads would wait for each other. */
+  virtual bool
+  IsSequential() const
+  {
+    return false;
+  }
 };
 
 } // namespace sensornoise

@@ -6,6 +6,7 @@
 #include "files/Zlib.h"
 
 #include <algorithm>
+#include <limits>
 #include <new>
 #include <utility>
 #include <vector>
@@ -37,38 +38,51 @@ Inflater::~Inflater()
   inflateEnd(&m_Stream->zlib);
 }
 
+void
+Inflater::Offer(const unsigned char * bytes, std::size_t count)
+{
+  m_Stream->zlib.next_in = const_cast<unsigned char *>(bytes);
+  m_Stream->zlib.avail_in = static_cast<uInt>(count);
+}
+
+std::size_t
+Inflater::Take(unsigned char * out, std::size_t count)
+{
+  if (!WantsMore())
+  {
+    return 0;
+  }
+  z_stream & zlib = m_Stream->zlib;
+  const uInt before = zlib.avail_in;
+  const auto room = static_cast<uInt>(std::min<std::size_t>(count, std::numeric_limits<uInt>::max()));
+  zlib.next_out = out;
+  zlib.avail_out = room;
+  const int         status = inflate(&zlib, Z_NO_FLUSH);
+  const std::size_t made = room - zlib.avail_out;
+  m_Used += before - zlib.avail_in;
+  m_Found += made;
+  m_Ended = status == Z_STREAM_END;
+  if (status != Z_OK && status != Z_STREAM_END && status != Z_BUF_ERROR)
+  {
+    m_Error = zlib.msg != nullptr ? zlib.msg : status == Z_NEED_DICT ? "a preset dictionary" : "not a stream";
+  }
+  return made;
+}
+
 bool
 Inflater::Add(const unsigned char * bytes, std::size_t count)
 {
-  z_stream & zlib = m_Stream->zlib;
-  zlib.next_in = const_cast<unsigned char *>(bytes);
-  zlib.avail_in = static_cast<uInt>(count);
-  bool more = !m_Ended && m_Error.empty() && m_Found <= m_Expected;
-  while (more)
+  Offer(bytes, count);
+  std::size_t made = m_Out.size();
+  while (WantsMore() && made == m_Out.size()) // else what came is used up
   {
-    const uInt before = zlib.avail_in;
-    zlib.next_out = m_Out.data();
-    zlib.avail_out = static_cast<uInt>(m_Out.size());
-    const int         status = inflate(&zlib, Z_NO_FLUSH);
-    const std::size_t made = m_Out.size() - zlib.avail_out;
-    m_Used += before - zlib.avail_in;
-    m_Found += made;
-    m_Ended = status == Z_STREAM_END;
-    if (status != Z_OK && status != Z_STREAM_END && status != Z_BUF_ERROR)
-    {
-      m_Error = zlib.msg != nullptr ? zlib.msg : status == Z_NEED_DICT ? "a preset dictionary" : "not a stream";
-    }
+    made = Take(m_Out.data(), m_Out.size());
     if (m_Sink && m_Found <= m_Expected)
     {
       m_Sink(m_Out.data(), made);
     }
-    more = !m_Ended && m_Error.empty() && m_Found <= m_Expected;
-    if (zlib.avail_out != 0)
-    {
-      break; // what came is used up
-    }
   }
-  return more;
+  return WantsMore();
 }
 
 bool

@@ -37,9 +37,25 @@ public:
   Inflater &
   operator=(const Inflater &) = delete;
 
-  /** The next compressed bytes. Returns whether more are wanted: not after the end, an error, or too many bytes. */
+  /** Inflates the next compressed bytes into the sink. Returns WantsMore(). */
   bool
   Add(const unsigned char * bytes, std::size_t count);
+
+  /** Hands over the next compressed bytes, which must stay where they are until Take() has returned 0. */
+  void
+  Offer(const unsigned char * bytes, std::size_t count);
+
+  /** Inflates up to \a count bytes into \a out. Returns their number; 0: all compressed bytes are used up, or
+   * WantsMore() is false. */
+  std::size_t
+  Take(unsigned char * out, std::size_t count);
+
+  /** Returns whether the stream goes on: not after its end, an error, or more bytes than expected. */
+  bool
+  WantsMore() const
+  {
+    return !m_Ended && m_Error.empty() && m_Found <= m_Expected;
+  }
 
   /** Whether the stream has ended, with a right checksum and the expected number of bytes. */
   bool

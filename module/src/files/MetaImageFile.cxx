@@ -10,9 +10,11 @@
 #include "files/MetaImagePlaces.h"
 #include "files/StoredNumber.h"
 #include "files/TextHeader.h"
+#include "files/UsableGeometry.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <utility>
@@ -120,6 +122,37 @@ CheckMetaImageMeaning(const std::string & file, const MetaImageHeader & header)
   }
 }
 
+/** The numbers of the last of these fields that the header has; empty: it has none of them. */
+std::vector<double>
+NumbersOfLast(const MetaImageHeader & header, std::initializer_list<const char *> keys)
+{
+  std::vector<double> numbers;
+  for (const char * const key : keys)
+  {
+    numbers = header.Field(key).empty() ? numbers : NumbersOf(header.Field(key));
+  }
+  return numbers;
+}
+
+/** Fields of old and new versions of MetaIO, in the order in which it prefers them. */
+StackGeometry
+GeometryOfMetaImage(const MetaImageHeader & header, std::size_t axes)
+{
+  StackGeometry             geometry;
+  const std::vector<double> spacing = NumbersOfLast(header, { "ElementSize", "ElementSpacing" });
+  const std::vector<double> origin = NumbersOfLast(header, { "Position", "Offset", "Origin", "ImagePosition" });
+  const std::vector<double> cosines = NumbersOfLast(header, { "Orientation", "Rotation", "TransformMatrix" });
+  for (std::size_t axis = 0; axis < axes; ++axis)
+  {
+    geometry.spacing[axis] = spacing.empty() ? 1.0 : spacing[axis];
+    geometry.origin[axis] = origin.empty() ? 0.0 : origin[axis];
+    for (std::size_t row = 0; row < axes && !cosines.empty(); ++row)
+    {
+      geometry.direction[row][axis] = cosines[axis * axes + row];
+    }
+  }
+  return UsableGeometry(geometry);
+}
 } // namespace
 
 bool
@@ -146,28 +179,17 @@ InspectMetaImage(FileBytes & bytes, FrameFile & file, const BeforeInflating & be
     sizes.push_back(*number);
   }
   SetFrameSizes(file, sizes);
-  const std::uint64_t          bytesInFile = StoredBytesOf(file);
-  const std::uint64_t          compressed = CompressedBytesOf(file.name, header);
-  const std::vector<DataPlace> places = PlacesOfMetaImage(file, header, bytes.Size());
-  if (compressed > 0 && beforeInflating)
+  file.geometry = GeometryOfMetaImage(header, sizes.size());
+  const bool isBigEndian =
+    IsTrue(header.Field("BinaryDataByteOrderMSB")) || IsTrue(header.Field("ElementByteOrderMSB"));
+  DataCoding coding;
+  coding.sample = WholeSample(file, isBigEndian);
+  coding.compressedBytes = CompressedBytesOf(file.name, header);
+  if (coding.compressedBytes > 0)
   {
-    beforeInflating(file);
+    coding.compression = InflateContainer::ZlibOrGzip;
   }
-  for (const DataPlace & place : places)
-  {
-    if (!place.attached)
-    {
-      AddDataFile(file.name, place.path, file.identities);
-    }
-    if (compressed > 0)
-    {
-      RequireInflates(file.name, place, compressed, bytesInFile, true);
-    }
-    else
-    {
-      RequireExactly(file.name, place, bytesInFile / places.size(), bytesInFile / file.frames);
-    }
-  }
+  SetDataFrames(file, PlacesOfMetaImage(file, header, bytes.Size()), coding, beforeInflating);
 }
 
 } // namespace sensornoise

@@ -16,7 +16,7 @@ bool
 IsHeadOfMetaImage(const std::string & head, const std::string & name);
 
 /** Fills in what a MetaImage says of itself. \a file has its name and identity. Throws FileError unless all of its
- * pixels are there, in the file or in data files, and unless MetaIO reads them as they are. */
+ * pixels are there, in the file or in data files. */
 void
 InspectMetaImage(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 

@@ -25,9 +25,8 @@ struct MetaImageHeader
   Field(const std::string & key) const;
 };
 
-/** Reads the header so that MetaIO, which reads words across lines, and into fields of fixed length, can but read the
- * same: each line is a name, a separator and a value that is neither empty nor too long; known fields have the values
- * that they must have; none comes twice. Throws FileError. */
+/** Reads the header. Each line is a name, a separator and a value; known fields have the values that they must have;
+ * none comes twice. Throws FileError. */
 MetaImageHeader
 ReadMetaImageHeader(const std::string & file, FileBytes & bytes);
 

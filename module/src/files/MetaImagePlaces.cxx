@@ -6,7 +6,6 @@
 #include "files/TextHeader.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -15,15 +14,6 @@ namespace sensornoise
 {
 namespace
 {
-/** MetaIO's reading of where a file's name ends and that of its folder begins. */
-std::string
-BesideMetaImage(const std::string & file, const std::string & dataFile)
-{
-  const std::size_t slash = file.find_last_of("/\\");
-  const bool        isFullPath = dataFile[0] == '/' || dataFile[0] == '~';
-  return slash == std::string::npos || isFullPath ? dataFile : file.substr(0, slash + 1) + dataFile;
-}
-
 /** Where the header says that pixels begin: 0, a number of bytes, or nothing where they are at the end of the file. */
 std::optional<std::uint64_t>
 HeaderSizeOf(const std::string & file, const MetaImageHeader & header)
@@ -39,18 +29,6 @@ HeaderSizeOf(const std::string & file, const MetaImageHeader & header)
     throw FileError(file, "HeaderSize is " + text + "; expected -1, 0 or a number of bytes");
   }
   return size;
-}
-
-/** A data file's name as MetaIO reads it. */
-std::string
-MetaImageDataName(std::string name)
-{
-  while (!name.empty() && (std::isspace(static_cast<unsigned char>(name.back())) != 0 ||
-                           static_cast<unsigned char>(name.back()) >= 0x7F))
-  {
-    name.pop_back();
-  }
-  return name;
 }
 } // namespace
 
@@ -79,8 +57,7 @@ PlacesOfMetaImage(const FrameFile & file, const MetaImageHeader & header, std::u
   }
   if (dataFile.rfind("LIST", 0) != 0)
   {
-    places.push_back(
-      { BesideMetaImage(file.name, MetaImageDataName(dataFile)), headerSize.value_or(0), !headerSize, false });
+    places.push_back({ PathOfDataFile(file.name, dataFile), headerSize.value_or(0), !headerSize, false });
     return places;
   }
   const std::string dimension = WithoutBlanks(dataFile.substr(4));
@@ -97,8 +74,7 @@ PlacesOfMetaImage(const FrameFile & file, const MetaImageHeader & header, std::u
   }
   for (const std::string & line : header.list)
   {
-    places.push_back(
-      { BesideMetaImage(file.name, MetaImageDataName(line)), headerSize.value_or(0), !headerSize, false });
+    places.push_back({ PathOfDataFile(file.name, line), headerSize.value_or(0), !headerSize, false });
   }
   return places;
 }

@@ -13,8 +13,8 @@
 namespace sensornoise
 {
 
-/** Where the pixels of a MetaImage of \a size bytes are, or, in a list, those of each frame: where MetaIO looks for
- * them. Throws FileError where that is within the header, or a pattern of names, or not a file for each frame. */
+/** Where the pixels of a MetaImage of \a size bytes are, or, in a list, those of each frame. Throws FileError where
+ * that is within the header, or a pattern of names, or not a file for each frame. */
 std::vector<DataPlace>
 PlacesOfMetaImage(const FrameFile & file, const MetaImageHeader & header, std::uint64_t size);
 

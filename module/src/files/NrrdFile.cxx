@@ -4,8 +4,8 @@
 
 #include "files/DataFile.h"
 #include "sensornoise/FrameFile.h"
-#include "files/FrameFormats.h"
 #include "files/FrameSizes.h"
+#include "files/NrrdGeometry.h"
 #include "files/NrrdHeader.h"
 #include "files/StoredNumber.h"
 #include "files/TextHeader.h"
@@ -130,17 +130,15 @@ PlaceOfNrrd(const FrameFile & file, const std::string & path, const std::string 
   return { path, begin + skipped.value_or(0), !skipped, begin > 0 };
 }
 
-/** A data file's path as NrrdIO makes it. */
+/** The path of a data file. Throws where the name stands for several files. */
 std::string
-BesideNrrd(const std::string & file, const std::string & name)
+PathOfNrrdData(const std::string & file, const std::string & name)
 {
   if (name == "-" || name.find('%') != std::string::npos)
   {
     throw FileError(file, "its data file is " + name + "; expected the name of one file, or LIST");
   }
-  const bool        isFullPath = name[0] == '/' || (name.size() > 1 && name[1] == ':');
-  const std::size_t slash = file.find_last_of('/');
-  return slash == std::string::npos || isFullPath ? name : file.substr(0, slash + 1) + name;
+  return PathOfDataFile(file, name);
 }
 
 std::vector<DataPlace>
@@ -156,7 +154,7 @@ PlacesOfNrrd(const FrameFile & file, const NrrdHeader & header)
   }
   if (name.rfind("LIST", 0) != 0)
   {
-    places.push_back(PlaceOfNrrd(file, BesideNrrd(file.name, name), skip, 0));
+    places.push_back(PlaceOfNrrd(file, PathOfNrrdData(file.name, name), skip, 0));
     return places;
   }
   const std::string dimension = WithoutBlanks(name.substr(4));
@@ -173,7 +171,7 @@ PlacesOfNrrd(const FrameFile & file, const NrrdHeader & header)
   }
   for (const std::string & line : header.list)
   {
-    places.push_back(PlaceOfNrrd(file, BesideNrrd(file.name, line), skip, 0));
+    places.push_back(PlaceOfNrrd(file, PathOfNrrdData(file.name, line), skip, 0));
   }
   return places;
 }
@@ -216,37 +214,19 @@ IsHeadOfNrrd(const std::string & head, const std::string & /*name*/)
 void
 InspectNrrd(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
 {
-  if (!HasEnding(file.name, { ".nrrd", ".nhdr" })) // ITK looks at the name, too
-  {
-    throw FileError(file.name, "begins as a NRRD file; expected its name to end with .nrrd or .nhdr");
-  }
   const NrrdHeader header = ReadNrrdHeader(file.name, bytes);
   SetPixelOfNrrd(file, header);
   const std::vector<std::uint64_t> sizes = SizesOfNrrd(file.name, header);
   CheckKinds(file.name, header, sizes);
   SetFrameSizes(file, sizes);
-  const bool                   isGzip = IsGzip(file, header);
-  const std::uint64_t          bytesInFile = StoredBytesOf(file);
-  const std::vector<DataPlace> places = PlacesOfNrrd(file, header);
-  if (isGzip && beforeInflating)
+  file.geometry = GeometryOfNrrd(file.name, header, sizes.size());
+  DataCoding coding;
+  if (IsGzip(file, header))
   {
-    beforeInflating(file);
+    coding.compression = InflateContainer::Gzip;
   }
-  for (const DataPlace & place : places)
-  {
-    if (!place.attached)
-    {
-      AddDataFile(file.name, place.path, file.identities);
-    }
-    if (isGzip)
-    {
-      RequireInflates(file.name, place, 0, bytesInFile / places.size(), false);
-    }
-    else
-    {
-      RequireExactly(file.name, place, bytesInFile / places.size(), bytesInFile / file.frames);
-    }
-  }
+  coding.sample = WholeSample(file, WithoutBlanks(InSmallLetters(header.Field("endian"))) == "big");
+  SetDataFrames(file, PlacesOfNrrd(file, header), coding, beforeInflating);
 }
 
 } // namespace sensornoise

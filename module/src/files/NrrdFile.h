@@ -16,8 +16,7 @@ bool
 IsHeadOfNrrd(const std::string & head, const std::string & name);
 
 /** Fills in what a NRRD file says of itself. \a file has its name and identity. Throws FileError unless all of its
- * pixels are there, raw or in a stream of gzip that is whole, in the file or in data files, and unless NrrdIO reads
- * them as they are. */
+ * pixels are there, raw or in a stream of gzip that is whole, in the file or in data files. */
 void
 InspectNrrd(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 

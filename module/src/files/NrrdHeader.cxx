@@ -14,9 +14,6 @@ namespace sensornoise
 {
 namespace
 {
-// NrrdIO puts the line into messages of fixed length.
-constexpr std::size_t MaximumNrrdLineCharacters = 999;
-
 constexpr std::array<const char *, 32> NrrdFields{ "content",
                                                    "number",
                                                    "type",
@@ -50,7 +47,7 @@ constexpr std::array<const char *, 32> NrrdFields{ "content",
                                                    "data file",
                                                    "datafile" };
 
-/** The name of the field that NrrdIO takes `key` for; empty where it is none. */
+/** The name of the field that `key` is, in any of its spellings; empty where it is none. */
 std::string
 FieldNamed(const std::string & key)
 {
@@ -119,7 +116,7 @@ NrrdHeader
 ReadNrrdHeader(const std::string & file, FileBytes & bytes)
 {
   NrrdHeader                 header;
-  TextHeader                 text(file, bytes, MaximumNrrdLineCharacters);
+  TextHeader                 text(file, bytes);
   std::optional<std::string> line = text.Next();
   if (!line || line->size() != 8 || line->rfind("NRRD000", 0) != 0 || line->back() < '1' || line->back() > '5')
   {
@@ -131,7 +128,6 @@ ReadNrrdHeader(const std::string & file, FileBytes & bytes)
   {
     if (!text.LineWasEnded())
     {
-      // which NrrdIO drops
       throw FileError(file, "truncated: the last line of its header has no end");
     }
     if (isList && !line->empty())

@@ -25,8 +25,8 @@ struct NrrdHeader
   Field(const std::string & key) const;
 };
 
-/** Reads the header. Throws FileError for lines that are no fields of NRRD, come twice, or are longer than NrrdIO can
- * say anything about, and where the end of the header is missing. */
+/** Reads the header. Throws FileError for lines that are no fields of NRRD or come twice, and where the end of the
+ * header is missing. */
 NrrdHeader
 ReadNrrdHeader(const std::string & file, FileBytes & bytes);
 

@@ -41,6 +41,17 @@ IsHostBigEndian()
 }
 } // namespace
 
+SampleFormat
+WholeSample(const FrameFile & file, bool isBigEndian)
+{
+  SampleFormat format;
+  format.pixel = file.pixel;
+  format.stored = file.stored;
+  format.bits = static_cast<unsigned>(8 * SizeOf(file.pixel, file.stored));
+  format.isBigEndian = isBigEndian;
+  return format;
+}
+
 std::size_t
 SamplesInGroup(const SampleFormat & format)
 {

@@ -31,6 +31,10 @@ struct SampleFormat
   StoredNumber  stored{ StoredNumber::SameAsPixel }; ///< of Whole
 };
 
+/** Pixels of the type of \a file, each in bytes of its own. */
+SampleFormat
+WholeSample(const FrameFile & file, bool isBigEndian);
+
 /** The smallest number of pixels whose bytes are all their own. */
 std::size_t
 SamplesInGroup(const SampleFormat & format);

@@ -15,6 +15,7 @@ namespace
 {
 constexpr std::uint64_t MaximumHeaderBytes = 4 << 20;
 constexpr std::size_t   MaximumHeaderLines = 100000;
+constexpr std::size_t   MaximumLineBytes = 4096;
 constexpr const char *  Blanks = " \t";
 
 bool
@@ -24,10 +25,9 @@ IsText(int c)
 }
 } // namespace
 
-TextHeader::TextHeader(const std::string & file, FileBytes & bytes, std::size_t maximumLineBytes)
+TextHeader::TextHeader(const std::string & file, FileBytes & bytes)
   : m_File(file)
   , m_Reader(bytes, 0, bytes.Size())
-  , m_MaximumLineBytes(maximumLineBytes)
 {}
 
 std::optional<std::string>
@@ -51,10 +51,10 @@ TextHeader::Next()
     {
       throw FileError(m_File, place + "has the character of code " + std::to_string(c) + "; expected text");
     }
-    if (line.size() >= m_MaximumLineBytes)
+    if (line.size() >= MaximumLineBytes)
     {
       throw FileError(m_File,
-                      place + "has more than " + std::to_string(m_MaximumLineBytes) + " characters; expected fewer");
+                      place + "has more than " + std::to_string(MaximumLineBytes) + " characters; expected fewer");
     }
     line += static_cast<char>(c);
   }
@@ -114,22 +114,34 @@ WholeNumber(const std::string & text)
   return std::strtoull(text.c_str(), nullptr, 10);
 }
 
-bool
-AreNumbers(const std::string & text, std::size_t count)
+std::optional<double>
+FiniteNumber(const std::string & text)
 {
-  const std::vector<std::string> words = WordsOf(text);
-  for (const std::string & word : words)
+  // not strtod(): the program's locale may want a comma
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  double number = 0;
+  if (!(stream >> number) || !std::isfinite(number) || stream.peek() != std::istringstream::traits_type::eof())
   {
-    // not strtod(): the program's locale may want a comma
-    std::istringstream stream(word);
-    stream.imbue(std::locale::classic());
-    double number = 0;
-    if (!(stream >> number) || !std::isfinite(number) || stream.peek() != std::istringstream::traits_type::eof())
-    {
-      return false;
-    }
+    return std::nullopt;
   }
-  return words.size() == count;
+  return number;
+}
+
+std::vector<double>
+NumbersOf(const std::string & text)
+{
+  std::vector<double> numbers;
+  for (const std::string & word : WordsOf(text))
+  {
+    const std::optional<double> number = FiniteNumber(word);
+    if (!number)
+    {
+      return {};
+    }
+    numbers.push_back(*number);
+  }
+  return numbers;
 }
 
 } // namespace sensornoise

@@ -14,12 +14,12 @@
 namespace sensornoise
 {
 
-/** The lines at the head of a MetaImage or NRRD file. They are read as strictly as all readers of such files agree: a
- * line is not longer than a limit, and text without control characters; there are at most 100,000 lines, and 4 MiB. */
+/** The lines at the head of a MetaImage or NRRD file: text without control characters, at most 4096 bytes in a line
+ * (the longest path of Linux), 100,000 lines, and 4 MiB. */
 class TextHeader
 {
 public:
-  TextHeader(const std::string & file, FileBytes & bytes, std::size_t maximumLineBytes);
+  TextHeader(const std::string & file, FileBytes & bytes);
 
   /** The next line, without its end; nothing at the end of the file. Throws FileError. */
   std::optional<std::string>
@@ -49,7 +49,6 @@ public:
 private:
   std::string m_File;
   ByteReader  m_Reader;
-  std::size_t m_MaximumLineBytes;
   std::size_t m_Line{ 0 };
   bool        m_Ended{ false };
 };
@@ -70,9 +69,13 @@ WordsOf(const std::string & text);
 std::optional<std::uint64_t>
 WholeNumber(const std::string & text);
 
-/** Whether these are \a count finite numbers. */
-bool
-AreNumbers(const std::string & text, std::size_t count);
+/** The number that a text is, with a point whatever the program's locale; infinite and NaN: nothing. */
+std::optional<double>
+FiniteNumber(const std::string & text);
+
+/** The finite numbers in a text, which blanks part; empty where a word is none. */
+std::vector<double>
+NumbersOf(const std::string & text);
 
 } // namespace sensornoise
 

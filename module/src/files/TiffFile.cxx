@@ -87,7 +87,7 @@ public:
       CheckOffset(page, offset);
       offset = ReadPage(page, offset);
     }
-    m_File.spacing = m_First.spacing;
+    std::copy(m_First.spacing.begin(), m_First.spacing.end(), m_File.geometry.spacing.begin());
     const std::uint64_t images = ImagesOfImageJ(m_Description).value_or(m_Pages);
     if (m_Pages == 1 && images > 1)
     {
