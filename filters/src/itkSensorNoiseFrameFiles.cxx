@@ -108,34 +108,7 @@ RegionOf(const itk::ImageIOBase & io, std::size_t first, std::size_t count)
   return region;
 }
 
-template <typename TPixel>
-void
-ShiftUp(void * buffer, std::size_t count, unsigned int bits)
-{
-  auto * const pixels = static_cast<TPixel *>(buffer);
-  std::transform(pixels, pixels + count, pixels, [bits](TPixel pixel) { return static_cast<TPixel>(pixel << bits); });
-}
-
-/** Restores the digital numbers of a PNG file, which ITK shifts down by the bits that are not significant. */
-void
-RestoreCodes(const FrameFile & file, void * buffer, std::size_t count)
-{
-  if (file.significantBits == 0)
-  {
-    return;
-  }
-  const auto bits = static_cast<unsigned int>(8 * SizeOf(file.pixel)) - file.significantBits;
-  if (file.pixel == FramePixel::UnsignedChar)
-  {
-    ShiftUp<unsigned char>(buffer, count, bits);
-  }
-  else
-  {
-    ShiftUp<unsigned short>(buffer, count, bits);
-  }
-}
-
-/** Reads \a count frames from \a first on, with the reader of the inspection if there is one, else with \a io. */
+/** By the reader that came with the inspection, or by that of ITK. */
 void
 ReadPixels(const FrameFile & file, itk::ImageIOBase * io, std::size_t first, std::size_t count, void * buffer)
 {
@@ -177,7 +150,6 @@ ReadFile(const FrameFile & file, std::size_t first, std::size_t count, void * bu
     throw PixelErrorOf(file.name, error);
   }
   RequireUnchanged(file);
-  RestoreCodes(file, buffer, file.width * file.height * count);
 }
 } // namespace
 

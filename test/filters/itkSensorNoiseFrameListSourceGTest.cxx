@@ -308,7 +308,7 @@ TEST_F(SensorNoiseFrameListSource, GeometryIsThatOfTheFiles)
   EXPECT_EQ(list->GetOutput()->GetPixel({ { 0, 0, 1 } }), 'b');
 }
 
-// ITK shifts the codes of such a file down by 4 bits: a gain of 1.1 became 0.069.
+// Some readers shift the codes of such a file down by 4 bits: a gain of 1.1 becomes 0.069.
 TEST_F(SensorNoiseFrameListSource, CodesOfAPngStandAsInTheFileHoweverFewBitsAreSignificant)
 {
   sensornoise::test::PngOf png;

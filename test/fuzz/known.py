@@ -68,11 +68,6 @@ def _flip(at: int) -> Change:
     return change
 
 
-def _png_with(kind: bytes, inside: bytes) -> Change:
-    """A chunk before the pixels."""
-    return lambda data: data[:33] + png_chunk(kind, inside) + data[33:]
-
-
 def _png_without(kind: bytes) -> Change:
     def change(data: bytes) -> bytes:
         at = data.index(kind) - 4
@@ -154,8 +149,6 @@ FOUND: list[tuple[str, str, Change]] = [
     ("png list", "a palette without colours", _png_header(WIDTH, HEIGHT, 8, 3)),
     ("png list", "a height of no pixels", _png_header(WIDTH, 0)),
     ("png list", "more rows than pixels", _png_header(WIDTH, HEIGHT + 1)),
-    ("png list", "10 significant bits", _png_with(b"sBIT", b"\x0a")),
-    ("png list", "no significant bits", _png_with(b"sBIT", b"\0")),
 ]
 
 

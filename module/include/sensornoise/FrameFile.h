@@ -101,13 +101,8 @@ struct FrameFile
   StoredNumber        stored{ StoredNumber::SameAsPixel }; ///< type of the numbers in the file
   std::uint64_t       bytes{ 0 };                          ///< size of all pixels after reading [bytes]
 
-  /** Number of significant bits of a PNG whose sBIT chunk declares fewer bits than the samples have [bit]; else 0. ITK
-   * shifts these digital numbers down by the other bits. These are 0, or the file is not accepted, so that shifting up
-   * restores the numbers of the file. */
-  unsigned significantBits{ 0 };
-
-  /** Axes of the frames, the fastest first, if the file declares that the frames differ in more than time. Their sizes,
-   * each above 1, multiply to `frames`. Empty: time alone. ChooseFrames() chooses one channel and plane. */
+  /** The axes of its frames, the fastest first, where the file says that they differ in more than time: their sizes,
+   * each above 1, multiply to `frames`. Empty: time alone. ChooseFrames() takes those of one channel and plane. */
   std::vector<FrameAxis> axes{};
 
   CameraSettings camera{};  ///< settings of the camera that the file records

@@ -3,35 +3,42 @@
 #include "files/PngFile.h"
 
 #include "sensornoise/FrameFile.h"
+#include "files/FrameReader.h"
 #include "files/FrameSizes.h"
 #include "files/Inflate.h"
 #include "files/PngChunks.h"
 #include "files/PngRows.h"
+#include "files/SamplePacking.h"
+#include "files/TextHeader.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace sensornoise
 {
 namespace
 {
-// libpng's own limits, beyond which it ends the reading, and ITK 5.2 with it the program.
-constexpr std::uint64_t MaximumPngSide = 1000000;
-constexpr std::uint64_t MaximumPngChunk = 8000000;
-
 /** What is read from a PNG on the way through its chunks. */
 class PngInspection
 {
 public:
-  PngInspection(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
+  /** Pixels go to \a pixels, which has room for \a room bytes; null: they are checked alone. */
+  PngInspection(FileBytes &             bytes,
+                FrameFile &             file,
+                const BeforeInflating & beforeInflating,
+                unsigned char *         pixels = nullptr,
+                std::uint64_t           room = 0)
     : m_Bytes(bytes)
     , m_Chunks(file.name, bytes)
     , m_File(file)
     , m_BeforeInflating(beforeInflating)
+    , m_Pixels(pixels)
+    , m_Room(room)
   {}
 
   void
@@ -64,12 +71,6 @@ private:
       Refuse(m_HasHeader ? "damaged: two IHDR chunks; expected one"
                          : "damaged: begins with the chunk " + chunk.type + "; expected IHDR first");
     }
-    const std::uint64_t limit = chunk.type == "IDAT" ? MaximumPixelChunk() : MaximumPngChunk;
-    if (chunk.length > limit)
-    {
-      Refuse("its chunk " + chunk.type + " has " + std::to_string(chunk.length) + " bytes; expected at most " +
-             std::to_string(limit));
-    }
     if (chunk.type == "IHDR")
     {
       ReadHeader(chunk);
@@ -78,9 +79,9 @@ private:
     {
       Refuse("a transparent grey value (tRNS): " + SeveralComponents(2));
     }
-    else if (chunk.type == "sBIT")
+    else if (chunk.type == "sCAL" && !m_Inflater)
     {
-      ReadSignificantBits(chunk);
+      ReadScale(chunk);
     }
     else if (chunk.type == "IEND" ? chunk.length != 0 : isCritical && chunk.type != "IDAT")
     {
@@ -92,15 +93,6 @@ private:
       Refuse("damaged: IDAT chunks apart from each other; expected one after the other");
     }
     m_PixelsEnded = m_PixelsEnded || (m_Inflater && chunk.type != "IDAT");
-  }
-
-  /** As libpng reckons it. */
-  std::uint64_t
-  MaximumPixelChunk() const
-  {
-    const std::uint64_t row = m_File.width * SizeOf(m_File.pixel) + 7;
-    const std::uint64_t all = m_File.height * row;
-    return std::max(MaximumPngChunk, all + 6 + 5 * (all / std::min<std::uint64_t>(row, 32566) + 1));
   }
 
   void
@@ -128,17 +120,12 @@ private:
     }
     if (depth != 8 && depth != 16)
     {
-      Refuse(std::to_string(depth) + " bits a pixel, which ITK stretches to 8; expected 8 or 16");
+      Refuse(std::to_string(depth) + " bits a pixel; expected 8 or 16");
     }
     if (header[10] != 0 || header[11] != 0 || header[12] > 1)
     {
       Refuse("damaged: compression " + std::to_string(header[10]) + ", filters " + std::to_string(header[11]) +
              ", interlacing " + std::to_string(header[12]) + "; expected 0, 0, and 0 or 1");
-    }
-    if (width > MaximumPngSide || height > MaximumPngSide)
-    {
-      Refuse(std::to_string(width) + " x " + std::to_string(height) + " pixels; expected at most " +
-             std::to_string(MaximumPngSide) + " along each side, libpng's limit");
     }
     m_Interlaced = header[12] == 1;
     m_File.pixel = depth == 8 ? FramePixel::UnsignedChar : FramePixel::UnsignedShort;
@@ -149,22 +136,22 @@ private:
     }
   }
 
+  /** The size of a pixel: a unit, and width and height as text. What cannot be read is left out: PNG has it as a hint.
+   */
   void
-  ReadSignificantBits(const PngChunk & chunk)
+  ReadScale(const PngChunk & chunk)
   {
-    unsigned char  bits = 0;
-    const unsigned depth = static_cast<unsigned>(8 * SizeOf(m_File.pixel));
-    if (chunk.length == 1)
+    constexpr std::uint64_t longest = 256;
+    std::string             text(static_cast<std::size_t>(std::min(chunk.length, longest)), ' ');
+    m_Bytes.Read(chunk.data, text.data(), text.size());
+    const std::size_t           end = text.find('\0');
+    const bool                  isPair = end != std::string::npos && end > 1;
+    const std::optional<double> width = isPair ? FiniteNumber(text.substr(1, end - 1)) : std::nullopt;
+    const std::optional<double> height = isPair ? FiniteNumber(text.substr(end + 1)) : std::nullopt;
+    if (width && height && *width > 0.0 && *height > 0.0)
     {
-      m_Bytes.Read(chunk.data, &bits, 1);
+      m_File.geometry.spacing = { { *width, *height, 1.0 } };
     }
-    if (m_Inflater || m_HasSignificantBits || bits == 0 || bits > depth)
-    {
-      Refuse("damaged: an sBIT chunk of " + std::to_string(chunk.length) + " bytes that says " + std::to_string(bits) +
-             " bits, or at a wrong place; expected one before the pixels, of 1 to " + std::to_string(depth) + " bits");
-    }
-    m_HasSignificantBits = true;
-    m_File.significantBits = bits < depth ? bits : 0;
   }
 
   void
@@ -177,8 +164,12 @@ private:
     }
     if (!m_Inflater)
     {
-      m_Rows = std::make_unique<PngRows>(
-        m_File.width, m_File.height, SizeOf(m_File.pixel), m_Interlaced, m_File.significantBits);
+      if (m_Pixels != nullptr && m_File.bytes != m_Room)
+      {
+        Refuse("has changed since it was opened: its pixels have " + std::to_string(m_File.bytes) +
+               " bytes; expected " + std::to_string(m_Room));
+      }
+      m_Rows = std::make_unique<PngRows>(m_File.width, m_File.height, SizeOf(m_File.pixel), m_Interlaced, m_Pixels);
       m_Inflater = std::make_unique<Inflater>(
         InflateContainer::Zlib, m_Rows->Bytes(), [this](const unsigned char * bytes, std::size_t count) {
           m_Rows->Add(bytes, count);
@@ -205,26 +196,42 @@ private:
     {
       Refuse("damaged: " + m_Rows->Error());
     }
-    if (m_Rows->HasLowerBits())
-    {
-      Refuse("its sBIT chunk says that " + std::to_string(m_File.significantBits) + " of " +
-             std::to_string(8 * SizeOf(m_File.pixel)) +
-             " bits are significant, but the others are not 0, and ITK would drop them; expected a file without that "
-             "chunk");
-    }
   }
 
   FileBytes &               m_Bytes;
   PngChunks                 m_Chunks;
   FrameFile &               m_File;
   const BeforeInflating &   m_BeforeInflating;
+  unsigned char *           m_Pixels;
+  std::uint64_t             m_Room; // of m_Pixels [bytes]
   bool                      m_HasHeader{ false };
   bool                      m_Interlaced{ false };
-  bool                      m_HasSignificantBits{ false };
   bool                      m_PixelsEnded{ false };
   std::uint64_t             m_PixelBytes{ 0 };
   std::unique_ptr<PngRows>  m_Rows;
   std::unique_ptr<Inflater> m_Inflater;
+};
+
+/** Reads the frame of a PNG by the same inspection, which hands out the pixels this time. */
+class PngFrame : public FrameReader
+{
+public:
+  void
+  Read(const FrameFile & file, std::size_t /*first*/, std::size_t count, void * buffer) const override
+  {
+    if (count == 0)
+    {
+      return;
+    }
+    FileBytes bytes(file.name);
+    FrameFile found;
+    found.name = file.name;
+    PngInspection(bytes, found, m_Before, static_cast<unsigned char *>(buffer), file.bytes).Run();
+    ToOwnByteOrder(true, SizeOf(file.pixel), file.width * file.height, buffer);
+  }
+
+private:
+  BeforeInflating m_Before{};
 };
 } // namespace
 
@@ -238,6 +245,7 @@ void
 InspectPng(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
 {
   PngInspection(bytes, file, beforeInflating).Run();
+  file.reader = std::make_shared<PngFrame>();
 }
 
 } // namespace sensornoise

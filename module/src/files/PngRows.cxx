@@ -43,34 +43,31 @@ Unfilter(unsigned char                      filter,
 }
 } // namespace
 
-PngRows::PngRows(std::size_t width,
-                 std::size_t height,
-                 std::size_t bytesPerPixel,
-                 bool        interlaced,
-                 unsigned    significantBits)
-  : m_BytesPerPixel(bytesPerPixel)
-  , m_SignificantBits(significantBits)
+PngRows::PngRows(std::size_t     width,
+                 std::size_t     height,
+                 std::size_t     bytesPerPixel,
+                 bool            interlaced,
+                 unsigned char * pixels)
+  : m_Width(width)
+  , m_BytesPerPixel(bytesPerPixel)
+  , m_Pixels(pixels)
 {
-  struct Grid
-  {
-    std::size_t x, y, stepX, stepY;
-  };
-  static constexpr Grid whole{ 0, 0, 1, 1 };
-  static constexpr Grid adam7[]{ { 0, 0, 8, 8 }, { 4, 0, 8, 8 }, { 0, 4, 4, 8 }, { 2, 0, 4, 4 },
-                                 { 0, 2, 2, 4 }, { 1, 0, 2, 2 }, { 0, 1, 1, 2 } };
+  static constexpr Pass whole{ 0, 0, 1, 1, 0, 0 };
+  static constexpr Pass adam7[]{ { 0, 0, 8, 8, 0, 0 }, { 4, 0, 8, 8, 0, 0 }, { 0, 4, 4, 8, 0, 0 }, { 2, 0, 4, 4, 0, 0 },
+                                 { 0, 2, 2, 4, 0, 0 }, { 1, 0, 2, 2, 0, 0 }, { 0, 1, 1, 2, 0, 0 } };
   const std::size_t     passes = interlaced ? 7 : 1;
   for (std::size_t i = 0; i < passes; ++i)
   {
-    const Grid &      grid = interlaced ? adam7[i] : whole;
-    const std::size_t columns = (width + grid.stepX - 1 - std::min(grid.x, width + grid.stepX - 1)) / grid.stepX;
-    const std::size_t rows = (height + grid.stepY - 1 - std::min(grid.y, height + grid.stepY - 1)) / grid.stepY;
-    if (columns > 0 && rows > 0)
+    Pass pass = interlaced ? adam7[i] : whole;
+    pass.columns = (width + pass.stepX - 1 - std::min(pass.x, width + pass.stepX - 1)) / pass.stepX;
+    pass.rows = (height + pass.stepY - 1 - std::min(pass.y, height + pass.stepY - 1)) / pass.stepY;
+    if (pass.columns > 0 && pass.rows > 0)
     {
-      m_Passes.push_back({ columns * bytesPerPixel, rows });
-      m_Bytes += std::uint64_t{ rows } * (columns * bytesPerPixel + 1);
+      m_Passes.push_back(pass);
+      m_Bytes += std::uint64_t{ pass.rows } * (pass.columns * bytesPerPixel + 1);
     }
   }
-  if (significantBits > 0)
+  if (pixels != nullptr)
   {
     m_Current.resize(width * bytesPerPixel);
     m_Previous.resize(width * bytesPerPixel);
@@ -94,16 +91,17 @@ PngRows::Add(const unsigned char * bytes, std::size_t count)
       ++m_Filled;
       continue;
     }
+    const std::size_t rowBytes = m_Passes[m_Pass].columns * m_BytesPerPixel;
     const std::size_t have = m_Filled - 1;
-    const std::size_t used = std::min(count, m_Passes[m_Pass].rowBytes - have);
-    if (m_SignificantBits > 0)
+    const std::size_t used = std::min(count, rowBytes - have);
+    if (m_Pixels != nullptr)
     {
       std::copy(bytes, bytes + used, m_Current.begin() + static_cast<std::ptrdiff_t>(have));
     }
     bytes += used;
     count -= used;
     m_Filled += used;
-    if (m_Filled == m_Passes[m_Pass].rowBytes + 1)
+    if (m_Filled == rowBytes + 1)
     {
       EndRow();
     }
@@ -113,24 +111,34 @@ PngRows::Add(const unsigned char * bytes, std::size_t count)
 void
 PngRows::EndRow()
 {
-  if (m_SignificantBits > 0)
+  const Pass & pass = m_Passes[m_Pass];
+  if (m_Pixels != nullptr)
   {
-    const std::size_t count = m_Passes[m_Pass].rowBytes;
-    Unfilter(m_Filter, m_BytesPerPixel, count, m_Current, m_Previous);
-    const unsigned lower = 8 * static_cast<unsigned>(m_BytesPerPixel) - m_SignificantBits;
-    for (std::size_t i = 0; i < count; i += m_BytesPerPixel)
-    {
-      const unsigned code = m_BytesPerPixel == 2 ? m_Current[i] * 256U + m_Current[i + 1] : m_Current[i];
-      m_HasLowerBits = m_HasLowerBits || (code & ((1U << lower) - 1)) != 0;
-    }
+    Unfilter(m_Filter, m_BytesPerPixel, pass.columns * m_BytesPerPixel, m_Current, m_Previous);
+    PlaceRow(pass);
     m_Current.swap(m_Previous);
   }
   m_Filled = 0;
-  if (++m_Row == m_Passes[m_Pass].rows)
+  if (++m_Row == pass.rows)
   {
     m_Row = 0;
     ++m_Pass;
     std::fill(m_Previous.begin(), m_Previous.end(), static_cast<unsigned char>(0));
+  }
+}
+
+void
+PngRows::PlaceRow(const Pass & pass)
+{
+  unsigned char * to = m_Pixels + ((pass.y + m_Row * pass.stepY) * m_Width + pass.x) * m_BytesPerPixel;
+  if (pass.stepX == 1)
+  {
+    std::copy_n(m_Current.begin(), pass.columns * m_BytesPerPixel, to);
+    return;
+  }
+  for (std::size_t i = 0; i < pass.columns; ++i, to += pass.stepX * m_BytesPerPixel)
+  {
+    std::copy_n(m_Current.begin() + static_cast<std::ptrdiff_t>(i * m_BytesPerPixel), m_BytesPerPixel, to);
   }
 }
 

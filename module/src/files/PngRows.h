@@ -16,8 +16,13 @@ namespace sensornoise
 class PngRows
 {
 public:
-  /** If \a significantBits is above 0, rows are unfiltered, too, and codes are looked at below these bits. */
-  PngRows(std::size_t width, std::size_t height, std::size_t bytesPerPixel, bool interlaced, unsigned significantBits);
+  /** Undoes filters and interlacing into \a pixels, which has room for all pixels, with the highest byte first; null:
+   * the rows are checked alone. */
+  PngRows(std::size_t     width,
+          std::size_t     height,
+          std::size_t     bytesPerPixel,
+          bool            interlaced,
+          unsigned char * pixels = nullptr);
 
   /** The bytes of all rows together. */
   std::uint64_t
@@ -37,35 +42,32 @@ public:
     return m_Error;
   }
 
-  /** Whether a code has bits below the significant ones. */
-  bool
-  HasLowerBits() const
-  {
-    return m_HasLowerBits;
-  }
-
 private:
+  /** The pixels of a pass of Adam7, or all of them. */
   struct Pass
   {
-    std::size_t rowBytes; // without the filter
+    std::size_t x, y, stepX, stepY;
+    std::size_t columns;
     std::size_t rows;
   };
 
   void
   EndRow();
+  void
+  PlaceRow(const Pass & pass);
 
   std::vector<Pass>          m_Passes;
+  std::size_t                m_Width;
   std::size_t                m_BytesPerPixel;
-  unsigned                   m_SignificantBits;
+  unsigned char *            m_Pixels;
   std::uint64_t              m_Bytes{ 0 };
   std::size_t                m_Pass{ 0 };
   std::size_t                m_Row{ 0 };
   std::size_t                m_Filled{ 0 }; // bytes of the row that have come, with the filter
   unsigned char              m_Filter{ 0 };
-  std::vector<unsigned char> m_Current; // only where rows are unfiltered
+  std::vector<unsigned char> m_Current; // only where there are m_Pixels
   std::vector<unsigned char> m_Previous;
   std::string                m_Error;
-  bool                       m_HasLowerBits{ false };
 };
 
 } // namespace sensornoise
