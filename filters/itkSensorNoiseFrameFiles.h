@@ -41,8 +41,7 @@ struct FrameList
   std::size_t            width{ 0 };  // pixels
   std::size_t            height{ 0 }; // pixels
   std::size_t            frames{ 0 };
-  bool                   streams{ false }; // can be read a few frames at a time
-  std::uint64_t          bytes{ 0 };       // of the pixels of all frames, uncompressed
+  std::uint64_t          bytes{ 0 }; // of the pixels of all frames, uncompressed
   FrameListGeometry      geometry;
   CameraSettings         camera; // from the first file
 
@@ -50,13 +49,12 @@ struct FrameList
   Names() const;
 };
 
-/** Checks every file (InspectFrameFile()), then opens it with ITK, and requires that ITK reads the same properties. No
- * pixel is kept.
+/** Checks every file (InspectFrameFile()). No pixel is kept.
  *
  * Each file must be a complete image with one grey value of type unsigned char, unsigned short, short, float or double
  * for each pixel. All files must have the same size and type. A 3-D file is a stack. Several stacks are one burst, in
  * the given order. A list of frames holds 2-D files, or 3-D files of one slice, and no stack. The formats are the list
- * of FrameFormats(), if the program has registered their ImageIO.
+ * of FrameFormats(). A program has to register no ImageIO.
  *
  * The function \a beforeInflating is called for each compressed file before the file is inflated. The text \a rawLayout
  * is the layout of the frames in files without a header. ReadRawLayout() describes it, and throws if the text is not a
@@ -71,7 +69,7 @@ OpenFrames(const std::vector<std::string> & names,
            const FrameChoice &              choice = {});
 
 /** Reads \a count consecutive frames, beginning with the frame \a first, without conversion. The \a buffer has room for
- * width x height x count pixels of the type of the list. If stacks do not stream, only all frames can be read together.
+ * width x height x count pixels of the type of the list.
  *
  * Throws FileError if a file has changed since OpenFrames(), before or during the reading, or if its pixels cannot be
  * read. */

@@ -44,7 +44,7 @@ namespace itk
  *
  * All formats stream: only the requested frames are held in memory. A frame is always read completely, even if only a
  * part is requested. Several threads read at once, except from a compressed MetaImage or NRRD stack: it is one stream,
- * which is decompressed from its beginning when a frame before those of the last reading is requested.
+ * which is decompressed from its beginning when an earlier frame is requested.
  *
  * A file that has changed since the check, in its size, time or place on the disk, is also an error. The error is
  * thrown when the file is read. After an error the next Update() checks the files again and uses their new state.
@@ -140,8 +140,8 @@ public:
   std::string
   GetWarning();
 
-  /** Returns whether a part of the frames can be read without the others. Checks the files first if they are not yet
-   * checked. */
+  /** Returns true: of every format a part of the frames can be read without the others. Checks the files first if they
+   * are not yet checked. */
   bool
   CanStream();
 
@@ -151,7 +151,7 @@ protected:
 
   void
   GenerateOutputInformation() override;
-  /** Enlarges the requested region to whole frames, and to all frames if the files do not stream. */
+  /** Enlarges the requested region to whole frames. */
   void
   EnlargeOutputRequestedRegion(DataObject * output) override;
   void
@@ -177,9 +177,5 @@ SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
 #undef SensorNoise_EXTERN
 
 } // namespace itk
-
-#ifdef ITK_IO_FACTORY_REGISTER_MANAGER
-#  include "itkImageIOFactoryRegisterManager.h" // registers the formats that the program links, as ImageFileReader does
-#endif
 
 #endif

@@ -48,41 +48,6 @@ RequireFormat(const std::string & output, bool isStack)
   }
 }
 
-/** One frame after the other, however the file can be read. */
-template <typename TPixel>
-class FrameReader
-{
-public:
-  explicit FrameReader(const FrameList & list)
-    : m_List(list)
-    , m_Frame(list.width * list.height)
-  {
-    if (!m_List.streams && m_List.frames > 1)
-    {
-      m_All.resize(m_Frame.size() * list.frames);
-      ReadFrames(list, 0, list.frames, m_All.data());
-    }
-  }
-  const std::vector<TPixel> &
-  Read(std::size_t frame)
-  {
-    if (m_All.empty())
-    {
-      ReadFrames(m_List, frame, 1, m_Frame.data());
-    }
-    else
-    {
-      std::copy_n(m_All.begin() + static_cast<std::ptrdiff_t>(frame * m_Frame.size()), m_Frame.size(), m_Frame.begin());
-    }
-    return m_Frame;
-  }
-
-private:
-  const FrameList &   m_List;
-  std::vector<TPixel> m_Frame;
-  std::vector<TPixel> m_All;
-};
-
 /** An image of the list's size and place. */
 template <typename TImage>
 typename TImage::Pointer
@@ -117,12 +82,12 @@ void
 DenoiseFrames(const FrameList & list, const NoiseModelFile & report, const Denoiser & denoise, TOutput * output)
 {
   const GeneralizedAnscombe transform(report.model);
-  FrameReader<TPixel>       reader(list);
+  std::vector<TPixel>       levels(list.width * list.height);
   bool                      isWarned = false;
   for (std::size_t t = 0; t < list.frames; ++t)
   {
-    const std::vector<TPixel> & levels = reader.Read(t);
-    const std::string           name =
+    ReadFrames(list, t, 1, levels.data());
+    const std::string name =
       list.files.front().name + (list.isStack ? ", frame " + std::to_string(t) + "," : std::string());
     const std::string odd = RequireScale(levels, report, name);
     if (!odd.empty() && !isWarned)
@@ -147,8 +112,7 @@ WriteAs(const FrameList & list, const NoiseModelFile & report, const Denoiser & 
   const double pixels =
     static_cast<double>(list.width) * static_cast<double>(list.height) * static_cast<double>(list.frames);
   file.RequireRoom(LowerCaseEnding(name) == ".png" ? 0.0 : pixels * sizeof(TOutput));
-  RequireMemory(pixels * sizeof(TOutput) + (list.streams ? 0.0 : static_cast<double>(list.bytes)),
-                "the output " + name);
+  RequireMemory(pixels * sizeof(TOutput), "the output " + name);
   const auto image = MakeLike<ImageType>(list);
   DenoiseFrames<TPixel>(list, report, denoise, image->GetBufferPointer());
   const auto writer = itk::ImageFileWriter<ImageType>::New();

@@ -16,9 +16,9 @@ namespace sensornoise::tools
  *
  * \a rawLayout as OpenFrames() takes it.
  *
- * The output takes its name when it is complete. All of it is held in memory, and of the input one frame, or all where
- * its file cannot be read in parts. What is odd about the scale of the levels is said on standard error. Throws
- * std::exception, one sentence, for what cannot be read or written, or is on another scale than the report. */
+ * The output takes its name when it is complete. All of it is held in memory, and of the input one frame. What is odd
+ * about the scale of the levels is said on standard error. Throws std::exception, one sentence, for what cannot be read
+ * or written, or is on another scale than the report. */
 void
 WriteDenoised(const std::string &    input,
               const std::string &    output,

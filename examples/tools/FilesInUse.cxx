@@ -2,18 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/FilesInUse.h"
 
-#include "files/FileIdentity.h"
+#include "files/FrameFormats.h"
 #include "tools/LowerCase.h"
 #include "tools/OutputTarget.h"
 
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <sys/stat.h>
-#include <vector>
 
 namespace sensornoise::tools
 {
@@ -41,65 +37,6 @@ IdentityOf(const OutputTarget & target)
                       : target.path);
 }
 
-/** The other file of a Photron camera's recording. */
-std::vector<fs::path>
-OtherFilesOf(const fs::path & recording)
-{
-  std::vector<fs::path> files;
-  for (const char * const ending : { ".mraw", ".MRAW", ".cihx", ".CIHX", ".cih", ".CIH" })
-  {
-    fs::path        other = recording;
-    std::error_code ignored;
-    if (fs::is_regular_file(other.replace_extension(ending), ignored) && other != recording)
-    {
-      files.push_back(other);
-    }
-  }
-  return files;
-}
-
-/** The files that the header of a MetaImage or NRRD file names, and what else belongs to a file. */
-std::vector<fs::path>
-DataFilesOf(const fs::path & header)
-{
-  if (const std::string ending = LowerCaseEnding(header); ending == ".mraw" || ending == ".cihx" || ending == ".cih")
-  {
-    return OtherFilesOf(header);
-  }
-  const std::set<std::string> headers{ ".mha", ".mhd", ".nhdr", ".nrrd" };
-  std::vector<fs::path>       files;
-  if (headers.count(LowerCaseEnding(header)) == 0 || !fs::is_regular_file(header))
-  {
-    return files;
-  }
-  constexpr std::size_t longest = 1 << 20; // of a header, a list of files included
-  std::string           text(longest, '\0');
-  std::ifstream         file(header, std::ios::binary);
-  file.read(text.data(), longest);
-  text.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
-  std::istringstream lines(text);
-  bool               isList = false;
-  for (std::string line; std::getline(lines, line);)
-  {
-    const auto        separator = line.find_first_of("=:");
-    const std::string key = LowerCase(line.substr(0, separator));
-    const bool        isKey = key.rfind("elementdatafile", 0) == 0 || key == "data file" || key == "datafile";
-    if (isKey || isList)
-    {
-      const std::string value = isList || separator == std::string::npos ? line : line.substr(separator + 1);
-      const auto        first = value.find_first_not_of(" \t\r");
-      const auto        last = value.find_last_not_of(" \t\r");
-      const std::string name = first == std::string::npos ? "" : value.substr(first, last + 1 - first);
-      std::error_code   ignored;
-      isList = isList || LowerCase(name).rfind("list", 0) == 0;
-      if (!name.empty() && fs::is_regular_file(header.parent_path() / name, ignored))
-      {
-        files.push_back(header.parent_path() / name);
-      }
-    }
-  }
-  return files;
-}
 } // namespace
 
 void
@@ -114,10 +51,10 @@ FilesInUse::Read(const std::string & file, const std::string & role)
     }
   };
   use(file, role + " " + file);
-  for (const fs::path & data : DataFilesOf(file))
+  for (const std::string & data : DataFilesOf(file))
   {
     const bool isHeader = LowerCaseEnding(data).rfind(".cih", 0) == 0;
-    use(data, data.string() + (isHeader ? ", the header of " : ", the pixels of ") + role + " " + file);
+    use(data, data + (isHeader ? ", the header of " : ", the pixels of ") + role + " " + file);
   }
 }
 

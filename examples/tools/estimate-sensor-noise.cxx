@@ -40,17 +40,6 @@ constexpr int ExitDone = 0;
 constexpr int ExitWrongUse = 2;
 constexpr int ExitNothingEstimated = 3;
 
-void
-TellWhetherHeldInMemory(const sensornoise::FrameList & frames)
-{
-  constexpr std::uint64_t gibibyte = std::uint64_t{ 1 } << 30;
-  if (!frames.streams && frames.bytes > gibibyte)
-  {
-    std::cerr << "note: " << frames.files.front().name << " cannot be read in parts; all of its "
-              << (frames.bytes >> 20) << " MiB are held in memory (a .mha file, or a list of files, would not be)\n";
-  }
-}
-
 /** The report to its file first, which is there even if nobody takes the table; then the table, and JSON for standard
  * output. */
 void
@@ -243,7 +232,6 @@ Run(EstimateOptions & options)
   const sensornoise::FrameList frames = sensornoise::OpenFrames(options.files, {}, options.raw, options.choice);
   options.SelectExposures(listed == 1 || frames.isStack ? frames.frames : listed);
   TellWarningOf(frames);
-  TellWhetherHeldInMemory(frames);
 
   std::string         plotText;
   const MeasuredStack measured = EstimateStack(options, frames, maps ? &*maps : nullptr, plot ? &plotText : nullptr);

@@ -17,18 +17,13 @@
  *=========================================================================*/
 #include "itkSensorNoiseFrameFiles.h"
 
-#include "itkSensorNoiseOpenImageIO.h"
 #include "base/FreeMemory.h"
 #include "sensornoise/FrameFile.h"
-#include "files/FrameFormats.h"
 #include "files/FrameReader.h"
 #include "files/RawLayout.h"
-#include "files/StoredNumber.h"
-#include "files/UsableGeometry.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <exception>
 #include <iterator>
 #include <optional>
 #include <stdexcept>
@@ -71,21 +66,7 @@ RequireMemoryForFrame(const FrameFile & file)
                 file.name + ": a frame of " + size + " pixels");
 }
 
-/** Returns spacing, origin and direction of a file, as ImageFileReader does. Values that an image cannot have are
- * replaced by the defaults. */
-FrameListGeometry
-GeometryOf(const itk::ImageIOBase & io)
-{
-  FrameListGeometry  geometry;
-  const unsigned int axes = std::min(io.GetNumberOfDimensions(), 3u);
-  for (unsigned int axis = 0; axis < axes; ++axis)
-  {
-    geometry.spacing[axis] = io.GetSpacing(axis);
-  }
-  return UsableGeometry(geometry);
-}
-
-/** Returns the geometry with the default spacing and origin along the third axis, for a file with a single frame. */
+/** Of one slice: what it says of x and y. */
 FrameListGeometry
 WithoutTime(FrameListGeometry geometry)
 {
@@ -94,60 +75,18 @@ WithoutTime(FrameListGeometry geometry)
   return geometry;
 }
 
-itk::ImageIORegion
-RegionOf(const itk::ImageIOBase & io, std::size_t first, std::size_t count)
-{
-  itk::ImageIORegion region(io.GetNumberOfDimensions());
-  for (unsigned int axis = 0; axis < io.GetNumberOfDimensions(); ++axis)
-  {
-    // a fourth axis has one element
-    const bool isTime = axis == 2 && io.GetDimensions(axis) > 1;
-    region.SetSize(axis, isTime ? count : io.GetDimensions(axis));
-    region.SetIndex(axis, isTime ? static_cast<itk::ImageIORegion::IndexValueType>(first) : 0);
-  }
-  return region;
-}
-
-/** By the reader that came with the inspection, or by that of ITK. */
-void
-ReadPixels(const FrameFile & file, itk::ImageIOBase * io, std::size_t first, std::size_t count, void * buffer)
-{
-  if (file.reader)
-  {
-    file.reader->Read(file, first, count, buffer);
-    return;
-  }
-  io->SetUseStreamedReading(count < file.frames);
-  io->SetIORegion(RegionOf(*io, first, count));
-  io->Read(buffer);
-  ConvertStored(file.stored, file.width * file.height * count, buffer);
-}
-
 void
 ReadFile(const FrameFile & file, std::size_t first, std::size_t count, void * buffer)
 {
-  itk::ImageIOBase::Pointer io;
-  if (file.reader)
-  {
-    RequireUnchanged(file);
-  }
-  else
-  {
-    io = OpenImageIO(file);
-  }
+  RequireUnchanged(file);
   try
   {
-    ReadPixels(file, io, first, count, buffer);
+    file.reader->Read(file, first, count, buffer);
   }
   catch (const FileError &)
   {
-    RequireUnchanged(file);
+    RequireUnchanged(file); // that would be the better reason
     throw;
-  }
-  catch (const std::exception & error)
-  {
-    RequireUnchanged(file); // a changed file explains the error better
-    throw PixelErrorOf(file.name, error);
   }
   RequireUnchanged(file);
 }
@@ -207,8 +146,6 @@ OpenFrames(const std::vector<std::string> & names,
                         " has one; expected stacks alone, or one frame a file");
     }
     requireFitting(file);
-    // the reader of ITK must find the same frames as the inspection
-    const itk::ImageIOBase::Pointer io = file.reader ? nullptr : OpenImageIO(file);
     if (list.files.empty())
     {
       list.isStack = file.frames > 1;
@@ -216,11 +153,8 @@ OpenFrames(const std::vector<std::string> & names,
       list.width = file.width;
       list.height = file.height;
       list.camera = file.camera;
-      list.geometry = file.reader ? file.geometry : GeometryOf(*io);
-      list.geometry = list.isStack ? list.geometry : WithoutTime(list.geometry);
+      list.geometry = list.isStack ? file.geometry : WithoutTime(file.geometry);
     }
-    const bool streams = file.frames == 1 || file.reader || io->CanStreamRead();
-    list.streams = streams && (list.files.empty() || list.streams);
     list.bytes += file.bytes;
     list.frames += file.frames;
     list.files.push_back(file);

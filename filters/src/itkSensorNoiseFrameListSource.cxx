@@ -136,7 +136,8 @@ template <typename TOutputStack>
 bool
 SensorNoiseFrameListSource<TOutputStack>::CanStream()
 {
-  return this->GetFrameList().streams;
+  this->GetFrameList(); // for its errors
+  return true;
 }
 
 template <typename TOutputStack>
@@ -181,11 +182,8 @@ SensorNoiseFrameListSource<TOutputStack>::EnlargeOutputRequestedRegion(DataObjec
 {
   auto * const     stack = itkDynamicCastInDebugMode<OutputStackType *>(output);
   OutputRegionType region = stack->GetLargestPossibleRegion();
-  if (m_FrameList.streams)
-  {
-    region.SetIndex(2, stack->GetRequestedRegion().GetIndex(2));
-    region.SetSize(2, stack->GetRequestedRegion().GetSize(2));
-  }
+  region.SetIndex(2, stack->GetRequestedRegion().GetIndex(2));
+  region.SetSize(2, stack->GetRequestedRegion().GetSize(2));
   stack->SetRequestedRegion(region);
 }
 
@@ -201,7 +199,7 @@ SensorNoiseFrameListSource<TOutputStack>::GenerateData()
   OutputPixelType *      buffer = this->GetOutput()->GetBufferPointer();
   const bool             isSequential =
     m_FrameList.isStack && std::any_of(m_FrameList.files.begin(), m_FrameList.files.end(), [](const auto & file) {
-      return !file.reader || file.reader->IsSequential();
+      return file.reader->IsSequential();
     });
   const std::size_t parts = isSequential ? 1 : this->GetNumberOfWorkUnits();
   // of a list, frame by frame: each may be the last before an abort
@@ -268,8 +266,7 @@ SensorNoiseFrameListSource<TOutputStack>::PrintSelf(std::ostream & os, Indent in
   os << indent << "FrameList: ";
   if (m_IsOpen)
   {
-    os << sensornoise::DescribeFrame(m_FrameList) << ", frames: " << m_FrameList.frames
-       << (m_FrameList.streams ? ", streams" : ", read whole") << std::endl;
+    os << sensornoise::DescribeFrame(m_FrameList) << ", frames: " << m_FrameList.frames << std::endl;
   }
   else
   {

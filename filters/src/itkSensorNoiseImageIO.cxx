@@ -32,15 +32,13 @@ namespace itk
 {
 namespace
 {
-/** Returns the format of a file, from its first bytes and its name, if this library reads it without ITK; else null. */
+/** The file's format by its head and name, unless ITK has a class of its own for it; null: none. */
 const sensornoise::FrameFormat *
 OurFormatOf(const std::string & name)
 {
-  sensornoise::FileBytes bytes(name);
-  std::string            head(512, '\0');
-  head.resize(bytes.ReadSome(0, head.data(), head.size()));
-  const sensornoise::FrameFormat * const format = sensornoise::FindFrameFormat(head, name);
-  return format != nullptr && format->imageIO == nullptr ? format : nullptr;
+  sensornoise::FileBytes                 bytes(name);
+  const sensornoise::FrameFormat * const format = sensornoise::FindFrameFormat(sensornoise::HeadOf(bytes), name);
+  return format != nullptr && !format->hasITKReader ? format : nullptr;
 }
 } // namespace
 
@@ -128,12 +126,6 @@ void
 SensorNoiseImageIO::ReadImageInformation()
 {
   WithFileErrors([this] { this->Inspect(this->GetFileName()); });
-  if (!m_File.reader)
-  {
-    itkExceptionMacro(<< m_File.name << ": of format " << m_File.format->name << ", which ITK's "
-                      << m_File.format->imageIO
-                      << " reads; expected camera raw, SER, MRAW, TIFF, FITS, NPY, PGM or raw frames");
-  }
   const unsigned int dimensions = m_File.frames > 1 ? 3 : 2;
   this->SetNumberOfDimensions(dimensions);
   this->SetNumberOfComponents(1);

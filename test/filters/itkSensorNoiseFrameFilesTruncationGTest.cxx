@@ -21,7 +21,7 @@ void
 AnyTruncationIsNoticed(const std::vector<std::string> & files, const std::string & cut)
 {
   SCOPED_TRACE(cut);
-  ReadsWhatWasWritten<unsigned short>(files, files.size() == 1, OpenFrames(files).streams);
+  ReadsWhatWasWritten<unsigned short>(files, files.size() == 1);
   const std::size_t size = fs::file_size(cut);
   const std::string name = files.size() == 1 ? files.front() : cut;
   std::size_t       refused = 0;

@@ -29,24 +29,24 @@ TEST_F(SensorNoiseFrameListSource, AListReadsWhatWasWritten)
 {
   for (const std::string extension : { ".tif", ".png", ".mha", ".nrrd" })
   {
-    ReadsWhatWasWritten<unsigned short>(WriteList<unsigned short>(extension), false, true);
-    ReadsWhatWasWritten<unsigned char>(WriteList<unsigned char>(extension), false, true);
+    ReadsWhatWasWritten<unsigned short>(WriteList<unsigned short>(extension), false);
+    ReadsWhatWasWritten<unsigned char>(WriteList<unsigned char>(extension), false);
   }
-  ReadsWhatWasWritten<short>(WriteList<short>(".tif"), false, true);
-  ReadsWhatWasWritten<float>(WriteList<float>(".tif"), false, true);
-  ReadsWhatWasWritten<double>(WriteList<double>(".mha"), false, true);
+  ReadsWhatWasWritten<short>(WriteList<short>(".tif"), false);
+  ReadsWhatWasWritten<float>(WriteList<float>(".tif"), false);
+  ReadsWhatWasWritten<double>(WriteList<double>(".mha"), false);
 }
 
 TEST_F(SensorNoiseFrameListSource, AStackReadsWhatWasWritten)
 {
   for (const bool compress : { false, true })
   {
-    ReadsWhatWasWritten<unsigned short>({ WriteStack<unsigned short>("s.mha", compress) }, true, true);
-    ReadsWhatWasWritten<short>({ WriteStack<short>("s.mhd", compress) }, true, true);
-    ReadsWhatWasWritten<float>({ WriteStack<float>("s.nrrd", compress) }, true, true);
-    ReadsWhatWasWritten<double>({ WriteStack<double>("s.nhdr", compress) }, true, true);
-    ReadsWhatWasWritten<unsigned char>({ WriteStack<unsigned char>("s.tif", compress) }, true, true);
-    ReadsWhatWasWritten<float>({ WriteStack<float>("s.tif", compress) }, true, true);
+    ReadsWhatWasWritten<unsigned short>({ WriteStack<unsigned short>("s.mha", compress) }, true);
+    ReadsWhatWasWritten<short>({ WriteStack<short>("s.mhd", compress) }, true);
+    ReadsWhatWasWritten<float>({ WriteStack<float>("s.nrrd", compress) }, true);
+    ReadsWhatWasWritten<double>({ WriteStack<double>("s.nhdr", compress) }, true);
+    ReadsWhatWasWritten<unsigned char>({ WriteStack<unsigned char>("s.tif", compress) }, true);
+    ReadsWhatWasWritten<float>({ WriteStack<float>("s.tif", compress) }, true);
   }
 }
 
@@ -58,10 +58,10 @@ TEST_F(SensorNoiseFrameListSource, SeveralStacksAreOneBurst)
     const std::vector<std::string> files{ Write<short, 3>("a" + extension, { { width, height, 2 } }, 0),
                                           Write<short, 3>("b" + extension, { { width, height, 1 } }, 2),
                                           Write<short, 3>("c" + extension, { { width, height, 1 } }, 3) };
-    ReadsWhatWasWritten<short>(files, true, true);
+    ReadsWhatWasWritten<short>(files, true);
   }
   const std::string mixed = Write<short, 3>("b.nrrd", { { width, height, 2 } }, 2);
-  ReadsWhatWasWritten<short>({ Path("a.mha"), mixed }, true, true);
+  ReadsWhatWasWritten<short>({ Path("a.mha"), mixed }, true);
 }
 
 TEST_F(SensorNoiseFrameListSource, AListOfSlicesOfThreeDimensionsReadsWhatWasWritten)
@@ -71,7 +71,7 @@ TEST_F(SensorNoiseFrameListSource, AListOfSlicesOfThreeDimensionsReadsWhatWasWri
   {
     files.push_back(Write<short, 3>("slice_" + std::to_string(t) + ".mha", { { width, height, 1 } }, t));
   }
-  ReadsWhatWasWritten<short>(files, false, true);
+  ReadsWhatWasWritten<short>(files, false);
 }
 
 // ImageSeriesReader would put images of height 1 below each other and images of one pixel beside each other.
@@ -111,7 +111,7 @@ TEST_F(SensorNoiseFrameListSource, AListOfDataFilesReadsWhatWasWrittenAndIsCheck
     header += "part" + std::to_string(t) + "\n";
   }
   const std::string list = WriteText("list.mhd", header);
-  ReadsWhatWasWritten<unsigned short>({ list }, true, true);
+  ReadsWhatWasWritten<unsigned short>({ list }, true);
   CutOff(Path("part2"), 1);
   OpeningIsRefusedWith({ list }, { "list.mhd", "part2", "69 bytes", "expected 70" });
   fs::remove(Path("part2"));

@@ -147,7 +147,6 @@ TEST_F(RawCameraFrames, AListOfThemIsFramesInTimeOrder)
     expected.insert(expected.end(), dng.codes.begin(), dng.codes.end());
   }
   const FrameList list = OpenFrames(names);
-  EXPECT_TRUE(list.streams);
   EXPECT_EQ(list.frames, 3u);
   EXPECT_EQ(list.camera.bayerPattern, "RGGB");
   std::vector<unsigned short> codes(expected.size());

@@ -50,8 +50,7 @@ OtherFormat(const std::string & head, const std::string & name)
 void
 InspectByContents(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
 {
-  std::string head(512, '\0');
-  head.resize(bytes.ReadSome(0, head.data(), head.size()));
+  const std::string head = HeadOf(bytes);
   file.format = FindFrameFormat(head, file.name);
   if (file.format == nullptr)
   {

@@ -24,18 +24,27 @@ FrameFormats()
 {
   static const std::vector<FrameFormat> formats{
     // before TIFF, as which most raw files begin
-    { "camera raw", nullptr, nullptr, IsHeadOfRawCamera, InspectRawCamera },
-    { "TIFF", nullptr, nullptr, IsHeadOfTiff, InspectTiff },
-    { "PNG", "PNGImageIO", "ITKIOPNG", IsHeadOfPng, InspectPng },
-    { "MetaImage", "MetaImageIO", "ITKIOMeta", IsHeadOfMetaImage, InspectMetaImage },
-    { "NRRD", "NrrdImageIO", "ITKIONRRD", IsHeadOfNrrd, InspectNrrd },
-    { "SER", nullptr, nullptr, IsHeadOfSer, InspectSer },
-    { "MRAW", nullptr, nullptr, IsHeadOfMraw, InspectMraw },
-    { "FITS", nullptr, nullptr, IsHeadOfFits, InspectFits },
-    { "NPY", nullptr, nullptr, IsHeadOfNpy, InspectNpy },
-    { "PGM", nullptr, nullptr, IsHeadOfPnm, InspectPnm },
+    { "camera raw", false, IsHeadOfRawCamera, InspectRawCamera },
+    { "TIFF", false, IsHeadOfTiff, InspectTiff },
+    { "PNG", true, IsHeadOfPng, InspectPng },
+    { "MetaImage", true, IsHeadOfMetaImage, InspectMetaImage, DataFilesOfMetaImage },
+    { "NRRD", true, IsHeadOfNrrd, InspectNrrd, DataFilesOfNrrd },
+    { "SER", false, IsHeadOfSer, InspectSer },
+    { "MRAW", false, IsHeadOfMraw, InspectMraw, DataFilesOfMraw },
+    { "FITS", false, IsHeadOfFits, InspectFits },
+    { "NPY", false, IsHeadOfNpy, InspectNpy },
+    { "PGM", false, IsHeadOfPnm, InspectPnm },
   };
   return formats;
+}
+
+std::string
+HeadOf(FileBytes & bytes)
+{
+  constexpr std::size_t mostBytes = 512;
+  std::string           head(mostBytes, '\0');
+  head.resize(bytes.ReadSome(0, head.data(), head.size()));
+  return head;
 }
 
 const FrameFormat *
@@ -45,6 +54,22 @@ FindFrameFormat(const std::string & head, const std::string & name)
   const auto   found = std::find_if(
     formats.begin(), formats.end(), [&](const FrameFormat & format) { return format.isItsHead(head, name); });
   return found == formats.end() ? nullptr : &*found;
+}
+
+std::vector<std::string>
+DataFilesOf(const std::string & name)
+{
+  try
+  {
+    FileBytes                 bytes(name);
+    const FrameFormat * const format = FindFrameFormat(HeadOf(bytes), name);
+    return format == nullptr || format->dataFiles == nullptr ? std::vector<std::string>()
+                                                             : format->dataFiles(bytes, name);
+  }
+  catch (const FileError &)
+  {
+    return {};
+  }
 }
 
 bool

@@ -17,24 +17,36 @@ namespace sensornoise
 /** A format that is read: a line of the table in FrameFormats.cxx, which is all that knows of it but its own files. */
 struct FrameFormat
 {
-  const char * name;    ///< as sentences call it
-  const char * imageIO; ///< the class of ITK that reads it, once it was found to be whole; null: FrameFile::reader does
-  const char * itkModule; ///< the module of ITK that brings this class
+  const char * name;         ///< as sentences call it
+  bool         hasITKReader; ///< ITK's own class reads it, to which itk::ImageFileReader is left
 
   /** Whether a file is of this format, by its first bytes, 512 or all, and where these do not tell by its name. */
   bool (*isItsHead)(const std::string & head, const std::string & name);
 
-  /** Fills in all of \a file but its name, format and first identity, or throws FileError, see InspectFrameFile(). */
+  /** Fills in all of \a file but its name, format and first identity, and sets its reader, or throws FileError, see
+   * InspectFrameFile(). */
   void (*inspect)(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
+
+  /** The paths of the other files that hold a part of this one; null: all is in one file. */
+  std::vector<std::string> (*dataFiles)(FileBytes & bytes, const std::string & name){ nullptr };
 };
 
 /** All formats. A file is of the first that takes its head. */
 SensorNoise_EXPORT const std::vector<FrameFormat> &
 FrameFormats();
 
+/** The first bytes of a file, 512 or all. */
+SensorNoise_EXPORT std::string
+HeadOf(FileBytes & bytes);
+
 /** The format of a file that begins with \a head; null: none of them. */
 SensorNoise_EXPORT const FrameFormat *
 FindFrameFormat(const std::string & head, const std::string & name);
+
+/** Returns the paths of the files that hold the pixels, or the header, of a file, where they are not in it. They need
+ * not exist. Nothing of a file that cannot be read. */
+SensorNoise_EXPORT std::vector<std::string>
+DataFilesOf(const std::string & name);
 
 /** Whether a file's name ends in one of \a endings, each with its dot. */
 bool

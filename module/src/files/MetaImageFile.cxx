@@ -8,6 +8,7 @@
 #include "files/FrameSizes.h"
 #include "files/MetaImageHeader.h"
 #include "files/MetaImagePlaces.h"
+#include "files/NrrdHeader.h"
 #include "files/StoredNumber.h"
 #include "files/TextHeader.h"
 #include "files/UsableGeometry.h"
@@ -190,6 +191,23 @@ InspectMetaImage(FileBytes & bytes, FrameFile & file, const BeforeInflating & be
     coding.compression = InflateContainer::ZlibOrGzip;
   }
   SetDataFrames(file, PlacesOfMetaImage(file, header, bytes.Size()), coding, beforeInflating);
+}
+
+std::vector<std::string>
+DataFilesOfMetaImage(FileBytes & bytes, const std::string & name)
+{
+  const MetaImageHeader    header = ReadMetaImageHeader(name, bytes);
+  const std::string        dataFile = header.Field("ElementDataFile");
+  std::vector<std::string> paths;
+  if (dataFile.rfind("LIST", 0) != 0 && InSmallLetters(dataFile) != "local")
+  {
+    paths.push_back(PathOfDataFile(name, dataFile));
+  }
+  for (const std::string & line : header.list)
+  {
+    paths.push_back(PathOfDataFile(name, line));
+  }
+  return paths;
 }
 
 } // namespace sensornoise

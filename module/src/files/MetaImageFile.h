@@ -7,6 +7,7 @@
 #include "sensornoise/FrameFile.h"
 
 #include <string>
+#include <vector>
 
 namespace sensornoise
 {
@@ -19,6 +20,10 @@ IsHeadOfMetaImage(const std::string & head, const std::string & name);
  * pixels are there, in the file or in data files. */
 void
 InspectMetaImage(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
+
+/** The paths of the files that hold its pixels. Throws FileError where the header cannot be read. */
+std::vector<std::string>
+DataFilesOfMetaImage(FileBytes & bytes, const std::string & name);
 
 } // namespace sensornoise
 

@@ -188,4 +188,10 @@ InspectMraw(FileBytes & bytes, FrameFile & file, const BeforeInflating & /*befor
   ReadCamera(fields, places.sample, file.camera);
 }
 
+std::vector<std::string>
+DataFilesOfMraw(FileBytes & /*bytes*/, const std::string & name)
+{
+  return { CompanionOf(name) };
+}
+
 } // namespace sensornoise

@@ -7,6 +7,7 @@
 #include "sensornoise/FrameFile.h"
 
 #include <string>
+#include <vector>
 
 namespace sensornoise
 {
@@ -21,6 +22,10 @@ IsHeadOfMraw(const std::string & head, const std::string & name);
  * unless both are there, and the pixels are exactly those of the header. */
 void
 InspectMraw(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
+
+/** The path of the other file of a recording. Throws FileError where it is missing. */
+std::vector<std::string>
+DataFilesOfMraw(FileBytes & bytes, const std::string & name);
 
 } // namespace sensornoise
 

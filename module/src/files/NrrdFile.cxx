@@ -229,4 +229,21 @@ InspectNrrd(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeI
   SetDataFrames(file, PlacesOfNrrd(file, header), coding, beforeInflating);
 }
 
+std::vector<std::string>
+DataFilesOfNrrd(FileBytes & bytes, const std::string & name)
+{
+  const NrrdHeader         header = ReadNrrdHeader(name, bytes);
+  const std::string        dataFile = header.Field("data file");
+  std::vector<std::string> paths;
+  if (!dataFile.empty() && dataFile.rfind("LIST", 0) != 0)
+  {
+    paths.push_back(PathOfDataFile(name, dataFile));
+  }
+  for (const std::string & line : header.list)
+  {
+    paths.push_back(PathOfDataFile(name, line));
+  }
+  return paths;
+}
+
 } // namespace sensornoise

@@ -7,6 +7,7 @@
 #include "sensornoise/FrameFile.h"
 
 #include <string>
+#include <vector>
 
 namespace sensornoise
 {
@@ -19,6 +20,10 @@ IsHeadOfNrrd(const std::string & head, const std::string & name);
  * pixels are there, raw or in a stream of gzip that is whole, in the file or in data files. */
 void
 InspectNrrd(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
+
+/** The paths of the files that hold its pixels. Throws FileError where the header cannot be read. */
+std::vector<std::string>
+DataFilesOfNrrd(FileBytes & bytes, const std::string & name);
 
 } // namespace sensornoise
 

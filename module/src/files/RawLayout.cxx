@@ -243,7 +243,7 @@ WarningOfByteOrder(FileBytes & bytes, const RawLayout & layout)
 }
 
 /** Not in the table of formats: nothing tells such a file. */
-const FrameFormat RawFormat{ "raw frames without a header", nullptr, nullptr, nullptr, nullptr };
+const FrameFormat RawFormat{ "raw frames without a header", false, nullptr, nullptr };
 } // namespace
 
 RawLayout

@@ -26,9 +26,6 @@ namespace sensornoise
 {
 namespace
 {
-// ITK counts pages with 16 bits, and older versions of libtiff go no further.
-constexpr std::uint64_t MaximumPages = 65534;
-
 /** How many planes MetaMorph says that there are, of which it lists one as a page; 0 where it says nothing. */
 std::uint64_t
 PlanesOfMetaMorph(const TiffDirectory & directory)
@@ -109,10 +106,6 @@ private:
     if (!m_Seen.insert(offset).second)
     {
       throw FileError(page, "damaged: its directory is that of a page before, so that its pages have no end");
-    }
-    if (m_Pages == MaximumPages)
-    {
-      throw FileError(page, "has more than " + std::to_string(MaximumPages) + " pages; expected no more");
     }
     if (m_Pages > 0 && !m_Bytes.Holds(offset, 2))
     {

@@ -16,7 +16,7 @@ bool
 IsHeadOfTiff(const std::string & head, const std::string & name);
 
 /** Fills in what a TIFF, or a BigTIFF, says of itself. \a file has its name and identity. Throws FileError unless its
- * pages are all there, of one size and kind, each a frame for ITK, and TiffStrips has nothing against them. */
+ * pages are all there, of one size and kind, and TiffStrips has nothing against them. */
 void
 InspectTiff(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
