@@ -100,11 +100,10 @@ def estimate_sensor_noise(
         which are sorted with numbers as numbers (frame_2 before frame_10; a list keeps its order); or anything with
         `shape` (t, y, x), `dtype` and slices along time, frames[first:end]: h5py, zarr, dask, memory maps, astropy's
         sections, your own class; axes of xarray may be in any order, as their names are honoured. uint8, uint16, int16,
-        float32 or float64 [DN]. Files and such objects are read a few frames at a time and never held together (a stack
-        in NRRD or a compressed MetaImage, which ITK cannot read in parts, is). Stored chunks that are
-        missing are an error, as far as h5py and zarr say so. Raw files of cameras (.dng, .cr2, .nef, ...) are read by
-        rawpy, if installed: unprocessed codes. Arrays are shared; one that is not C-contiguous or not in the machine's
-        byte order is copied once.
+        float32 or float64 [DN]. Files and such objects are read a few frames at a time and never held together. Stored
+        chunks that are missing are an error, as far as h5py and zarr say so. Raw files of cameras (.dng, .cr2, .nef,
+        ...) are read by rawpy, if installed: unprocessed codes. Arrays are shared; one that is not C-contiguous or not
+        in the machine's byte order is copied once.
     method : {"refined", "published"}, default "refined"
         "refined": all pixels of a still scene, textured or not; what is `identified` has a standard error and a 95 %
         interval. "published": Figure 2 of Sur & Grédiac 2015, even areas only, without errors.
