@@ -81,14 +81,14 @@ struct FrameAxis
  * image cannot have (a spacing of 0, a singular direction). */
 struct StackGeometry
 {
-  std::array<double, 3>                spacing{ { 1.0, 1.0, 1.0 } }; // [mm], above 0
-  std::array<double, 3>                origin{ { 0.0, 0.0, 0.0 } };  // [mm]
+  std::array<double, 3>                spacing{ { 1.0, 1.0, 1.0 } }; ///< distance of neighbours, above 0 [mm]
+  std::array<double, 3>                origin{ { 0.0, 0.0, 0.0 } };  ///< position of the first pixel [mm]
   std::array<std::array<double, 3>, 3> direction{
     { { { 1.0, 0.0, 0.0 } }, { { 0.0, 1.0, 0.0 } }, { { 0.0, 0.0, 1.0 } } } // columns are the axes
   };
 };
 
-/** What a file of a frame or of a stack says of itself, after it was found to be whole. */
+/** Description of a file with a frame or a stack, as InspectFrameFile() returns it. */
 struct FrameFile
 {
   std::string name{}; ///< path of the file, as it was given
@@ -110,7 +110,7 @@ struct FrameFile
 
   /** Reader of the pixels; null: the class of ITK that `format` names reads them. */
   std::shared_ptr<const FrameReader> reader{};
-  StackGeometry                      geometry{}; // of files with a `reader`
+  StackGeometry                      geometry{}; ///< positions of the pixels, as the header gives them
 
   std::vector<FileIdentity> identities{}; ///< identity of the file, then of each of its data files
 };
