@@ -108,7 +108,7 @@ struct FrameFile
   CameraSettings camera{};  ///< settings of the camera that the file records
   std::string    warning{}; ///< an oddity of the file that is no error, without the name of the file; "": none
 
-  /** Reader of the pixels; null: the class of ITK that `format` names reads them. */
+  /** Reader of the pixels; never null after InspectFrameFile(). */
   std::shared_ptr<const FrameReader> reader{};
   StackGeometry                      geometry{}; ///< positions of the pixels, as the header gives them
 
