@@ -16,10 +16,10 @@ struct SingleConstants
 {
   /** \name Level sets */
   ///@{
-  /** Level sets of a frame, of equal width in level. Chosen empirically: 32 to 128 give the same errors. */
+  /** Level sets of a frame, of equal width in level. Chosen empirically. */
   std::size_t levelSets{ 64 };
   /** Largest variance of the approximation in a window, relative to the variance of the noise there, of a window
-   * without edges [1]. Chosen empirically: 97 % of the windows without texture are below. */
+   * without edges [1]. Chosen empirically. */
   double largestRoughness{ 1.6 };
   /** Fewest detail coefficients of a level set that is fitted. Chosen: its variance is known to 40 %. */
   double leastOfLevelSet{ 30.0 };
@@ -37,8 +37,8 @@ struct SingleConstants
 
   /** \name Starting line */
   ///@{
-  /** Positions of the sample that the starting line is made of, at most. Chosen for the time: 2 read passes of 24
-   * megapixels. */
+  /** Positions of the sample that the starting line is made of, at most. Chosen for the time: 1 % of
+   * a frame of 24 megapixels. */
   std::size_t samplePositions{ std::size_t{ 1 } << 18 };
   /** Every n-th position of the sample is sorted by level. */
   std::size_t sortedStride{ 4 };
@@ -47,8 +47,7 @@ struct SingleConstants
   /** Smallest variance that the first selection assumes, relative to the median of the groups [1]. Chosen empirically:
    * a line that starts below 0 selects no dark windows. */
   double leastStartingVariance{ 0.05 };
-  /** Repetitions of selection and fit on the sample. Chosen empirically: the fourth changes the gain by less than a
-   * tenth of its error. */
+  /** Repetitions of selection and fit on the sample. Chosen empirically. */
   int repetitions{ 4 };
   ///@}
 
@@ -60,7 +59,7 @@ struct SingleConstants
   /** Largest relative residual of a level set that pulls the line [1]. Chosen: a level set of 30 coefficients passes 3
    * by texture alone. */
   double largestResidual{ 3.0 };
-  /** Steps of Fisher scoring, at most. Chosen: 5 to 8 are usual. */
+  /** Steps of Fisher scoring, at most. Chosen: it ends the fit where it does not converge. */
   int fitSteps{ 40 };
   /** Coefficients and level sets below which no line is given. Chosen empirically: with fewer, the gains of textured
    * frames were off by more than twice their errors. */
@@ -70,9 +69,9 @@ struct SingleConstants
 
   /** \name Texture */
   ///@{
-  /** Share of the windows without edges below which texture dominates [1], and below which it dominates if the relative
-   * error of the gain is above largestErrorInTexture. Chosen empirically: where the gain was off by more than 10 %, one
-   * of these warnings or the next ones stood beside it. */
+  /** Fraction of the windows without edges below which texture dominates [1], and below which it dominates if the
+   * relative error of the gain is above largestErrorInTexture. Chosen empirically: where the gain was off by more than
+   * 10 %, one of these warnings or the next ones stood beside it. */
   double leastEvenShare{ 0.1 };
   double leastEvenShareIfUncertain{ 0.5 };
   double largestErrorInTexture{ 0.03 };

@@ -26,7 +26,7 @@ namespace
 constexpr std::size_t TileWidth = 128;
 constexpr std::size_t TileHeight = 64;
 
-/** Pixels by which scale and codes are found, at most. Chosen for the time: a tenth of a read pass of 24 megapixels. */
+/** Pixels by which scale and codes are found, at most. Chosen for the time: 4 % of a frame of 24 megapixels. */
 constexpr std::size_t MostSampledPixels = std::size_t{ 1 } << 20;
 
 /** The tiles that cover all positions of a plane. */
