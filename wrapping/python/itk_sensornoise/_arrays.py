@@ -57,7 +57,7 @@ def require_pixel_type(array: np.ndarray, name: str) -> str:
 
 
 def require_shape(array: np.ndarray, name: str, axes: str) -> None:
-    """Refuses an array whose rank is not that of `axes`, for example "t, y, x", or that holds nothing."""
+    """Raises an error for an array of another rank than `axes`, for example "t, y, x", and for an empty array."""
     rank = axes.count(",") + 1
     if array.ndim != rank:
         colour = "; of a colour image, give one channel" if array.ndim == rank + 1 and array.shape[-1] in (3, 4) else ""

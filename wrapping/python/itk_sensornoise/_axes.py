@@ -10,7 +10,7 @@ _X = ("x", "column", "columns", "col", "cols", "width", "u")
 
 
 def in_time_order(frames: Any, name: str) -> Any:
-    """What has `dims`, names of its axes, as (t, y, x); all else as it is.
+    """Returns frames with `dims`, names of their axes, as (t, y, x); other frames as they are.
 
     Axes of one element whose names are none of these are left out. One axis may have any name: it is the one that is
     left. Where no name is known the axes are taken as they lie. Raises ValueError where names leave it open."""

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What a report may warn of, and what it holds: the tables of the C++ library, not copies of them."""
+"""Tables of the warnings and quantities of reports, from the C++ library."""
 
 import functools
 import json

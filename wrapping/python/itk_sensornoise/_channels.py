@@ -24,7 +24,7 @@ CHANNELS = ("R", "G1", "G2", "B")
 
 
 class ChannelReports(PagedRecord):
-    """What was measured of the four planes of a Bayer mosaic: one record with a report for each.
+    """Reports of the four planes of a Bayer mosaic: one record with a report for each.
 
         reports["bayer"]                    {"pattern": "RGGB", "source": "given", "file" or "levels"}
         reports["joint"]["offset"]          of all channels together; reports["joint"] is None where there is none
@@ -139,7 +139,7 @@ class ChannelReports(PagedRecord):
 
     @property
     def maps(self) -> Maps:
-        """What is known of every pixel of the mosaic, as Report.maps."""
+        """Maps of the pixels of the mosaic, as Report.maps."""
         return self._maps
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -191,7 +191,7 @@ class ChannelReports(PagedRecord):
 
 
 def report_of(estimator: ItkObject, maps: Mapping[str, np.ndarray] | None = None) -> Report | ChannelReports:
-    """What an ITK estimator that is up to date has measured."""
+    """Returns the report or the reports of an ITK estimator that is up to date."""
     if estimator.HasChannelReports():
         return ChannelReports.of(estimator, maps)
     return Report.of(estimator, maps)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""How lazy frames are stored: the chunks of zarr, dask and h5py, of which none may be missing.
+"""Checks the stored chunks of lazy frames (zarr, dask, h5py): none may be missing.
 
 Those packages give fill values, mostly zeros, for what was never written: half of a recording looks whole."""
 
@@ -86,7 +86,7 @@ def _not_allocated() -> int:
 
 
 def _stored(frames: Any) -> Iterator[Any]:
-    """What the frames are read from, as far as it shows: through the wrappers of xarray and the graphs of dask."""
+    """Yields the objects that the frames are read from, through the wrappers of xarray and the graphs of dask."""
     for _ in range(12):  # no wrapper is in more
         yield frames
         graph = getattr(frames, "dask", None)

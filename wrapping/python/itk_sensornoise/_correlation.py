@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the noise is that of raw frames: what neighbours and frames share of it."""
+"""Spatial and temporal correlation of the noise, which shows whether frames are raw."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -45,7 +45,7 @@ class NoiseCorrelation(Record):
 
     @property
     def sum_over_lags(self) -> float | None:
-        """What variance, or gain, has to be multiplied by where the kind is not "white" [1]; None: not known."""
+        """Factor from the variance of a pixel to the total covariance over lags [1]; None: not known."""
         value: float | None = self["sum_over_lags"]["value"]
         return value
 
@@ -123,7 +123,7 @@ def noise_correlation_estimator(
     offset: float | None = None,
     quantisation_step: float | None = None,
 ) -> NoiseCorrelation:
-    """What neighbours and frames share of their noise, and what a variance has to be multiplied by for it.
+    """Measures the spatial and temporal correlation of the noise, and its total covariance over lags.
 
     Raw frames have white noise. A camera that smooths, resamples or mixes its frames lowers their variance: the gain of
     a photon transfer (variance against mean) is then too small. `sum_over_lags` of the result is what it has to be

@@ -197,7 +197,7 @@ def named_denoiser(denoiser: Any, strength: float) -> Denoiser:
 
 
 def _checked(found: Any, shape: tuple[int, ...]) -> np.ndarray:
-    """What a denoiser returned."""
+    """Returns the frame that a denoiser returned, or raises an error for another shape or type."""
     frame = as_array(found, "the result of the denoiser")
     if frame.shape != shape or frame.dtype.kind not in "fiu":
         raise ValueError(

@@ -109,7 +109,7 @@ def estimate_sensor_noise(
         interval. "published": Figure 2 of Sur & Grédiac 2015, even areas only, without errors.
     offset : float or (float, float), optional
         The offset [DN] if it is known, or (offset, standard error): offset and read noise then need no flicker, and
-        steady light is told from the offset. Default: found. "refined" only.
+        steady light is distinguished from the offset. Default: found. "refined" only.
     dark : frames, optional
         Frames without light, as `frames`, of the same size and type and at the same exposure, gain and temperature:
         they give the offset and, from two frames on, the read noise. Not together with `offset`. "refined" only.

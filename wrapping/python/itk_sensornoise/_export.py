@@ -30,7 +30,7 @@ _PARAMETERS = {
 
 @dataclass(frozen=True)
 class NoiseExport:
-    """What a format makes of a noise model. Report.export() makes it, and print() shows its text.
+    """Files and text of a noise model in one format. Report.export() makes it, and print() shows its text.
 
     Attributes
     ----------

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Codes of warnings that tell of a response that bends.
+#: Codes of the warnings of a non-linear response.
 BENDS = {"response-not-straight", "variance-not-affine"}
 
 #: Colours of the page, told apart without colour vision; markers and dashes differ, too.
@@ -87,7 +87,7 @@ def _draw_residuals(data: Mapping[str, Any], axes: "Axes") -> None:
 
 
 def _bend(report: Mapping[str, Any]) -> str | None:
-    """How far the variance departs from its line, where a warning tells of it."""
+    """Text on the deviation of the variance from its line, if a warning names it."""
     bend = report["fit"].get("nonlinearity")
     codes = {warning["code"] for warning in report["warnings"]}
     if not bend or codes.isdisjoint(BENDS):

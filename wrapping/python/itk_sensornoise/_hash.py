@@ -14,7 +14,7 @@ _FILE_PIECE = 1 << 20
 
 
 class FramesHash:
-    """What is hashed of a stack as it was opened: its files, or its pixels where it is on none."""
+    """Hash of a stack: of its files, or of its pixels if it is not in files."""
 
     def __init__(self, stack: Stack) -> None:
         """Reads all of it once. Raises ValueError for a file that cannot be read, and what a reader of lazy frames
@@ -62,7 +62,7 @@ class FramesHash:
 
 
 def _states(names: Sequence[str]) -> list[tuple[int, ...]]:
-    """What a file that was written anew, or replaced, has another one of; of one that has gone, nothing."""
+    """Returns the states of files, which change when a file is written or replaced. A missing file has none."""
     states: list[tuple[int, ...]] = []
     for name in names:
         try:

@@ -8,7 +8,7 @@ from types import FunctionType
 
 _NEW = ("check_noise_model", "denoise_with_noise_model", "estimate_sensor_noise", "simulate_sensor_noise")
 # ITK generates functions of these names too; what they return holds a C++ struct that Python cannot open, or they must
-# be told the pixel type, or know no report.
+# be given the pixel type, or do not accept a report.
 _REPLACED = (
     "flicker_correction_image_filter",
     "generalized_anscombe_image_filter",

@@ -42,7 +42,7 @@ def is_lazy(value: object) -> bool:
 
 
 class ListOfFrames:
-    """Frames (y, x), each of which is lazy, as lazy frames (t, y, x)."""
+    """Lazy frames (t, y, x), made of a sequence of lazy frames (y, x)."""
 
     def __init__(self, frames: Sequence[Any], name: str) -> None:
         self.frames = frames

@@ -31,7 +31,7 @@ def is_name(value: object) -> TypeGuard[FileName]:
 
 
 def natural_key(name: FileName) -> list[tuple[bool, int, str]]:
-    """What names are sorted by: runs of digits as the numbers that they are, so that frame_2 comes before frame_10."""
+    """Returns the sort key of a name, with runs of digits as numbers: frame_2 comes before frame_10."""
     parts = re.split(r"(\d+)", os.fsdecode(name))
     numbers = [(False, int(part), part) if number % 2 else (True, 0, part) for number, part in enumerate(parts)]
     return [*numbers, (True, 0, os.fsdecode(name))]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What C++ drew of a report: its page, its noise curve, and the numbers of its figures."""
+"""Page, noise curve and numbers of the figures of a report, drawn by the C++ library."""
 
 import base64
 import json

@@ -171,8 +171,7 @@ def _positive(other: Any, name: str) -> float | None:
 
 
 def _camera(name: FileName) -> str | None:
-    """Make and model, of which rawpy says nothing, by the first directory of a TIFF; None: it is none, or they are not
-    there."""
+    """Returns make and model from the first directory of a TIFF, as rawpy has neither; None: no TIFF, or no entries."""
     with open(name, "rb") as file:
         head = file.read(8)
         order = {b"II": "<", b"MM": ">"}.get(head[:2])

@@ -20,7 +20,7 @@ from ._types import FileName, Frame, Frames, ItkObject, Roi
 
 @dataclass(kw_only=True)
 class Settings:
-    """What estimate_sensor_noise() says of them."""
+    """Settings, as the arguments of estimate_sensor_noise() describe them."""
 
     method: str = "refined"
     offset: float | tuple[float, float] | None = None
@@ -41,7 +41,7 @@ class Settings:
     threads: int | None = None
 
     def check(self, dark: object) -> None:
-        """Raises ValueError for what can be told before a frame is looked at."""
+        """Raises ValueError for settings that are wrong whatever the frames are."""
         _options.one_of("method", self.method, ["refined", "published"])
         _check_what_is_known(self.method, self.offset, dark)
         if self.level_range is not None:

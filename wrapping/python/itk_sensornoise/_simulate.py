@@ -108,7 +108,7 @@ def simulate_sensor_noise(
     repeat: int = 1,
     repeat_period: int = 1,
 ) -> tuple[np.ndarray, dict[str, Any]]:
-    """Simulates a burst of raw frames under flickering light and on a trembling floor, with known noise.
+    """Simulates a burst of raw frames of known noise, with flickering illumination and vibration.
 
     Parameters
     ----------

@@ -218,7 +218,7 @@ def _dtype(dtype: Any, default: str, choices: tuple[str, ...]) -> str:
 
 
 class _Picture:
-    """What is transformed pixel by pixel: an array of any dimension, which ITK sees as one of 2, or an itk.Image."""
+    """Values to be transformed pixel by pixel: an itk.Image, or an array, which ITK gets with two dimensions."""
 
     def __init__(self, values: Any, name: str) -> None:
         import itk

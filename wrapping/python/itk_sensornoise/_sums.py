@@ -220,7 +220,7 @@ class SensorNoiseSums:
             self._sums.EndPass()
 
     def report(self, *, maps: bool = False) -> Report | ChannelReports:
-        """What was measured, when all passes have ended. `maps`: as estimate_sensor_noise(maps=True) has them."""
+        """Returns the report after all passes. `maps`: with the maps of estimate_sensor_noise(maps=True)."""
         if not self.is_done:
             raise ValueError(f"{self.passes_ended} passes have ended; expected all: end_pass() until is_done")
         estimator = self._prepared.estimator
@@ -276,7 +276,7 @@ def _restored(given: dict[str, Any], ended: list[np.ndarray], current: np.ndarra
 
 
 def camera_metadata(image: ItkObject) -> dict[str, Any]:
-    """What an image says of its camera, for SensorNoiseSums in another process."""
+    """Returns the camera settings in the metadata of an image, for SensorNoiseSums in another process."""
     return {key: value for key, value in dict(image).items() if key.startswith(_CAMERA)}
 
 

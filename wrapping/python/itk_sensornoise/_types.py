@@ -14,7 +14,7 @@ FileName: TypeAlias = str | os.PathLike[str]
 
 
 class HasArray(Protocol):
-    """What NumPy can look at: arrays, itk.Image, tensors and frames of other libraries."""
+    """Objects that NumPy can view: arrays, itk.Image, tensors and frames of other libraries."""
 
     def __array__(self) -> np.ndarray: ...
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What was measured so far, in a file of JSON lines that outlives the process which writes it."""
+"""Journal of the results so far: a file of JSON lines that outlives the process that writes it."""
 
 import contextlib
 import fcntl
@@ -88,7 +88,7 @@ class Journal:
         return self._rows[name]
 
     def all_rows(self) -> list[Row]:
-        """The rows of all sources that the file tells of."""
+        """Returns the rows of all sources in the file."""
         return [row for rows in self._rows.values() for row in rows]
 
     def add(self, entry: Entry) -> None:

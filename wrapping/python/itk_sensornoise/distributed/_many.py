@@ -38,7 +38,7 @@ def estimate_many(
     output: FileName | None = None,
     **settings: Any,
 ) -> "pd.DataFrame | list[Row]":
-    """Measures many bursts, each by estimate_sensor_noise(), and tells of them in one table.
+    """Measures many bursts, each by estimate_sensor_noise(), and returns one table.
 
     Parameters
     ----------
@@ -132,8 +132,8 @@ def _here(todo: Iterator[tuple[str, Source]], settings: dict[str, Any]) -> Itera
 def _by_workers(
     client: "distributed.Client", todo: Iterator[tuple[str, Source]], settings: dict[str, Any]
 ) -> Iterator[tuple[str, Outcome]]:
-    """What the workers measured, as it comes. Those whose workers were killed once more at the end, each alone: which
-    of the tasks that a worker had killed it is not known."""
+    """Yields the results of the workers as they come. Tasks whose worker was killed run once more at the end, each
+    alone, because any of the tasks of a worker may have killed it."""
     suspects: list[tuple[str, Source]] = []
     for name, frames, outcome in _by_tasks(client, todo, settings):
         if outcome is _KILLED:
@@ -148,7 +148,7 @@ def _by_workers(
 def _by_tasks(
     client: "distributed.Client", todo: Iterator[tuple[str, Source]], settings: dict[str, Any]
 ) -> Iterator[tuple[str, Source, Outcome]]:
-    """What the workers measured, as it comes. No more tasks are waiting than keep every worker busy."""
+    """Yields the results of the workers as they come. No more tasks wait than keep every worker busy."""
     import cloudpickle
     import distributed
 
@@ -195,7 +195,7 @@ def _tasks_wanted(client: "distributed.Client", watch: Watch) -> int:
 
 
 def _outcome(future: "distributed.Future", watch: Watch) -> Outcome:
-    """What a task returned. Raises RuntimeError where it never will."""
+    """Returns the result of a task. Raises RuntimeError if the task has none."""
     import distributed
 
     wait_for([future], watch)  # its worker may have ended since
@@ -227,7 +227,7 @@ def _require_client(client: Any) -> None:
 
 
 def _files_of(output: FileName | None) -> tuple[Path | None, Path | None]:
-    """The file of JSON lines and that of the table; None: there is none."""
+    """Returns the file of JSON lines and the file of the table; None: no such file."""
     if output is None:
         return None, None
     if is_name(output):

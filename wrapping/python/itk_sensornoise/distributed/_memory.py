@@ -21,7 +21,7 @@ _BYTES_PER_FRAME = 20_000  # of the whole [bytes]
 
 
 class WorkerState(NamedTuple):
-    """What the scheduler knows of a worker."""
+    """State of a worker, as the scheduler knows it."""
 
     address: str
     limit: int  # its memory_limit [bytes]; 0: none
@@ -31,10 +31,10 @@ class WorkerState(NamedTuple):
 
 
 def worker_states(client: "distributed.Client") -> list[WorkerState]:
-    """Of all workers that are there. Raises OSError where the scheduler does not answer."""
+    """Returns the states of all workers. Raises OSError if the scheduler does not answer."""
     try:
         known = client.scheduler_info(n_workers=-1)
-    except TypeError:  # older than 2025.7, which tells of all
+    except TypeError:  # older than 2025.7, which returns all workers
         known = client.scheduler_info()
     return [_state_of(address, worker) for address, worker in known.get("workers", {}).items()]
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Frames in parts, each of which a task reads where it lies."""
+"""Frames in parts. A task reads each part where it is stored."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -51,7 +51,7 @@ class Parts:
         return [(first, min(first + count, self.shape[0])) for first in range(0, self.shape[0], count)]
 
     def split(self, runs: Sequence[tuple[int, int]]) -> list[Any]:
-        """What the task of each run is given."""
+        """Returns the argument of the task of each run."""
         if self.kind == "dask":
             sizes = tuple(end - first for first, end in runs)
             blocks = self.frames.rechunk({0: sizes, 1: -1, 2: -1}).to_delayed()

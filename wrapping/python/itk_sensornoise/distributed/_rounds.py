@@ -213,7 +213,7 @@ class _Run:
             self.bar.update(max(percent - int(self.bar.n), 0))
 
     def _submit(self, key: str, flags: np.ndarray | None) -> tuple[list[Any], Any]:
-        """Futures of what the driver is told of each part, and of the merged sums."""
+        """Returns futures of the summary of each part, and of the merged sums."""
         level = self._fill(key, flags)
         looks = [self.client.submit(_worker.look, part, key=f"{key}-look-{n}") for n, part in enumerate(level)]
         depth = 0

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What is measured of many, with the names by which it is told apart."""
+"""Sources of estimate_many(), with their names."""
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -18,8 +18,8 @@ _EXPECTED = "a mapping of names to frames, or an iterable of file names, lists o
 
 
 def named(sources: Sources, needs_names: bool) -> Iterator[tuple[str, Source]]:
-    """Each source with its name: as given, or that of its file, or of the first and the last of its files; of other
-    frames, "source 0" and so on. Raises ValueError for the latter where it `needs_names`, and for a name twice."""
+    """Returns each source with its name: as given, or the name of its file, or of its first and last file; other frames
+    are "source 0" and so on. Raises ValueError for the latter where it `needs_names`, and for a name twice."""
     if is_name(sources) or hasattr(sources, "shape") or not isinstance(sources, Iterable):
         raise InvalidTypeError(
             f"sources is of type {type(sources).__name__}; expected {_EXPECTED}; of one source: [source]"

@@ -13,7 +13,7 @@ from .._options import number, refuse
 
 
 class Step(NamedTuple):
-    """What changed between one measurement and the next."""
+    """Change of a quantity between one measurement and the next."""
 
     at: int  # the first measurement after it, counted from 0
     change: float  # mean from it to the next step less that from the last step to it [unit of the values]
@@ -77,7 +77,7 @@ def find_steps(values: ArrayLike, standard_errors: ArrayLike, false_alarms: floa
 
 
 def _difference(values: np.ndarray, weights: np.ndarray, at: int) -> tuple[float, float]:
-    """By how much the weighted mean changes at a place, and the standard error of that."""
+    """Returns the change of the weighted mean at a place, and its standard error."""
     before, after = weights[:at].sum(), weights[at:].sum()
     centred = weights * (values - values[0])
     return float(centred[at:].sum() / after - centred[:at].sum() / before), float(np.sqrt(1 / before + 1 / after))

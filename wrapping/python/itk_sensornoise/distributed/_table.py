@@ -17,7 +17,7 @@ Row = dict[str, Any]
 
 
 class Entry(TypedDict):
-    """What came of one source."""
+    """Result of one source."""
 
     name: str
     settings: dict[str, Any]  # that change a number, as JSON has them

@@ -16,7 +16,7 @@ from ._memory import memory_of_task
 
 
 class Outcome(NamedTuple):
-    """What came of a source: one of both is None."""
+    """Result of a source: a report, or the reason why there is none. The other one is None."""
 
     reason: str | None  # why there is no report, one line
     report: str | None  # the record as JSON
@@ -35,8 +35,8 @@ def measure(source: Any, settings: dict[str, Any], memory_of: Callable[[Any], in
 
 
 def measure_pickled(source: bytes, settings: dict[str, Any]) -> Outcome:
-    """The same in a worker. By one thread, unless the settings say otherwise: a worker runs as many tasks at a time as
-    it may use cores. With the memory that Dask lets it have."""
+    """Measures a source in a worker, with the memory that Dask lets it use. One thread is used, unless the settings say
+    otherwise: a worker runs as many tasks at a time as it may use cores."""
     try:
         unpickled = pickle.loads(source)
     except Exception as error:  # noqa: BLE001 - of whatever package the source is of

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What runs on a worker: tasks of one pass, which fill sums with a part of the frames, and merge them."""
+"""Tasks of one pass on a worker, which fill sums with a part of the frames, and merge them."""
 
 import threading
 from collections import deque
@@ -16,8 +16,8 @@ from .._sums import SensorNoiseSums, names_of
 _LOCK = threading.RLock()
 _STATE: dict[str, SensorNoiseSums] = {}
 
-# Dask may begin a task that waited here after the run is forgotten; none waits for that many runs. Set by hand: half
-# and twice as many differ by some kB.
+# Dask may begin a task that waited here after the run is forgotten; none waits for that many runs. Chosen
+# empirically: half and twice as many differ by some kB.
 _OVER: deque[str] = deque(maxlen=256)
 _STATE_LOCK = threading.Lock()  # of _STATE and _OVER, for no longer than to look
 
@@ -41,7 +41,7 @@ def _state(run: str, start: dict[str, Any], ended: Sequence[Part]) -> SensorNois
     sums = _STATE.get(run)
     if sums is None or sums.passes_ended > len(ended):
         with _STATE_LOCK:
-            _require_going(run)  # else what is here is that of a run at work
+            _require_going(run)  # else the state belongs to a run at work
             _STATE.clear()
         sums = SensorNoiseSums(**{"threads": _threads(), **start})
         sums.drop_history()
@@ -128,7 +128,7 @@ def same(value: Any) -> Any:
 
 
 def look(part: Part) -> Part:
-    """What the driver is told of a part."""
+    """Returns the summary of a part for the driver."""
     return part.without_sums()
 
 
