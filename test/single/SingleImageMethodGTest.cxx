@@ -5,7 +5,9 @@
 #include "sensornoise/ReportText.h"
 #include "helpers/SingleImageTestHelper.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstddef>
 #include <gtest/gtest.h>
 #include <limits>
@@ -157,7 +159,10 @@ TEST(SensorNoiseSingleImageMethod, MaskedPixelsAndThoseThatAreNotFiniteAreLeftOu
       stack.pixels[p] = 1e5F * static_cast<float>(p % 7); // would be the end of any estimate
     }
   }
-  ExpectCamera(MeasureAll(stack, {}, 1, mask).front(), settings, 0.02);
+  const Report masked = MeasureAll(stack, {}, 1, mask).front();
+  ExpectCamera(masked, settings, 0.02);
+  const auto unmasked = static_cast<std::size_t>(std::count(mask.begin(), mask.end(), std::uint8_t{ 1 }));
+  EXPECT_EQ(masked.pixels.valid + masked.pixels.clipped, unmasked);
   for (std::size_t p = 0; p < stack.pixels.size(); ++p)
   {
     stack.pixels[p] = mask[p] != 0 ? stack.pixels[p] : std::numeric_limits<float>::quiet_NaN();

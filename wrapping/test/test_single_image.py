@@ -28,7 +28,7 @@ def frames():
 def test_gain_and_intercept_are_those_of_the_simulation(frames, count):
     report = itk.single_image_noise_estimator(frames[:count])
     assert report.gain.status == "identified"
-    assert abs(report.gain.value - GAIN) < 4 * report.gain.standard_error < 0.1 * GAIN
+    assert abs(report.gain.value - GAIN) < 4 * report.gain.standard_error < 0.2 * GAIN
     intercept = READ_NOISE**2 - GAIN * OFFSET
     assert abs(report.intercept.value - intercept) < 4 * report.intercept.standard_error
     assert report.offset.status == report.read_noise.status == "not-identifiable"
@@ -58,7 +58,7 @@ def test_a_mask_leaves_pixels_out(frames):
     mask = np.ones(frames.shape[1:], dtype=np.uint8)
     mask[:, :128] = 0
     report = itk.single_image_noise_estimator(frames, mask=mask)
-    assert report["pixels"]["valid"] <= mask.sum()
+    assert report["pixels"]["valid"] + report["pixels"]["clipped"] == mask.sum() >= report["pixels"]["used"]
     with pytest.raises(ValueError, match="shape"):
         itk.single_image_noise_estimator(frames, mask=mask[:, :9])
 

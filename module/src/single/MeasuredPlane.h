@@ -25,6 +25,7 @@ struct MeasuredPlane
   std::vector<std::optional<FrameNoise>> frames;
   std::size_t                            clipped{ 0 };   ///< pixels at a clip level, in that frame
   std::size_t                            notFinite{ 0 }; ///< pixels that are NaN or infinite, in that frame
+  std::size_t                            masked{ 0 };    ///< pixels that the mask leaves out
   std::string                            reason;         ///< why no frame so far can be measured; "": one can
 };
 

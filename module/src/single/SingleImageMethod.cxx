@@ -36,30 +36,31 @@ PlanesOf(const SingleImageSettings & settings, const FrameGeometry & frame)
   return planes;
 }
 
-/** Counts the pixels of a plane that are not finite or at a clip level. */
+/** Counts the pixels of a plane that are masked, and of the others those that are not finite or at a clip level. */
 template <typename TPixel>
 void
 CountPixels(const PlaneOfFrame<TPixel> & pixels, MeasuredPlane & plane, const ParallelFor & parallelFor)
 {
   const std::size_t width = plane.geometry.width;
   const auto        counts =
-    SumBlocks<2>(plane.geometry.height, parallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
+    SumBlocks<3>(plane.geometry.height, parallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
       for (std::size_t y = begin; y < end; ++y)
       {
-        std::size_t clipped = 0;
-        std::size_t finite = 0;
         for (std::size_t x = 0; x < width; ++x)
         {
-          const auto value = static_cast<double>(pixels.pixels[pixels.layout.At(x, y)]);
-          finite += std::isfinite(value) ? 1 : 0;
-          clipped += std::isfinite(value) && plane.codes.IsClipped(value, value) ? 1 : 0;
+          const std::size_t p = pixels.layout.At(x, y);
+          const auto        value = static_cast<double>(pixels.pixels[p]);
+          const bool        isMasked = pixels.mask != nullptr && pixels.mask[p] == 0;
+          const bool        isClipped = std::isfinite(value) && plane.codes.IsClipped(value, value);
+          sums[0] += !isMasked && isClipped ? 1.0 : 0.0;
+          sums[1] += !isMasked && !std::isfinite(value) ? 1.0 : 0.0;
+          sums[2] += isMasked ? 1.0 : 0.0;
         }
-        sums[0] += static_cast<double>(clipped);
-        sums[1] += static_cast<double>(width - finite);
       }
     });
   plane.clipped = static_cast<std::size_t>(counts[0]);
   plane.notFinite = static_cast<std::size_t>(counts[1]);
+  plane.masked = static_cast<std::size_t>(counts[2]);
 }
 
 /** The line of the mean image of \a frames frames, times their number. Level sets within three standard deviations of a
@@ -154,7 +155,8 @@ struct SingleImageMethod<TPixel>::Planes
     for (MeasuredPlane & plane : planes)
     {
       SingleImageFindings found{ settings,     plane.geometry, plane.codes,     std::move(plane.frames),
-                                 std::nullopt, plane.clipped,  plane.notFinite, plane.reason };
+                                 std::nullopt, plane.clipped,  plane.notFinite, plane.masked,
+                                 plane.reason };
       const LevelLimits   limits = LimitsOf(plane.codes);
       if (const NoiseLine line = FitAllFrames(found.frames, limits); !sum.empty() && line.isDetermined)
       {

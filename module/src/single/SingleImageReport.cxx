@@ -150,7 +150,7 @@ DescribeFrames(Report & report, const SingleImageFindings & found, const AllFram
   report.pixels.total = found.geometry.Pixels();
   report.pixels.notFinite = found.notFinite;
   report.pixels.clipped = found.clipped;
-  report.pixels.valid = report.pixels.total - report.pixels.notFinite - report.pixels.clipped;
+  report.pixels.valid = report.pixels.total - report.pixels.notFinite - report.pixels.clipped - found.masked;
   const double evenFraction = all.finite > 0.0 ? all.even / all.finite : 0.0;
   report.pixels.used = static_cast<std::size_t>(evenFraction * static_cast<double>(report.pixels.valid));
   SetSensorParameters(report, EstimateStatus::Failed);

@@ -28,6 +28,7 @@ struct SingleImageFindings
   std::optional<NoiseLine>               meanImage;      ///< line of the mean image, times the number of frames
   std::size_t                            clipped{ 0 };   ///< pixels at a clip level, in the first frame
   std::size_t                            notFinite{ 0 }; ///< pixels that are NaN or infinite there
+  std::size_t                            masked{ 0 };    ///< pixels that the mask leaves out
   std::string                            reason;         ///< why the first frame cannot be measured; "": it can
 };
 
