@@ -17,8 +17,8 @@ namespace sensornoise::tools
 {
 namespace
 {
-constexpr std::size_t   DefaultSize = 256; // [pixels]
-constexpr std::size_t   DefaultFrames = 60;
+constexpr std::size_t   CheckedSize = 256; // [pixels]
+constexpr std::size_t   CheckedFrames = 60;
 constexpr double        WrongSlope = 1.05;
 constexpr std::uint64_t OtherBurst = 500; // what is added to the seed of a report's burst
 
@@ -28,9 +28,9 @@ MeasureBurst(char camera, int condition, const std::string & scene, const StudyO
   SimulationSettings settings;
   settings.camera = PaperCamera(camera);
   settings.conditions = PaperConditions(condition);
-  settings.frames = options.frames.value_or(DefaultFrames);
+  settings.frames = options.frames.value_or(CheckedFrames);
   settings.seed = seed;
-  const std::size_t    size = options.size.value_or(DefaultSize);
+  const std::size_t    size = options.size.value_or(CheckedSize);
   const auto           reference = scene == "target" ? MakeTargetScene(size, size) : MakeTextureScene(size, size);
   const StackSimulator simulator(reference, size, size, settings);
   return MeasureBy("refined", RenderStack(simulator, size, size, settings.frames), { size, size, 1 }, settings.frames)

@@ -24,8 +24,8 @@ namespace
 {
 using Record = nlohmann::ordered_json;
 
-constexpr std::size_t DefaultSize = 512; // [pixels]
-constexpr std::size_t DefaultFrames = 100;
+constexpr std::size_t EfficiencySize = 512; // [pixels]
+constexpr std::size_t EfficiencyFrames = 100;
 
 /** A reference image. */
 struct Scene
@@ -38,7 +38,7 @@ struct Scene
 Scene
 MakeScene(const std::string & name, const StudyOptions & options)
 {
-  const std::size_t size = options.size.value_or(DefaultSize);
+  const std::size_t size = options.size.value_or(EfficiencySize);
   return { size,
            size,
            name == "target"    ? MakeTargetScene(size, size, options.sceneSeed)
@@ -74,7 +74,7 @@ MakeSettings(const std::string & experiment, const StudyOptions & options, std::
     settings.flaws.filters.pattern = BayerPatternOf(options.bayer);
   }
   settings.rollingShutterPeriodRows = options.rollingShutterPeriod;
-  settings.frames = options.frames.value_or(DefaultFrames);
+  settings.frames = options.frames.value_or(EfficiencyFrames);
   settings.seed = seed;
   return settings;
 }

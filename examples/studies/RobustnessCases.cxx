@@ -12,7 +12,7 @@ namespace sensornoise::tools
 {
 namespace
 {
-constexpr std::size_t DefaultSize = 512; // [pixels]
+constexpr std::size_t RobustnessSize = 512; // [pixels]
 
 const char *
 NameOf(StressExpectation expectation)
@@ -45,7 +45,7 @@ Measure(const StressStack & stack, const std::string & method)
 std::vector<nlohmann::ordered_json>
 MeasureCase(const StressCase & one, const std::string & scene, const StudyOptions & options, std::uint64_t seed)
 {
-  const StressStack         stack = MakeStressStack(one.name, scene, options.size.value_or(DefaultSize), seed);
+  const StressStack         stack = MakeStressStack(one.name, scene, options.size.value_or(RobustnessSize), seed);
   const MeasuredStack       measured = Measure(stack, options.method);
   std::vector<std::uint8_t> isUsed(measured.pixelUse.size());
   std::transform(measured.pixelUse.begin(), measured.pixelUse.end(), isUsed.begin(), [](std::uint8_t use) {

@@ -25,7 +25,7 @@ namespace
 using Codes = std::vector<std::uint16_t>;
 using Record = nlohmann::ordered_json;
 
-constexpr std::size_t DefaultSize = 256; // [pixels]
+constexpr std::size_t SensorSize = 256; // [pixels]
 
 KnownOffset
 MeasureDark(const RealSensorStack & dark, std::size_t frames)
@@ -138,7 +138,7 @@ CoverageOfMaps(const DarkMaps & dark, const StackSimulator & simulator)
 std::vector<Record>
 MeasureCase(RealSensorSetting setting, const StudyOptions & options, std::uint64_t seed)
 {
-  const std::size_t size = options.size.value_or(DefaultSize);
+  const std::size_t size = options.size.value_or(SensorSize);
   setting.settings.frames = options.frames.value_or(setting.settings.frames);
   const std::size_t      frames = setting.settings.frames;
   const RealSensorStack  stack(setting, size, seed);

@@ -132,11 +132,11 @@ struct NoiseExport
 /** One format: a row of the table of which the help, the documentation and the tests are made. */
 struct ExportFormat
 {
-  const char *    name;
-  const char *    consumer;
+  const char *    name{ nullptr };
+  const char *    consumer{ nullptr };
   ExportTakes     takes{ ExportTakes::Line };
   ExportExactness exactness{ ExportExactness::Exact };
-  const char *    fields; ///< what is written
+  const char *    fields{ nullptr }; ///< what is written
   bool            isText{ true };
   std::size_t     leastReports{ 1 }; ///< settings of the camera that it needs; 1: exactly one
   NoiseExport (*write)(const std::vector<CameraNoise> & settings){ nullptr };

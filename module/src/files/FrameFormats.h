@@ -17,15 +17,15 @@ namespace sensornoise
 /** A format that is read: a line of the table in FrameFormats.cxx, which is all that knows of it but its own files. */
 struct FrameFormat
 {
-  const char * name;         ///< as sentences call it
-  bool         hasITKReader; ///< ITK's own class reads it, to which itk::ImageFileReader is left
+  const char * name{ nullptr };       ///< as sentences call it
+  bool         hasITKReader{ false }; ///< ITK's own class reads it, to which itk::ImageFileReader is left
 
   /** Whether a file is of this format, by its first bytes, 512 or all, and where these do not tell by its name. */
-  bool (*isItsHead)(const std::string & head, const std::string & name);
+  bool (*isItsHead)(const std::string & head, const std::string & name){ nullptr };
 
   /** Fills in all of \a file but its name, format and first identity, and sets its reader, or throws FileError, see
    * InspectFrameFile(). */
-  void (*inspect)(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
+  void (*inspect)(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating){ nullptr };
 
   /** The paths of the other files that hold a part of this one; null: all is in one file. */
   std::vector<std::string> (*dataFiles)(FileBytes & bytes, const std::string & name){ nullptr };
