@@ -4,7 +4,8 @@
 # Checks that a room of the module includes only rooms that stand above it in the table of module/README.md. A public
 # header belongs to the room that has the source of the same name; every room may include one without such a source.
 # Public headers, and those of the filters, include no private ones; module/README.md lists all public headers. Prints the
-# includes from room to room, and how many of the module's headers a header pulls in.
+# includes from room to room, and how many of the module's headers a header pulls in. No two headers define types of one
+# name: the linker would keep the inline functions of one of them, such as the destructor, for both.
 set -euo pipefail
 cd "$(dirname "$0")/../module/src"
 python3 - <<'PY'
@@ -51,6 +52,12 @@ for p in sorted(pathlib.Path("../../filters").glob("*.h*")):
               if (pathlib.Path("../../filters/src") / other).exists() or pathlib.Path(other).exists()]
 listed = set(re.findall(r"^\| `(\w+\.h)` \|", readme, re.M))
 wrong += [f"module/README.md and module/include/sensornoise differ in {name}" for name in listed ^ {p.name for p in public}]
+types = collections.defaultdict(set)
+definition = re.compile(r"^(?:struct|class|enum class) (?:SensorNoise_EXPORT )?(\w+)(?!\w|::)[^;{()]*\{", re.M)
+for p in [p for p in private if p.suffix == ".h"] + public:
+    for name in definition.findall(re.sub(r"/\*.*?\*/|//[^\n]*", "", p.read_text(), flags=re.S)):
+        types[name].add(p.as_posix())
+wrong += [f"{' and '.join(sorted(headers))} define {name}" for name, headers in types.items() if len(headers) > 1]
 if wrong:
     sys.exit("\n".join(wrong))
 back = [f"{a} -> {b}" for a, others in rooms.items() for b in others if order.index(b) >= order.index(a)]

@@ -72,8 +72,8 @@ TEST(SensorNoiseClippedNormal, NothingIsClippedWithoutLevels)
 
 TEST(SensorNoiseClippedNormal, TheLevelBeforeClippingIsFoundAgain)
 {
-  const VarianceLine line{ 100.0, 2.0, 400.0 };
-  const ClipLevels   levels{ 0.0, 1000.0 };
+  const CentredLine line{ 100.0, 2.0, 400.0 };
+  const ClipLevels  levels{ 0.0, 1000.0 };
   for (const double level : { -20.0, 0.0, 30.0, 100.0, 700.0, 960.0, 1010.0 })
   {
     const ClippedMoments truth = MomentsOfClipped(level, std::sqrt(std::max(line.At(level), 1.0)), levels);

@@ -56,7 +56,7 @@ TEST(SensorNoiseNoiseLine, ErrorsAreThoseOfWeightedLeastSquares)
 
 TEST(SensorNoiseNoiseLine, ClippedLevelSetsGiveTheLineBeforeClipping)
 {
-  const VarianceLine    truth{ 0.0, 2.0, 100.0 };
+  const CentredLine     truth{ 0.0, 2.0, 100.0 };
   const ClipLevels      levels{ 0.0, 1000.0 };
   std::vector<LevelSet> sets;
   for (const double level : { 15.0, 20.0, 300.0, 600.0, 930.0, 940.0 })

@@ -22,7 +22,7 @@ NoiseExport
 ExportCareamics(const CameraNoise & noise)
 {
   const ChannelNoise & channel = OnlyChannel(noise, "careamics");
-  const VarianceLine   line = LineOf(noise, channel);
+  const NoiseModel     model = ModelOf(noise, channel);
   if (!channel.lowestDn)
   {
     throw ExportError("the report " + noise.name +
@@ -31,14 +31,14 @@ ExportCareamics(const CameraNoise & noise)
   }
   const double low = std::max(0.0, *channel.lowestDn);
   const double high = noise.whiteLevelDn.value_or(channel.clipHighDn.value_or(*channel.highestDn));
-  const double lowest = line.slope * low + line.intercept;
+  const double lowest = model.VarianceAt(low);
   if (!(lowest > 0.0) || !(high > low))
   {
     throw ExportError("the report " + noise.name + " has a variance of " + Text(lowest) +
                       " DN^2 at its darkest level " + Text(low) + " DN, and " + Text(high) +
                       " DN as its brightest level; expected a variance above 0 and a brighter level");
   }
-  const double rise = line.slope * (high - low);
+  const double rise = model.varianceSlopeDn * (high - low);
   return OneFile("careamics_noise_model.npz",
                  NpzFile({ { "trained_weight", { 3, 2 }, { 0.0, 0.0, std::log(lowest), std::log(rise), 0.0, 0.0 } },
                            { "min_signal", { 1 }, { low } },

@@ -59,33 +59,33 @@ OnlyChannel(const CameraNoise & noise, const std::string & format)
   return noise.channels.front();
 }
 
-VarianceLine
-LineOf(const CameraNoise & noise, const ChannelNoise & channel)
+NoiseModel
+ModelOf(const CameraNoise & noise, const ChannelNoise & channel)
 {
-  VarianceLine line;
-  line.slope = RequireIdentified(noise, channel, channel.varianceSlope, "variance_slope", readWarnings);
-  line.intercept = RequireIdentified(noise, channel, channel.totalIntercept, "total_intercept", readWarnings);
-  RequirePositive(noise, channel, line.slope, "variance_slope");
-  return line;
+  NoiseModel model;
+  model.varianceSlopeDn = RequireIdentified(noise, channel, channel.varianceSlope, "variance_slope", readWarnings);
+  model.totalInterceptDn2 = RequireIdentified(noise, channel, channel.totalIntercept, "total_intercept", readWarnings);
+  RequirePositive(noise, channel, model.varianceSlopeDn, "variance_slope");
+  return model;
 }
 
 NormalisedLine
 NormalisedLineOf(const CameraNoise & noise, const ChannelNoise & channel)
 {
-  const VarianceLine line = LineOf(noise, channel);
-  const double       black = BlackLevelOf(noise);
-  const double       range = WhiteLevelOf(noise) - black;
-  const double       darkVariance = line.intercept + line.slope * black;
+  const NoiseModel model = ModelOf(noise, channel);
+  const double     black = BlackLevelOf(noise);
+  const double     range = WhiteLevelOf(noise) - black;
+  const double     darkVariance = model.VarianceAt(black);
   if (darkVariance < 0.0)
   {
     const bool hasOffset = channel.offset.value.has_value();
     throw ExportError(ReportWords(noise, channel) + " has a variance of " + Rounded(darkVariance) +
                       " DN^2 at the black level " + Text(black) + " DN; expected 0 or more. The line is 0 at " +
-                      Text(-line.intercept / line.slope) + " DN" +
+                      Text(-model.totalInterceptDn2 / model.varianceSlopeDn) + " DN" +
                       (hasOffset ? ", and the measured offset is " + Text(*channel.offset.value) + " DN" : "") +
                       ". Give the level of the camera's dark frames as the black level (--black).");
   }
-  return { line.slope / range, darkVariance / (range * range) };
+  return { model.varianceSlopeDn / range, darkVariance / (range * range) };
 }
 
 double

@@ -4,18 +4,12 @@
 #define sensornoise_exports_ExportInput_h
 
 #include "sensornoise/NoiseExport.h"
+#include "sensornoise/NoiseModel.h"
 
 #include <string>
 
 namespace sensornoise
 {
-
-/** The variance of a pixel at the level x [DN]: slope x + intercept. */
-struct VarianceLine
-{
-  double slope{ 0.0 };     ///< a [DN/e-]
-  double intercept{ 0.0 }; ///< b [DN^2]
-};
 
 /** The variance on the scale where the black level is 0 and the white level is 1: scale x + offset. */
 struct NormalisedLine
@@ -36,9 +30,9 @@ struct SensorNumbers
 const ChannelNoise &
 OnlyChannel(const CameraNoise & noise, const std::string & format);
 
-/** The line of a channel. Throws ExportError if it is not identified or its slope is not above 0. */
-VarianceLine
-LineOf(const CameraNoise & noise, const ChannelNoise & channel);
+/** The noise model of a channel. Throws ExportError if it is not identified or its slope is not above 0. */
+NoiseModel
+ModelOf(const CameraNoise & noise, const ChannelNoise & channel);
 
 /** The line of a channel between the black and the white level. Throws ExportError if a level is missing, or the
  * variance at the black level is negative. */

@@ -71,9 +71,9 @@ ExportNdsafir(const CameraNoise & noise)
   std::vector<std::string> channels;
   for (const ChannelNoise & channel : noise.channels)
   {
-    const VarianceLine line = LineOf(noise, channel);
-    gains.push_back(line.slope);
-    offsets.push_back(line.intercept);
+    const NoiseModel model = ModelOf(noise, channel);
+    gains.push_back(model.varianceSlopeDn);
+    offsets.push_back(model.totalInterceptDn2);
     channels.push_back(channel.channel);
   }
   std::string text;
@@ -85,16 +85,16 @@ ExportNdsafir(const CameraNoise & noise)
 NoiseExport
 ExportAnscombeTransform(const CameraNoise & noise)
 {
-  const VarianceLine line = LineOf(noise, OnlyChannel(noise, "anscombe-transform"));
-  const double       zero = -line.intercept / line.slope;
-  const double       rounded = std::round(zero);
-  std::string        text;
-  JsonWriter         json(text);
-  json.Object([&] { json.Member("conversion_gain", line.slope).Member("zero_level", rounded); });
+  const NoiseModel model = ModelOf(noise, OnlyChannel(noise, "anscombe-transform"));
+  const double     zero = -model.totalInterceptDn2 / model.varianceSlopeDn;
+  const double     rounded = std::round(zero);
+  std::string      text;
+  JsonWriter       json(text);
+  json.Object([&] { json.Member("conversion_gain", model.varianceSlopeDn).Member("zero_level", rounded); });
   return OneFile("anscombe_transform.json",
                  text + '\n',
                  "The zero level is rounded from " + Text(zero) + " DN: all variances are " +
-                   Rounded(line.slope * (zero - rounded)) + " DN^2 too large.");
+                   Rounded(model.varianceSlopeDn * (zero - rounded)) + " DN^2 too large.");
 }
 
 NoiseExport

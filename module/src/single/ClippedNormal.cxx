@@ -51,7 +51,7 @@ MomentsOfClipped(double meanDn, double sdDn, const ClipLevels & levels)
 }
 
 ClippedMoments
-ClippedAtMean(double clippedMeanDn, const VarianceLine & line, const ClipLevels & levels, double leastVarianceDn2)
+ClippedAtMean(double clippedMeanDn, const CentredLine & line, const ClipLevels & levels, double leastVarianceDn2)
 {
   const auto sdAt = [&](double level) { return std::sqrt(std::max(line.At(level), leastVarianceDn2)); };
   // The mean of clipped values rises with the mean before clipping, by the probability of a value in between.

@@ -31,7 +31,7 @@ SensorNoise_EXPORT ClippedMoments
 MomentsOfClipped(double meanDn, double sdDn, const ClipLevels & levels);
 
 /** Variance against level before clipping: slope times (level - centre) + variance at the centre. */
-struct VarianceLine
+struct CentredLine
 {
   double centreDn{ 0.0 };
   double slopeDn{ 0.0 }; ///< [DN/e-]
@@ -47,7 +47,7 @@ struct VarianceLine
 /** Returns the moments of the pixels whose mean after clipping is \a clippedMeanDn, if \a line is their variance before
  * clipping, but at least \a leastVarianceDn2 > 0. */
 SensorNoise_EXPORT ClippedMoments
-ClippedAtMean(double clippedMeanDn, const VarianceLine & line, const ClipLevels & levels, double leastVarianceDn2);
+ClippedAtMean(double clippedMeanDn, const CentredLine & line, const ClipLevels & levels, double leastVarianceDn2);
 
 } // namespace sensornoise
 

@@ -6,7 +6,7 @@
 #include "base/PixelLayout.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/StepResults.h"
-#include "single/FrameNoise.h"
+#include "single/ImageNoise.h"
 
 #include <cstddef>
 #include <optional>
@@ -22,7 +22,7 @@ struct MeasuredPlane
   PixelLayout                            layout;
   FrameGeometry                          geometry;
   CodeRange                              codes; ///< found from the first frame that can be measured
-  std::vector<std::optional<FrameNoise>> frames;
+  std::vector<std::optional<ImageNoise>> frames;
   std::size_t                            clipped{ 0 };   ///< pixels at a clip level, in that frame
   std::size_t                            notFinite{ 0 }; ///< pixels that are NaN or infinite, in that frame
   std::size_t                            masked{ 0 };    ///< pixels that the mask leaves out

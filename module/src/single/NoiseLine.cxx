@@ -74,16 +74,16 @@ struct LineFit
   {
     NormalSums sums;
     fit.details = 0.0;
-    const VarianceLine & line = fit.line;
-    const double         stepDn2 = 1e-4 * std::max(std::abs(line.atCentreDn2), leastVarianceDn2); // of the derivatives
-    VarianceLine         higher = line;
-    VarianceLine         steeper = line;
+    const CentredLine & line = fit.line;
+    const double        stepDn2 = 1e-4 * std::max(std::abs(line.atCentreDn2), leastVarianceDn2); // of the derivatives
+    CentredLine         higher = line;
+    CentredLine         steeper = line;
     higher.atCentreDn2 += stepDn2;
     steeper.slopeDn += stepDn2 / rmsDn;
     for (std::size_t i = 0; i < sets.size(); ++i)
     {
       const LevelSet & set = sets[i];
-      const auto at = [&](const VarianceLine & of) { return ClippedAtMean(set.levelDn, of, levels, leastVarianceDn2); };
+      const auto at = [&](const CentredLine & of) { return ClippedAtMean(set.levelDn, of, levels, leastVarianceDn2); };
       const ClippedMoments moments = at(line);
       const double         expected = moments.varianceDn2;
       fit.expectedDn2[i] = expected;
@@ -114,7 +114,7 @@ NoiseLine
 FitNoiseLine(const std::vector<LevelSet> & sets,
              const ClipLevels &            levels,
              double                        leastVarianceDn2,
-             const VarianceLine &          start)
+             const CentredLine &           start)
 {
   NoiseLine         fit;
   const LevelSpread spread = SpreadOf(sets);

@@ -23,7 +23,7 @@ struct LevelSet
 /** The line through the variance of level sets. */
 struct NoiseLine
 {
-  VarianceLine        line;
+  CentredLine         line;
   double              slopeVariance{ 0.0 };   ///< squared standard error of the slope [DN^2]
   double              centreVariance{ 0.0 };  ///< of the variance at the centre [DN^4]
   double              slopeCovariance{ 0.0 }; ///< of both [DN^3]
@@ -62,7 +62,7 @@ SensorNoise_EXPORT NoiseLine
 FitNoiseLine(const std::vector<LevelSet> & sets,
              const ClipLevels &            levels,
              double                        leastVarianceDn2,
-             const VarianceLine &          start);
+             const CentredLine &           start);
 
 } // namespace sensornoise
 

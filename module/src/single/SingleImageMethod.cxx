@@ -5,7 +5,7 @@
 #include "base/NothingToMeasure.h"
 #include "report/ExcessNoise.h"
 #include "report/StackSettings.h"
-#include "single/FrameNoise.h"
+#include "single/ImageNoise.h"
 #include "single/MeasuredPlane.h"
 #include "single/SingleImageReport.h"
 
@@ -72,7 +72,7 @@ LineOfMean(const PlaneOfFrame<double> & mean,
            double                       frames,
            const ParallelFor &          parallelFor)
 {
-  FrameNoise noise = MeasureFrame(mean, LevelLimits{}, parallelFor);
+  ImageNoise noise = MeasureFrame(mean, LevelLimits{}, parallelFor);
   for (LevelSet & set : noise.diagonal)
   {
     constexpr double farFromClip = 3.0;

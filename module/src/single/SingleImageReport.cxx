@@ -31,7 +31,7 @@ struct AllFrames
 };
 
 AllFrames
-Gather(const std::vector<std::optional<FrameNoise>> & frames)
+Gather(const std::vector<std::optional<ImageNoise>> & frames)
 {
   AllFrames all;
   for (const auto & frame : frames)
@@ -227,7 +227,7 @@ FillParameters(Report & report, const SingleImageFindings & found, const NoiseLi
 
 /** The level sets of the first frame that has some: of many frames they would be thousands. */
 void
-FillLevelSets(Report & report, const std::vector<std::optional<FrameNoise>> & frames)
+FillLevelSets(Report & report, const std::vector<std::optional<ImageNoise>> & frames)
 {
   const auto first = std::find_if(frames.begin(), frames.end(), [](const auto & frame) { return frame.has_value(); });
   if (first == frames.end())
@@ -287,7 +287,7 @@ ReasonAgainst(Report & report, const SingleImageFindings & found, const AllFrame
 } // namespace
 
 NoiseLine
-FitAllFrames(const std::vector<std::optional<FrameNoise>> & frames, const LevelLimits & limits)
+FitAllFrames(const std::vector<std::optional<ImageNoise>> & frames, const LevelLimits & limits)
 {
   const AllFrames all = Gather(frames);
   const auto      first =

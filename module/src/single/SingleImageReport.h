@@ -6,7 +6,7 @@
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/StepResults.h"
-#include "single/FrameNoise.h"
+#include "single/ImageNoise.h"
 
 #include <cstddef>
 #include <optional>
@@ -24,7 +24,7 @@ struct SingleImageFindings
   const SingleImageSettings &            settings;
   FrameGeometry                          geometry; ///< of the frame, or of the plane
   CodeRange                              codes;
-  std::vector<std::optional<FrameNoise>> frames;         ///< null: the frame cannot be measured
+  std::vector<std::optional<ImageNoise>> frames;         ///< null: the frame cannot be measured
   std::optional<NoiseLine>               meanImage;      ///< line of the mean image, times the number of frames
   std::size_t                            clipped{ 0 };   ///< pixels at a clip level, in the first frame
   std::size_t                            notFinite{ 0 }; ///< pixels that are NaN or infinite there
@@ -39,7 +39,7 @@ MakeSingleImageReport(const SingleImageFindings & found);
 
 /** Fits one line to the level sets of all frames. */
 NoiseLine
-FitAllFrames(const std::vector<std::optional<FrameNoise>> & frames, const LevelLimits & limits);
+FitAllFrames(const std::vector<std::optional<ImageNoise>> & frames, const LevelLimits & limits);
 
 } // namespace sensornoise
 

@@ -6,7 +6,7 @@
 #include "base/Quantiles.h"
 #include "single/BandTile.h"
 #include "single/Constants.h"
-#include "single/FrameNoise.h"
+#include "single/ImageNoise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +88,7 @@ MakeStartingGroups(const std::vector<BandTile> & sample)
   return starting;
 }
 
-VarianceLine
+CentredLine
 FitStartingLine(const StartingGroups & groups, const LevelLimits & limits, double originDn, double unitDn)
 {
   constexpr double farFromClip = 2.0; // standard deviations

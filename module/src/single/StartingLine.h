@@ -35,7 +35,7 @@ MakeStartingGroups(const std::vector<BandTile> & sample);
 
 /** Returns the line through the groups that are no closer to a clip level than two standard deviations, by least
  * squares relative to the variance; a constant where there are fewer than two. [DN] */
-SensorNoise_EXPORT VarianceLine
+SensorNoise_EXPORT CentredLine
 FitStartingLine(const StartingGroups & groups, const LevelLimits & limits, double originDn, double unitDn);
 
 } // namespace sensornoise

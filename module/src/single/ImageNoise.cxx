@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "single/FrameNoise.h"
+#include "single/ImageNoise.h"
 
 #include "base/NothingToMeasure.h"
 #include "base/Quantiles.h"
@@ -157,7 +157,7 @@ LeastVariance(const LevelLimits & limits, double unitDn)
 /** The grid of a line, of which no variance is below \a leastDn2. */
 LevelGrid
 MakeGrid(const StartingGroups & groups,
-         const VarianceLine &   line,
+         const CentredLine &    line,
          const LevelLimits &    limits,
          double                 leastDn2,
          double                 originDn,
@@ -254,7 +254,7 @@ FindCodesOfFrame(const PlaneOfFrame<TPixel> & plane, const CodeSettings & settin
 }
 
 template <typename TPixel>
-FrameNoise
+ImageNoise
 MeasureFrame(const PlaneOfFrame<TPixel> & plane, const LevelLimits & limits, const ParallelFor & parallelFor)
 {
   const PlaneTiles            tiles = TilesOf(plane);
@@ -263,7 +263,7 @@ MeasureFrame(const PlaneOfFrame<TPixel> & plane, const LevelLimits & limits, con
   const StartingGroups        groups = RequireGroups(sample);
   const double                leastDn2 = LeastVariance(limits, frame.unitDn);
   const double                medianDn2 = groups.medianVariance * frame.unitDn * frame.unitDn;
-  VarianceLine                line = FitStartingLine(groups, limits, frame.originDn, frame.unitDn);
+  CentredLine                 line = FitStartingLine(groups, limits, frame.originDn, frame.unitDn);
   const auto                  gridOf = [&](double atLeastDn2) {
     return MakeGrid(groups, line, limits, std::max(leastDn2, atLeastDn2), frame.originDn, frame.unitDn);
   };
@@ -283,7 +283,7 @@ MeasureFrame(const PlaneOfFrame<TPixel> & plane, const LevelLimits & limits, con
     grid = gridOf(0.0);
   }
   const LevelSums sums = SumFrame(frame, tiles, grid, parallelFor);
-  FrameNoise      noise;
+  ImageNoise      noise;
   noise.diagonal = setsOf(sums, grid, DetailBand::Diagonal);
   noise.sides = setsOf(sums, grid, DetailBand::Sides);
   noise.line = FitNoiseLine(noise.diagonal, limits.clip, leastDn2, line);
@@ -294,7 +294,7 @@ MeasureFrame(const PlaneOfFrame<TPixel> & plane, const LevelLimits & limits, con
 
 #define SensorNoise_INSTANTIATE(TPixel)                                                                          \
   template CodeRange  FindCodesOfFrame(const PlaneOfFrame<TPixel> &, const CodeSettings &, const ParallelFor &); \
-  template FrameNoise MeasureFrame(const PlaneOfFrame<TPixel> &, const LevelLimits &, const ParallelFor &)
+  template ImageNoise MeasureFrame(const PlaneOfFrame<TPixel> &, const LevelLimits &, const ParallelFor &)
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 #undef SensorNoise_INSTANTIATE
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#ifndef sensornoise_single_FrameNoise_h
-#define sensornoise_single_FrameNoise_h
+#ifndef sensornoise_single_ImageNoise_h
+#define sensornoise_single_ImageNoise_h
 
 #include "base/PixelLayout.h"
 #include "sensornoise/Parallel.h"
@@ -27,7 +27,7 @@ struct PlaneOfFrame
 };
 
 /** What one frame shows of its noise. */
-struct FrameNoise
+struct ImageNoise
 {
   std::vector<LevelSet> diagonal;      ///< by diagonal details
   std::vector<LevelSet> sides;         ///< the same sets by horizontal and vertical details
@@ -57,7 +57,7 @@ FindCodesOfFrame(const PlaneOfFrame<TPixel> & plane, const CodeSettings & settin
  * the windows without edges, and is fitted again; the last one selects those of the whole frame. The same bits for any
  * number of threads. Throws NothingToMeasure for a frame that is too small, or whose pixels have one level. */
 template <typename TPixel>
-FrameNoise
+ImageNoise
 MeasureFrame(const PlaneOfFrame<TPixel> & plane, const LevelLimits & limits, const ParallelFor & parallelFor);
 
 } // namespace sensornoise
