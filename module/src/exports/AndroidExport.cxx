@@ -4,6 +4,7 @@
 
 #include "base/Text.h"
 #include "exports/ExportInput.h"
+#include "exports/RelativeFit.h"
 #include "report/JsonWriter.h"
 
 #include <algorithm>
@@ -18,49 +19,6 @@ namespace sensornoise
 {
 namespace
 {
-/** The least variance that errors are relative to, between 0 and 1 at the white level: far below one electron of any
- * sensor, and above 0. */
-constexpr double leastVariance = 1e-30;
-
-/** One equation: first x + second y = wanted. */
-struct TwoTerms
-{
-  double first{ 0.0 };
-  double second{ 0.0 };
-  double wanted{ 0.0 };
-};
-
-/** Solves equations by least squares of relative errors. Where \a isPositive, no term is below 0. */
-std::array<double, 2>
-SolveRelative(const std::vector<TwoTerms> & equations, bool isPositive)
-{
-  double xx = 0.0;
-  double xy = 0.0;
-  double yy = 0.0;
-  double xw = 0.0;
-  double yw = 0.0;
-  for (const TwoTerms & each : equations)
-  {
-    const double weight = std::pow(std::max(each.wanted, leastVariance), -2.0);
-    xx += weight * each.first * each.first;
-    xy += weight * each.first * each.second;
-    yy += weight * each.second * each.second;
-    xw += weight * each.first * each.wanted;
-    yw += weight * each.second * each.wanted;
-  }
-  const double          determinant = xx * yy - xy * xy;
-  std::array<double, 2> solved{ (xw * yy - yw * xy) / determinant, (yw * xx - xw * xy) / determinant };
-  if (isPositive && solved[0] < 0.0)
-  {
-    solved = { 0.0, yw / yy };
-  }
-  else if (isPositive && solved[1] < 0.0)
-  {
-    solved = { xw / xx, 0.0 };
-  }
-  return solved;
-}
-
 /** The model of one channel. */
 struct AndroidChannel
 {

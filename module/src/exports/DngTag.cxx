@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <utility>
@@ -32,26 +31,6 @@ NumberAt(const std::string & file, std::size_t offset, std::size_t bytes, bool i
                       ", before the end of its first directory; expected a whole file");
   }
   return NumberInBytes(reinterpret_cast<const unsigned char *>(file.data()) + offset, bytes, isBigEndian);
-}
-
-std::string
-BytesOfNumber(std::uint64_t number, std::size_t count, bool isBigEndian)
-{
-  std::string bytes(count, '\0');
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    bytes[isBigEndian ? count - 1 - i : i] = static_cast<char>(number >> (8 * i) & 0xFFU);
-  }
-  return bytes;
-}
-
-std::string
-BytesOfDouble(double number, bool isBigEndian)
-{
-  static_assert(std::numeric_limits<double>::is_iec559, "a DOUBLE of TIFF is an IEEE 754 number of 8 bytes");
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &number, sizeof bits);
-  return BytesOfNumber(bits, sizeof bits, isBigEndian);
 }
 
 bool
@@ -86,7 +65,7 @@ WithNoiseProfile(const std::string & file, const std::vector<std::pair<double, d
     bytesOf(noiseProfileTag, 2) + bytesOf(doubleType, 2) + bytesOf(2 * profile.size(), 4) + bytesOf(copy.size(), 4);
   for (const auto & [scale, offset] : profile)
   {
-    copy += BytesOfDouble(scale, isBigEndian) + BytesOfDouble(offset, isBigEndian);
+    copy += BytesOfReal(scale, isBigEndian) + BytesOfReal(offset, isBigEndian);
   }
   std::vector<std::pair<std::uint64_t, std::string>> entries{ { noiseProfileTag, entry } };
   for (std::size_t i = 0; i < count; ++i)

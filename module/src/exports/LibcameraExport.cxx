@@ -4,11 +4,13 @@
 
 #include "base/Text.h"
 #include "exports/ExportInput.h"
+#include "exports/RelativeFit.h"
 #include "report/JsonWriter.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace sensornoise
 {
@@ -77,30 +79,14 @@ ScaleVariance(const CameraNoise & noise)
 RootLine
 FitRootLine(const ScaledVariance & variance)
 {
-  double ones = 0.0; // sums of 1, r, r^2, y and r y over y^2, with the root r and the deviation y
-  double roots = 0.0;
-  double roots2 = 0.0;
-  double deviations = 0.0;
-  double products = 0.0;
+  std::vector<TwoTerms> equations;
   for (int level = variance.dark > 0.0 ? 0 : 1; level < levels; ++level)
   {
     const double root = variance.RootOfLevel(level);
-    const double deviation = variance.DeviationAt(root);
-    const double weight = 1.0 / (deviation * deviation);
-    ones += weight;
-    roots += weight * root;
-    roots2 += weight * root * root;
-    deviations += weight * deviation;
-    products += weight * root * deviation;
+    equations.push_back({ 1.0, root, variance.DeviationAt(root) });
   }
-  RootLine line;
-  line.slope = (ones * products - roots * deviations) / (ones * roots2 - roots * roots);
-  line.constant = (deviations - line.slope * roots) / ones;
-  if (line.constant < 0.0)
-  {
-    line = { 0.0, products / roots2 };
-  }
-  return line;
+  const auto [constant, slope] = SolveRelative(equations, true);
+  return { constant, slope };
 }
 
 /** Relative errors of the standard deviation that is stored. */

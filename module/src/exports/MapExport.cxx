@@ -3,10 +3,10 @@
 #include "exports/MapExport.h"
 
 #include "exports/ExportInput.h"
+#include "files/ByteOrder.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -17,12 +17,7 @@ namespace
 std::string
 TiffNumber(std::uint64_t number, std::size_t bytes)
 {
-  std::string text;
-  for (std::size_t i = 0; i < bytes; ++i)
-  {
-    text += static_cast<char>(number >> (8 * i) & 0xFFU);
-  }
-  return text;
+  return BytesOfNumber(number, bytes, false);
 }
 
 /** An entry of TIFF 6.0 with one value of type LONG, or of SHORT, which takes its lower half. */
@@ -50,10 +45,7 @@ FloatTiff(const std::vector<double> & values, std::size_t width, std::size_t hei
   file += TiffNumber(0, 4);
   for (const double value : values)
   {
-    const auto    number = static_cast<float>(value);
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, &number, sizeof bits);
-    file += TiffNumber(bits, sizeof bits);
+    file += BytesOfReal(static_cast<float>(value), false);
   }
   return file;
 }

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exports/NpzFile.h"
 
+#include "files/ByteOrder.h"
 #include "files/Zlib.h"
 
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -17,12 +17,7 @@ namespace
 std::string
 LittleEndian(std::uint64_t number, std::size_t bytes)
 {
-  std::string text;
-  for (std::size_t i = 0; i < bytes; ++i)
-  {
-    text += static_cast<char>(number >> (8 * i) & 0xFFU);
-  }
-  return text;
+  return BytesOfNumber(number, bytes, false);
 }
 
 std::string
@@ -41,9 +36,7 @@ NpyBytes(const NpzArray & array)
   std::string bytes = magic + LittleEndian(header.size(), 2) + header;
   for (const double value : array.values)
   {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
-    bytes += LittleEndian(bits, sizeof bits);
+    bytes += BytesOfReal(value, false);
   }
   return bytes;
 }

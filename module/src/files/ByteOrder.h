@@ -5,6 +5,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <type_traits>
 
 namespace sensornoise
 {
@@ -19,6 +23,30 @@ NumberInBytes(const unsigned char * bytes, std::size_t count, bool isBigEndian)
     number = (number << 8) | bytes[isBigEndian ? i : count - 1 - i];
   }
   return number;
+}
+
+/** Returns the lowest \a count bytes of a number, at most 8, the highest or the lowest of them first. */
+inline std::string
+BytesOfNumber(std::uint64_t number, std::size_t count, bool isBigEndian)
+{
+  std::string bytes(count, '\0');
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    bytes[isBigEndian ? count - 1 - i : i] = static_cast<char>(number >> (8 * i) & 0xFFU);
+  }
+  return bytes;
+}
+
+/** Returns the bytes of a float or a double as IEEE 754 has them. */
+template <typename TReal>
+std::string
+BytesOfReal(TReal number, bool isBigEndian)
+{
+  static_assert(std::numeric_limits<TReal>::is_iec559, "files hold numbers of IEEE 754");
+  std::conditional_t<sizeof(TReal) == 4, std::uint32_t, std::uint64_t> bits = 0;
+  static_assert(sizeof bits == sizeof number, "float or double");
+  std::memcpy(&bits, &number, sizeof bits);
+  return BytesOfNumber(bits, sizeof bits, isBigEndian);
 }
 
 } // namespace sensornoise

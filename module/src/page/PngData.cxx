@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page/PngData.h"
 
+#include "files/ByteOrder.h"
 #include "files/Zlib.h"
 
 #include <array>
@@ -18,12 +19,7 @@ namespace
 std::string
 BigEndian(std::size_t number)
 {
-  std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8)
-  {
-    bytes += static_cast<char>((number >> shift) & 0xFFU);
-  }
-  return bytes;
+  return BytesOfNumber(number, 4, true);
 }
 
 const Bytef *
