@@ -161,21 +161,18 @@ ResultOf(const itk::SensorNoiseEstimator<TStack> & estimator)
   return estimator.GetReport();
 }
 
-/** The text of the file that --plot asks for. */
-template <typename TStack>
+/** The text of the file that --plot asks for. \a maps are needed for a page alone. A figure is of the plane G1 of a
+ * mosaic. */
 std::string
-MakePlot(PlotKind                            kind,
-         const MeasuredStack &               measured,
-         const PageTitle &                   title,
-         itk::SensorNoiseEstimator<TStack> & estimator)
+MakePlot(PlotKind kind, const MeasuredStack & measured, const PageTitle & title, const PageMaps & maps)
 {
-  if (kind != PlotKind::Page)
+  if (kind == PlotKind::Page)
   {
-    const std::string svg = estimator.GetReportAsSvg();
-    return kind == PlotKind::Png ? SvgAsPng(svg) : svg;
+    return std::visit([&](const auto & report) { return ToHtml(report, maps, title); }, measured);
   }
-  const PageMaps maps = itk::PageMapsOf(estimator.GetMean(), estimator.GetPixelUse());
-  return std::visit([&](const auto & report) { return ToHtml(report, maps, title); }, measured);
+  const auto * const report = std::get_if<Report>(&measured);
+  const std::string  svg = ToSvg(report != nullptr ? *report : std::get<ChannelReports>(measured).Of(BayerPlane::G1));
+  return kind == PlotKind::Png ? SvgAsPng(svg) : svg;
 }
 
 /** Says what memory the estimate of a large frame will need, before it starts. */
@@ -199,7 +196,7 @@ NoteMemory(const EstimateOptions & options, const itk::ImageRegion<3> & region)
   std::cerr << '\n';
 }
 
-/** What was cut out of the recorded stack, for the report. */
+/** Returns the region and the frames that --roi and --frames choose, for the report. */
 StackSelection
 SelectionOf(const EstimateOptions & options)
 {
@@ -268,15 +265,9 @@ EstimateSingleImages(const EstimateOptions &     options,
     }
   }
   AddHash(options, list, {}, measured);
-  if (plot != nullptr && options.Plot() == PlotKind::Page)
+  if (plot != nullptr)
   {
-    *plot = std::visit([](const auto & report) { return ToHtml(report); }, measured);
-  }
-  else if (plot != nullptr)
-  {
-    const auto * const report = std::get_if<Report>(&measured);
-    const std::string  svg = ToSvg(report != nullptr ? *report : std::get<ChannelReports>(measured).channels[1]);
-    *plot = options.Plot() == PlotKind::Png ? SvgAsPng(svg) : svg;
+    *plot = MakePlot(options.Plot(), measured, TitleOf(list), {});
   }
   return measured;
 }
@@ -342,7 +333,11 @@ Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * map
   AddHash(options, list, darkList, measured);
   if (plot != nullptr)
   {
-    *plot = MakePlot(options.Plot(), measured, TitleOf(list), *estimator);
+    const bool isPage = options.Plot() == PlotKind::Page;
+    *plot = MakePlot(options.Plot(),
+                     measured,
+                     TitleOf(list),
+                     isPage ? itk::PageMapsOf(estimator->GetMean(), estimator->GetPixelUse()) : PageMaps{});
   }
   return measured;
 }
