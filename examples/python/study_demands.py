@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What the stacks of each line of the sensor study have to show."""
+"""Demands on the stacks of each line of the sensor study."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -69,11 +69,7 @@ def line_noise(name):
 
 
 def bounds_contain(name):
-    def test(record):
-        one = estimate_of(record, name)
-        return holds(one.bounds, one.truth) if one.bounds else None
-
-    return Demand(f"bounds contain {name}", test, LEAST_BOUNDS)
+    return Demand(f"bounds contain {name}", lambda record: estimate_of(record, name).is_within_bounds, LEAST_BOUNDS)
 
 
 def identified_within_bounds(name):
@@ -131,11 +127,7 @@ FLATS = [
     *(coverage(name) for name in ("gain", "offset", "flicker_sd")),
     Demand(
         "upper limit of the flicker is above it",
-        lambda record: (
-            (one.bounds or one.interval)[1] >= one.truth
-            if (one := estimate_of(record, "flicker_sd")).status == "upper-limit"
-            else None
-        ),
+        lambda record: estimate_of(record, "flicker_sd").is_below_limit,
         LEAST_COVERAGE,
     ),
 ]

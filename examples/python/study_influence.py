@@ -11,10 +11,10 @@ stacks whose gain is identified; "=": no report changes. About half a second a s
 
 import argparse
 import json
-import subprocess
 import sys
 from pathlib import Path
 
+from acceptance_programs import run
 from study_records import estimate_of, mean
 
 CASES = ("waving_quarter", "hot_pixels", "bleach_mixed", "shoulder+4", "brighter_fatter", "smoothed")
@@ -25,8 +25,7 @@ LARGEST_Z = 3.0  # [standard errors]
 def measure(program, case, options, *more):
     """The records of a case, by their seeds."""
     command = [program, f"robustness/{case}/{options.scene}", "--seeds", options.seeds, "--size", options.size, *more]
-    done = subprocess.run(list(map(str, command)), stdout=subprocess.PIPE, check=True)
-    return [json.loads(line) for line in done.stdout.splitlines()]
+    return [json.loads(line) for line in run(command).output.splitlines()]
 
 
 def cell(records):
@@ -41,8 +40,8 @@ def cell(records):
 
 def constants_of(program, names):
     """Name and value of the constants, as the program lists them."""
-    lines = subprocess.run([program, "--list-constants"], stdout=subprocess.PIPE, check=True, text=True).stdout
-    known = {line.split()[0]: float(line.split()[1]) for line in lines.splitlines()}
+    lines = run([program, "--list-constants"]).output.splitlines()
+    known = {line.split()[0]: float(line.split()[1]) for line in lines}
     missing = set(names) - set(known)
     if missing:
         raise SystemExit(f"error: no constant has the name {min(missing)}; known are {', '.join(known)}")

@@ -70,6 +70,19 @@ class Estimate(NamedTuple):
         """Whether the 95 % interval contains the truth; None if the quantity is not identified."""
         return None if self.error is None else bool(self.interval) and holds(self.interval, self.truth)
 
+    @property
+    def is_below_limit(self):
+        """Whether the truth is at most the upper limit; None for another status, or without a truth."""
+        limit = self.bounds or self.interval
+        if self.status != "upper-limit" or self.truth is None:
+            return None
+        return bool(limit) and self.truth <= limit[1]
+
+    @property
+    def is_within_bounds(self):
+        """Whether the bounds contain the truth; None where there are none, or no truth."""
+        return None if not self.bounds or self.truth is None else holds(self.bounds, self.truth)
+
     def is_within(self, fraction):
         """Whether the error is at most so large a fraction of the truth, or three standard errors."""
         return self.error is not None and (

@@ -24,7 +24,7 @@ LARGEST_Z = 3.0  # of intercept and offset [standard errors]
 
 
 def find_fault(record):
-    """What is wrong with a stack: empty if nothing is, or if its case may end in any result."""
+    """Returns the fault of a stack; empty if it has none, or if its case may end in any result."""
     expectation, gain = record["expectation"], estimate_of(record, "gain")
     if expectation == "processed":
         return ""

@@ -12,7 +12,6 @@ Last, all settings of a line together, and what study_demands.py demands of them
 from collections import Counter, defaultdict
 
 from acceptance_compare import NOMINAL_COVERAGE, lower_tail
-from acceptance_stacks import holds
 from study_demands import LEAST_COVERAGE, demands_on
 from study_records import (
     by_case,
@@ -43,10 +42,9 @@ def percent_of(values):
 
 
 def statistics_of(records, name):
-    """What the estimates of a quantity are like, as a dictionary of numbers and fractions."""
+    """Returns the statistics of the estimates of a quantity, as a dictionary of numbers and fractions."""
     estimates = [estimate_of(record, name) for record in records]
     known = [one for one in estimates if one.error is not None and one.truth]
-    limits = [one for one in estimates if one.status == "upper-limit" and one.truth is not None]
     held = count_met(one.is_held for one in estimates)
     return {
         "held": held,
@@ -55,10 +53,8 @@ def statistics_of(records, name):
         "standard error": percent_of(one.standard_error / abs(one.truth) for one in known if one.standard_error),
         "bias": percent_of(one.error / abs(one.truth) for one in known),
         "p": lower_tail(*held, NOMINAL_COVERAGE) if held[1] else None,
-        "limits": count_met(
-            bool(one.bounds or one.interval) and one.truth <= (one.bounds or one.interval)[1] for one in limits
-        ),
-        "bounds": count_met(holds(one.bounds, one.truth) for one in estimates if one.bounds and one.truth is not None),
+        "limits": count_met(one.is_below_limit for one in estimates),
+        "bounds": count_met(one.is_within_bounds for one in estimates),
     }
 
 
