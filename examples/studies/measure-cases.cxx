@@ -39,7 +39,7 @@ struct Options
   bool                     listConstants{ false };
 };
 
-/** Whether a name is that of a pattern, in which each * stands for any number of any characters. */
+/** Returns whether a name fits a pattern, in which each * stands for any number of any characters. */
 bool
 Matches(const std::string & pattern, const std::string & name)
 {

@@ -18,7 +18,7 @@ struct ExportOptions
   std::vector<std::string> reports;
   std::string              format;
   std::string              output; ///< a file, or a folder for several files; empty: standard output
-  std::string              into;   ///< DNG file of which a copy gets the tag; empty: none
+  std::string              into;   ///< DNG file; its copy gets the tag; empty: none
   std::string              maps;   ///< folder of the maps; empty: none
   ExportSettings           settings;
 

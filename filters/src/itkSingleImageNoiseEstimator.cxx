@@ -33,7 +33,7 @@
 namespace itk
 {
 
-/** What an update gathers. */
+/** Data that an update collects. */
 template <typename TStack>
 struct SingleImageNoiseEstimator<TStack>::Measurement
 {

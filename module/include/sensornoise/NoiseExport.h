@@ -37,7 +37,7 @@ struct StoredReport
   std::map<std::string, std::string> texts;
 };
 
-/** What the report does not know, and what replaces its camera settings. */
+/** Values that a report lacks, and values that replace its camera settings. */
 struct ExportSettings
 {
   std::optional<double> blackLevelDn;        ///< black level [DN]; default: the camera's
@@ -99,7 +99,7 @@ struct CameraNoise
 SensorNoise_EXPORT CameraNoise
 ReadCameraNoise(const StoredReport & report, const ExportSettings & settings = {});
 
-/** What a program takes. */
+/** Kind of noise model that a program takes. */
 enum class ExportTakes : std::uint8_t
 {
   Line,   ///< the variance against the level, in the frames as they are: a and b
@@ -122,14 +122,14 @@ struct ExportedFile
   std::string bytes;
 };
 
-/** What a format makes of a noise model. */
+/** A noise model in one format. */
 struct NoiseExport
 {
   std::vector<ExportedFile> files;
   std::string               note; ///< a sentence about the misfit or the use; may be empty
 };
 
-/** One format: a row of the table of which the help, the documentation and the tests are made. */
+/** One format: a row of the table that help, documentation and tests are made of. */
 struct ExportFormat
 {
   const char *    name{ nullptr };

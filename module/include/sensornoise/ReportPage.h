@@ -30,7 +30,7 @@ struct PageMaps
   }
 };
 
-/** What the title of a page says besides the report. Both are plain text. */
+/** Name and date for the title of a page, as plain text. */
 struct PageTitle
 {
   std::string name; ///< name of what was measured, for example a file; "": the camera, if its files name it

@@ -28,7 +28,7 @@ struct SensorNoise_EXPORT SingleImageSettings
   /** Excess noise factor F of the sensor, 1 or more [1]: the gain is the slope of the variance divided by F. 1
    * (default): none. */
   double excessNoiseFactor{ 1.0 };
-  /** What is known of the codes; the rest is found from the first frame. */
+  /** Known settings of the digital numbers; others are found from the first frame. */
   CodeSettings codes;
 
   /** Throws std::invalid_argument if a parameter is out of its range. */
@@ -46,10 +46,9 @@ struct SensorNoise_EXPORT SingleImageSettings
  * the approximation is even are sorted by its level. The details of each level set give a robust variance. A line is
  * fitted to these variances by maximum likelihood, as the variance of a normal variable that is clipped at both ends.
  *
- * Of several frames each is measured by itself, and one line is fitted to the level sets of all. The mean of the frames
- * is measured, too: what of the variance does not average out there is no noise of the frames. The scatter of the
- slopes
- * of the frames checks their errors: if it is larger, the errors of the report grow to it.
+ * Each of several frames is measured, and one line is fitted to the level sets of all. The mean of the frames is
+ * measured, too: variance that does not average out there is no noise of the frames. The scatter of the slopes of the
+ * frames checks their errors: if it is larger, the errors of the report grow to it.
  *
  * The slope is the gain where the noise is white. Offset and read noise are not identifiable from a single image.
  Texture

@@ -48,7 +48,7 @@ NoiseProfileOf(const CameraNoise & noise)
   const auto first = ProfilePair(noise, RequireChannel(noise, "G1"));
   const auto second = ProfilePair(noise, RequireChannel(noise, "G2"));
   const auto blue = ProfilePair(noise, RequireChannel(noise, "B"));
-  // Half of the green pixels have the noise of G1 and half that of G2.
+  // Half of the green pixels have the noise of G1, half have the noise of G2.
   return { red, { 0.5 * (first.first + second.first), 0.5 * (first.second + second.second) }, blue };
 }
 

@@ -41,7 +41,7 @@ NpyBytes(const NpzArray & array)
   return bytes;
 }
 
-/** What the local header and the central directory say of a member alike. */
+/** The fields that the local header and the central directory have in common. */
 std::string
 MemberHead(const std::string & name, const std::string & content)
 {

@@ -52,7 +52,7 @@ VectorIn(const std::string & file, const std::string & text, std::size_t count)
   return numbers;
 }
 
-/** The vectors of a field, each an axis'; that of an axis that is outside of space is empty. */
+/** Returns the vectors of a field, one for each axis. The vector of an axis outside of space is empty. */
 std::vector<std::vector<double>>
 VectorsIn(const std::string & file, const std::string & text, std::size_t count)
 {
@@ -148,7 +148,7 @@ GeometryOfNrrd(const std::string & file, const NrrdHeader & header, std::size_t 
       geometry.spacing[axis] = length;
       for (std::size_t row = 0; row < axes; ++row)
       {
-        geometry.direction[row][axis] = signs[row] * (1.0 / length) * vectors[axis][row]; // the last bit is that of ITK
+        geometry.direction[row][axis] = signs[row] * (1.0 / length) * vectors[axis][row]; // the same last bit as in ITK
       }
     }
   }

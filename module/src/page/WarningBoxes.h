@@ -20,7 +20,7 @@ struct WarningParts
 };
 
 /** Divides the message of a warning. The action is its last sentences that begin with a command. A message of a warning
- * or error without one has that of WarningTable. */
+ * or error without one gets the action of WarningTable. */
 WarningParts
 SplitWarning(const Warning & warning);
 

@@ -16,7 +16,7 @@ SensorNoise_EXPORT std::string
 WithSigns(std::string text);
 
 /** Returns the text in ASCII, as far as this library writes it, for terminals that show nothing else. A sign may become
- * several letters. The blanks behind it, of which one stays, become fewer, so that columns stay in line. */
+ * several letters. All but one of the blanks behind it may go, so that columns stay in line. */
 SensorNoise_EXPORT std::string
 WithoutSigns(const std::string & text);
 

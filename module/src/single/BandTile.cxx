@@ -156,7 +156,8 @@ BandTile::MeasureWindows()
       to[i] = deviation * deviation;
     }
   }
-  // A pixel's variance is 4 times that of the approximation, whose deviation from the mean with it lacks 1 part of 25.
+  // The variance of a pixel is 4 times the variance of the approximation. The deviation from a mean that contains the
+  // pixel lacks 1 part of 25.
   constexpr float perSquare = 4.0F / (size * (1.0F - 1.0F / smooth));
   for (std::size_t y = 0; y < m_Tile.height; ++y)
   {

@@ -45,9 +45,9 @@ struct TileOfPositions
 /** \class BandTile
  * \brief Level, roughness and squared details of the positions of a tile, in units of SingleFrame.
  *
- * Level and roughness are made of the approximation alone, whose white noise is independent of that of the details: a
- * selection by them does not change the distribution of the details. Positions whose windows hold a pixel that is not
- * finite or masked have a roughness of NaN. */
+ * Level and roughness are made of the approximation alone, whose white noise is independent of the noise of the
+ * details: a selection by them does not change the distribution of the details. Positions whose windows hold a pixel
+ * that is not finite or masked have a roughness of NaN. */
 class BandTile
 {
 public:

@@ -146,7 +146,7 @@ RequireGroups(const std::vector<BandTile> & sample)
   return groups;
 }
 
-/** The smallest variance that frames of these levels can show [DN^2]: that of quantization, else of rounding. */
+/** The smallest variance that frames of these levels can show [DN^2], by quantization, else by rounding. */
 double
 LeastVariance(const LevelLimits & limits, double unitDn)
 {
@@ -154,7 +154,7 @@ LeastVariance(const LevelLimits & limits, double unitDn)
   return std::max(limits.stepDn * limits.stepDn / 12.0, rounding * unitDn * unitDn);
 }
 
-/** The grid of a line, of which no variance is below \a leastDn2. */
+/** Makes the grid of a line, with no variance below \a leastDn2. */
 LevelGrid
 MakeGrid(const StartingGroups & groups,
          const CentredLine &    line,

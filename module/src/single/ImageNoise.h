@@ -26,7 +26,7 @@ struct PlaneOfFrame
   const std::uint8_t * mask{ nullptr }; ///< by place, as the pixels: 0 is left out; null: none is
 };
 
-/** What one frame shows of its noise. */
+/** Noise of one frame. */
 struct ImageNoise
 {
   std::vector<LevelSet> diagonal;      ///< by diagonal details
@@ -36,7 +36,7 @@ struct ImageNoise
   double                even{ 0.0 };   ///< those without edges and texture
 };
 
-/** What the frames' levels can be. */
+/** Levels that the frames can have. */
 struct LevelLimits
 {
   ClipLevels clip;

@@ -56,8 +56,8 @@ struct NoiseLine
 /** Fits the line by maximum likelihood: the variance of n coefficients has a gamma distribution, with the mean that
  * ClippedAtMean() gives and a relative variance of InSingle.truncatedVariance / n. Level sets that are mostly clipped,
  * or have too few coefficients, are left out. \a start is the line from which Fisher scoring begins. \a
- * leastVarianceDn2 is the smallest variance that the frames can show: that of quantization. The errors are those of
- * white noise; where the level sets scatter more, they are larger by the root of the reduced chi-square. */
+ * leastVarianceDn2 is the smallest variance that the frames can show, by quantization. The errors hold for white
+ * noise; where the level sets scatter more, they are larger by the root of the reduced chi-square. */
 SensorNoise_EXPORT NoiseLine
 FitNoiseLine(const std::vector<LevelSet> & sets,
              const ClipLevels &            levels,

@@ -59,7 +59,7 @@ LineOf(const NoiseLine & line)
   };
 }
 
-/** Variance of the sides over that of the diagonals, less 1, in the level sets that the line was fitted to. */
+/** Files the variance of the sides over the variance of the diagonals, less 1, in the level sets of the line. */
 void
 FillBandExcess(SingleImageRecord & record, const AllFrames & all, const NoiseLine & line)
 {

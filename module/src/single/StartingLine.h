@@ -21,7 +21,7 @@ struct StartingGroup
   double variance{ 0.0 }; ///< by the median of the squared diagonal details
 };
 
-/** What a sample shows before any line is known. */
+/** Groups of a sample, made before any line is known. */
 struct StartingGroups
 {
   std::vector<StartingGroup> groups;     ///< of equal count, from dark to bright; empty: nothing is finite
