@@ -3,8 +3,9 @@
 """The efficiency study beside Tables 2 and 3 of Sur & Grédiac 2015: mean and twice the standard deviation over the
 seeds, and what the paper prints for its method. Figure 6 is the same of --frames 10, 20, 50 and so on."""
 
-import numpy as np
-from study_records import by_case, case_of, estimate_of, present, text_of
+from statistics import fmean, stdev
+
+from study_records import by_case, case_of, estimate_of, mean, present, text_of
 
 QUANTITIES = ("gain", "offset", "read_noise", "intercept", "flicker_sd", "vibration_sd_x", "vibration_sd_y")
 # Mean and twice the standard deviation over 50 runs, in the order of QUANTITIES. Table 2 is of the paper's synthetic
@@ -40,16 +41,16 @@ def print_experiment(records):
         estimates = [estimate_of(record, name) for record in records]
         values = present(one.value for one in estimates)
         # The paper compares with the standard deviations that were asked for, the study with those that the stack has.
-        truth = float(np.mean([one.truth for one in estimates]))
-        mean = float(values.mean()) if values.size else None
+        truth = fmean(one.truth for one in estimates)
+        average = mean(values)
         print(
             f"{experiment if name == 'gain' else '':<4} {scene if name == 'gain' else '':<8} {name:<15}",
             text_of(truth, ".5g", 9),
-            text_of(mean, ".5g", 11),
+            text_of(average, ".5g", 11),
             "±",
-            f"{text_of(2 * float(values.std(ddof=1)) if values.size > 1 else None, '.3g'):<9}",
-            text_of(None if mean is None or not truth else 100 * (mean / truth - 1), ".2f", 8),
-            f"{f'{values.size}/{len(records)}':>7}",
+            f"{text_of(2 * stdev(values) if len(values) > 1 else None, '.3g'):<9}",
+            text_of(None if average is None or not truth else 100 * (average / truth - 1), ".2f", 8),
+            f"{f'{len(values)}/{len(records)}':>7}",
             f" {figure}",
         )
 

@@ -10,9 +10,9 @@ import json
 import math
 from collections import defaultdict
 from pathlib import Path
+from statistics import fmean
 from typing import NamedTuple
 
-import numpy as np
 from acceptance_stacks import holds, is_identified
 
 # Places in the report of what is not a member of it by its own name.
@@ -116,20 +116,20 @@ def used_fraction(record):
 
 
 def present(values):
-    """The values that are not None, as floats."""
-    return np.array([value for value in values if value is not None], dtype=float)
+    """The values that are not None."""
+    return [value for value in values if value is not None]
 
 
 def mean(values):
     """The mean of the values that are there; None if there is none."""
     values = present(values)
-    return float(values.mean()) if values.size else None
+    return fmean(values) if values else None
 
 
 def rms(values):
     """The root mean square of the values that are there; None if there is none."""
     values = present(values)
-    return float(np.sqrt((values**2).mean())) if values.size else None
+    return math.sqrt(fmean(value * value for value in values)) if values else None
 
 
 def count_met(verdicts):
