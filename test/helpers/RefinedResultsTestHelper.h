@@ -5,7 +5,7 @@
 
 #include "sensornoise/Report.h"
 #include "refined/GainEstimate.h"
-#include "refined/OffsetReport.h"
+#include "refined/OffsetEstimate.h"
 #include "refined/RefinedResults.h"
 
 #include <cstddef>

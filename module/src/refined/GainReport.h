@@ -4,31 +4,22 @@
 #define sensornoise_refined_GainReport_h
 
 #include "SensorNoiseExport.h"
-#include "refined/OffsetLimits.h"
 #include "refined/RefinedResults.h"
+#include "refined/SensorQuantities.h"
 #include "sensornoise/Report.h"
 
 namespace sensornoise
 {
 
-struct GainEstimate;
-
-/** Files the fit, and gain and intercept if they are identifiable. Returns whether they are. If not, every parameter of
- * the sensor is filed without a value, and a warning gives the reason. \a quantisationDn2 is the variance of the
- * quantization noise [DN^2], \a student the quantile of the 95 % intervals. */
-SensorNoise_EXPORT bool
-FillGain(Report &               report,
-         const RefinedResults & found,
-         const GainEstimate &   gain,
-         double                 quantisationDn2,
-         double                 student);
-
-/** Warns if the darkest levels have too much signal to distinguish a non-linear response from a linear one. */
+/** Warns of what the verdict on the gain is due to, or, if the gain is identified, of what its interval allows for. The
+ * numbers of pixels must be in the report. \a effectOfLines is RefinedEstimate::effectOfLines [1]. */
 SensorNoise_EXPORT void
-WarnOfNarrowRange(Report &               report,
-                  const RefinedResults & found,
-                  const GainEstimate &   gain,
-                  const OffsetLimits &   limits);
+WarnOfGain(Report & report, const RefinedResults & found, const JudgedGain & judged, double effectOfLines);
+
+/** Warns that the darkest areas have so much signal, \a darkestFraction of that of the brightest [1], that a non-linear
+ * response would not be noticed. */
+SensorNoise_EXPORT void
+WarnOfNarrowRange(Report & report, const RefinedResults & found, double darkestFraction);
 
 } // namespace sensornoise
 

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace sensornoise
@@ -31,6 +32,13 @@ struct LineIllumination
   /** Variance by other changes of the illumination that remains in a pixel's variance, relative to it [1]; 0: none is
    * significant. */
   double remainingVariance{ 0.0 };
+
+  /** Returns the name of such a line in messages. */
+  std::string
+  NameOfLine() const
+  {
+    return axis == LineAxis::Rows ? "row" : "column";
+  }
 };
 
 /** Returns the relative increase of the slope of the variance by illumination changes of the mean square \a square [1].

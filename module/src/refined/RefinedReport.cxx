@@ -2,21 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/RefinedReport.h"
 
-#include "base/ChiSquare.h"
-#include "base/Eigen.h"
 #include "sensornoise/Settings.h"
 #include "base/Text.h"
 #include "pixels/VarianceLine.h"
 #include "correlation/CorrelationRecord.h"
 #include "refined/Constants.h"
 #include "refined/CorrelationReport.h"
-#include "refined/GainEstimate.h"
 #include "refined/GainReport.h"
-#include "refined/MotionReport.h"
 #include "refined/OffsetReport.h"
 #include "refined/PixelsOfVariance.h"
-#include "refined/SensorLines.h"
-#include "report/Quantities.h"
+#include "refined/RefinedEstimate.h"
 #include "report/StackReport.h"
 #include "report/StackSettings.h"
 
@@ -31,12 +26,6 @@ namespace sensornoise
 
 namespace
 {
-std::string
-NameOfLine(LineAxis axis)
-{
-  return axis == LineAxis::Rows ? "row" : "column";
-}
-
 void
 WarnOfScene(Report & report, const RefinedResults & found)
 {
@@ -46,10 +35,10 @@ WarnOfScene(Report & report, const RefinedResults & found)
   {
     const double square = std::max(0.0, found.lines.found.value);
     report.Warn(WarningCode::LocalLight,
-                "the illumination differs from " + NameOfLine(found.lines.axis) + " to " +
-                  NameOfLine(found.lines.axis) + " within a frame by " + Percent(std::sqrt(square)) +
+                "the illumination differs from " + found.lines.NameOfLine() + " to " + found.lines.NameOfLine() +
+                  " within a frame by " + Percent(std::sqrt(square)) +
                   " rms: a pulsed lamp under a rolling shutter, or interlaced frames. Gain and intercept are from " +
-                  percent(found.lines.pixels) + " of the pixels, without what each " + NameOfLine(found.lines.axis) +
+                  percent(found.lines.pixels) + " of the pixels, without what each " + found.lines.NameOfLine() +
                   " of a frame shares");
   }
   else if (found.series.local.series.cols() > 0)
@@ -118,25 +107,6 @@ WarnOfBorder(Report & report, const StaticScene & scene)
   }
 }
 
-/** Warns of a strong vibration unless its interval excludes it. */
-void
-WarnOfMotion(Report & report, const RefinedResults & found)
-{
-  const auto alongAxis = [](const Quantity & sd, double provisional) {
-    return sd.interval95 && sd.interval95->high ? std::min(*sd.interval95->high, std::sqrt(provisional))
-                                                : std::sqrt(provisional);
-  };
-  const double vibration = std::max(alongAxis(report.vibrationSdX, found.scene.model.vibrationXPixels2),
-                                    alongAxis(report.vibrationSdY, found.scene.model.vibrationYPixels2));
-  if (vibration > InRefined.strongVibration && !found.IsFlatUnderChange())
-  {
-    report.Warn(WarningCode::StrongVibration,
-                "the scene may move by " + RoundedApart(vibration, InRefined.strongVibration) +
-                  " pixels rms (expected at most " + Rounded(InRefined.strongVibration) +
-                  "), so that rough areas are left out. Register the frames to whole pixels first");
-  }
-}
-
 /** Makes a report with the settings and the description of the stack, which do not depend on the results. */
 Report
 DescribeInput(const RefinedSettings & settings, const StaticScene & scene, const std::vector<std::uint8_t> & pixelUse)
@@ -181,141 +151,84 @@ FillCurves(Report & report, const RefinedResults & found, const ParallelFor & pa
   FillScatter(report, frame.mean, frame.variance, found.correctedVariance, used, parallelFor);
 }
 
-/** Returns Student's quantile of the 95 % intervals. */
-double
-StudentOf(const RefinedResults & found)
+void
+CopyDark(Report & report, const DarkQuantities & dark)
 {
-  return StudentQuantile(0.975, static_cast<double>(found.scene.frame.frames) - 2.0);
+  report.offset = dark.offset;
+  report.readNoise = dark.readNoise;
+  report.readNoiseMedian = dark.readNoiseMedian;
+  report.readNoiseElectrons = dark.readNoiseElectrons;
+  report.covariance = dark.covariance;
 }
 
-/** Returns the settings with the dark variance of the sensor before filters, without the noise of rows and columns.
- * Dark frames passed the same filter. */
-RefinedSettings
-SettingsOfSensor(const RefinedResults & found, double codesDn2)
+Report::Fit
+FitOf(const RefinedResults & found, const GainEstimate & gain)
 {
-  RefinedSettings settings = found.settings;
-  if (settings.offset && settings.offset->variance)
+  const VarianceLine & v = gain.isFromFrames ? gain.line : found.variance.line;
+  Report::Fit          fit;
+  fit.reducedChi2 = gain.reducedChi2;
+  fit.curvature = v.curvature;
+  fit.curvatureZ = v.curvatureSd > 0.0 ? v.curvature / v.curvatureSd : 0.0;
+  fit.nonlinearity = gain.nonlinearity;
+  fit.line = Report::Baseline{ 0.0, v.gain, v.intercept };
+  return fit;
+}
+
+/** Copies the quantities of the estimate and the fits. */
+void
+CopyQuantities(Report & report, const RefinedResults & found, const RefinedEstimate & estimate)
+{
+  CopyDark(report, estimate.dark);
+  report.gain = estimate.ofSensor.gain;
+  report.intercept = estimate.ofSensor.intercept;
+  report.varianceSlope = estimate.ofFrames.varianceSlope;
+  report.totalIntercept = estimate.ofFrames.totalIntercept;
+  report.flicker = estimate.flicker.gamma;
+  report.flickerSd = estimate.flicker.sd;
+  report.vibrationSdX = estimate.motion.sdX;
+  report.vibrationSdY = estimate.motion.sdY;
+  report.vibrationCovariance = estimate.motion.covariance;
+  report.motion = estimate.motion.shifts;
+  report.fit = FitOf(found, (estimate.IsSensorLineJudged() ? estimate.ofSensor : estimate.ofFrames).line);
+  if (estimate.ofSensor.IsIdentified())
   {
-    DarkVariance & dark = *settings.offset->variance;
-    const double   spread = StandardDeviationOfShapes(dark.valueDn2, found.correlation, codesDn2);
-    dark.valueDn2 = VarianceOfSensor(dark.valueDn2, found.correlation, codesDn2);
-    dark.standardErrorDn2 = std::hypot(FilterFactor(found.correlation) * dark.standardErrorDn2,
-                                       FilterFactor(found.correlation) * found.correlation.LineNoise().standardError,
-                                       spread);
-    settings.offset->maps.reset();
-    if (auto & median = settings.offset->readNoiseMedian; median && FilterFactor(found.correlation) == 1.0)
+    report.fit.offsetLinePhi = estimate.flickerOffset.phi;
+  }
+  if (!estimate.isWithheld)
+  {
+    for (const UnlikeParts & parts : estimate.ofSensor.parts)
     {
-      const double square = median->valueDn * median->valueDn - found.correlation.LineNoise().value;
-      median->valueDn = std::sqrt(std::max(0.0, square));
-    }
-    else
-    {
-      median.reset(); // the median before a filter is not known
-    }
-  }
-  return settings;
-}
-
-/** Files that there is no gain, because of the illumination that is specific to rows or columns. */
-void
-FailByLineIllumination(Report & report, const RefinedResults & found, double effect)
-{
-  SetSensorParameters(report, EstimateStatus::Failed);
-  report.Warn(WarningCode::Contradicted,
-              "the illumination differs from " + NameOfLine(found.lines.axis) + " to " + NameOfLine(found.lines.axis) +
-                " within a frame by " + Percent(std::sqrt(found.lines.left.value)) + " rms, which adds " +
-                PercentApart(effect, InRefined.largestLineIllumination) +
-                " to the slope of the variance (expected at most " + Percent(InRefined.largestLineIllumination) +
-                "): a pulsed lamp under a rolling shutter, or interlaced frames. Use a lamp on direct current, expose "
-                "for whole periods of the lamp, or give one field of the frames");
-}
-
-/** Files gain, offset, read noise, flicker and motion. */
-void
-FillSensor(Report & report, const RefinedResults & found, const GainEstimate & gain, double codesDn2)
-{
-  const OffsetLimits   limits = LimitsOf(found, gain, codesDn2);
-  const OffsetEstimate flicker = EstimateOffset(found, gain, limits);
-  const UsedOffset     offset = ChooseOffset(found, gain, flicker, limits);
-  const double         offsetFromCentre = offset.valueDn - found.scene.model.centreDn;
-  FillFlicker(report, found, offsetFromCentre, offset.errorDn, gain.RelativeModelError());
-  FillMotion(report, found, offsetFromCentre, offset.errorDn);
-  WarnOfMotion(report, found);
-  if (const double effect = EffectOfLineIllumination(found.lines.left,
-                                                     found.scene.model.brightestDn - found.blackDn,
-                                                     gain.line.gain,
-                                                     InRefined.largestLineIllumination);
-      effect > 0.0)
-  {
-    FailByLineIllumination(report, found, effect);
-    FillFromDarkFrames(report, found.settings, codesDn2);
-    return;
-  }
-  const bool isLinear = found.correlation.kind != NoiseKind::NotLinear;
-  if (isLinear && FillGain(report, found, gain, codesDn2, StudentOf(found)))
-  {
-    FillOffsetAndReadNoise(report, found, gain, limits, flicker, codesDn2, StudentOf(found));
-    WarnOfNarrowRange(report, found, gain, limits);
-    return;
-  }
-  if (!isLinear)
-  {
-    SetSensorParameters(report, EstimateStatus::Failed);
-  }
-  FillFromDarkFrames(report, found.settings, codesDn2);
-}
-
-/** Replaces the gain, and the quantities that follow from it, by bounds of the gain, for frames that have fewer samples
- * than pixels. One bound is the slope of the variance, as for white noise; the other is the slope of the total
- * covariance. */
-void
-WithholdGain(Report & report)
-{
-  const std::optional<Interval> & all = report.gain.interval95;
-  const std::optional<Interval> & white = report.varianceSlope.interval95;
-  if (!all || !white)
-  {
-    return;
-  }
-  const auto lower = [](const Interval & a, const Interval & b) {
-    return a.low && b.low ? std::optional(std::max(0.0, std::min(*a.low, *b.low))) : std::nullopt;
-  };
-  const auto higher = [](const Interval & a, const Interval & b) {
-    return a.high && b.high ? std::optional(std::max(*a.high, *b.high)) : std::nullopt;
-  };
-  report.gain =
-    Quantity::Without(EstimateStatus::NotIdentifiable, Interval{ lower(*all, *white), higher(*all, *white) });
-  report.gainByParts.clear();
-  report.covariance.reset();
-  for (Quantity * const quantity :
-       { &report.intercept, &report.readNoise, &report.readNoiseMedian, &report.readNoiseElectrons })
-  {
-    *quantity = Quantity::Without(EstimateStatus::NotIdentifiable);
-  }
-  const auto isOfReadNoise = [](const Warning & warning) { return warning.code == WarningCode::ReadNoiseUpperLimit; };
-  report.warnings.erase(std::remove_if(report.warnings.begin(), report.warnings.end(), isOfReadNoise),
-                        report.warnings.end());
-}
-
-/** Files the slope and intercept that a denoiser needs: the variance of a pixel as a function of its level, without
- * correction for filters. */
-void
-FillVariance(Report & report, const RefinedResults & found, const GainEstimate & ofVariance)
-{
-  Report own;
-  own.pixels = report.pixels;
-  FillGain(own, found, ofVariance, 0.0, StudentOf(found));
-  report.varianceSlope = own.varianceSlope;
-  report.totalIntercept = own.totalIntercept;
-  if (!report.fit.line)
-  {
-    // The noise is not linear: the fit may have further warnings.
-    report.fit = own.fit;
-    if (!own.gain.value)
-    {
-      report.warnings.insert(report.warnings.end(), own.warnings.begin(), own.warnings.end());
+      report.gainByParts.push_back(parts.record);
     }
   }
+}
+
+/** Warns of what the estimate found, in the order of the passes. */
+void
+WarnOfEstimate(Report & report, const RefinedResults & found, const RefinedEstimate & estimate)
+{
+  WarnOfFlicker(report, estimate.flicker);
+  if (estimate.strongVibrationPixels)
+  {
+    report.Warn(WarningCode::StrongVibration,
+                "the scene may move by " + RoundedApart(*estimate.strongVibrationPixels, InRefined.strongVibration) +
+                  " pixels rms (expected at most " + Rounded(InRefined.strongVibration) +
+                  "), so that rough areas are left out. Register the frames to whole pixels first");
+  }
+  WarnOfGain(report, found, estimate.ofSensor, estimate.effectOfLines);
+  if (estimate.ofSensor.IsIdentified())
+  {
+    WarnOfOffset(report, found, estimate);
+  }
+  if (estimate.uncheckedFraction)
+  {
+    WarnOfNarrowRange(report, found, *estimate.uncheckedFraction);
+  }
+  if (!estimate.IsSensorLineJudged() && !estimate.ofFrames.IsIdentified())
+  {
+    WarnOfGain(report, found, estimate.ofFrames, 0.0);
+  }
+  WarnOfCorrelation(report, found.correlation);
 }
 } // namespace
 
@@ -327,43 +240,23 @@ MakeFailedReport(const RefinedSettings &           settings,
 {
   Report report = DescribeInput(settings, scene, pixelUse);
   report.Warn(failureReason.GetCode(), failureReason.what());
-  FillFromDarkFrames(report, settings, CodesVariance(scene));
+  CopyDark(report, QuantitiesOfDarkFrames(settings, CodesVariance(scene), EstimateStatus::Failed));
   return report;
 }
 
 Report
 MakeRefinedReport(const RefinedResults & found, const ParallelFor & parallelFor)
 {
-  Report report = DescribeInput(found.settings, found.scene, found.variance.pixelUse);
+  const RefinedEstimate estimate = EstimateAll(found);
+  Report                report = DescribeInput(found.settings, found.scene, found.variance.pixelUse);
   FillCurves(report, found, parallelFor);
   WarnOfScene(report, found);
-
-  const double       codesDn2 = found.variance.codeNoise.darkVarianceDn2;
-  const GainEstimate ofVariance = EstimateGain(found);
-  if (found.correlation.IsCorrelated() || found.correlation.LineNoise().value > 0.0)
-  {
-    const RefinedSettings settings = SettingsOfSensor(found, codesDn2);
-    const SensorLines     lines = AddCovariances(LinesOf(found.variance), found.correlation, found.blackDn, codesDn2);
-    const RefinedResults  sensor = { settings,       found.scene,       found.series,
-                                     found.variance, found.reestimated, found.correctedVariance,
-                                     found.blackDn,  found.correlation, found.frameNoise,
-                                     found.lines,    found.exposures,   found.darkSignal };
-    FillSensor(report, sensor, EstimateGain(sensor, lines), codesDn2);
-  }
-  else
-  {
-    FillSensor(report, found, ofVariance, codesDn2);
-  }
+  CopyQuantities(report, found, estimate);
   if (found.correlation.kind != NoiseKind::NotMeasured)
   {
     report.noiseCorrelation = RecordOf(found.correlation);
   }
-  FillVariance(report, found, ofVariance);
-  if (found.correlation.kind == NoiseKind::Enlarged)
-  {
-    WithholdGain(report);
-  }
-  WarnOfCorrelation(report, found.correlation);
+  WarnOfEstimate(report, found, estimate);
   return report;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "refined/MotionReport.h"
+#include "refined/MotionEstimate.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/SimulationSettings.h"
 #include "sensornoise/Simulator.h"
@@ -38,7 +38,7 @@ CovarianceOfSeries(const std::vector<double> & a, const std::vector<double> & b)
 
 // The signal is small, so that the noise of the shifts is as large as the shifts. If the errors are right, the mean
 // square of 16 deviations in standard errors is chi2 / 16, from 0.25 to 2.45 in 99.8 of 100 cases.
-TEST(SensorNoiseMotionReport, TheCovarianceOfTheVibrationHasAnError)
+TEST(SensorNoiseMotionEstimate, TheCovarianceOfTheVibrationHasAnError)
 {
   double squares = 0.0;
   for (std::uint64_t seed = 1; seed <= 16; ++seed)
@@ -61,7 +61,7 @@ TEST(SensorNoiseMotionReport, TheCovarianceOfTheVibrationHasAnError)
 }
 
 // With the refined method every quantity with a value has a standard error and an interval.
-TEST(SensorNoiseMotionReport, WhatIsIdentifiedHasAnError)
+TEST(SensorNoiseMotionEstimate, WhatIsIdentifiedHasAnError)
 {
   const Report report = Measure(Simulate<unsigned short>(FlickeringSettings(30), Size, Size)).GetReport();
   for (const Quantity * quantity : { &report.gain,

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "refined/MotionReport.h"
+#include "refined/MotionEstimate.h"
 
 #include "base/Constants.h"
 #include "base/Stencils.h"
-#include "base/Text.h"
 #include "moments/Constants.h"
 #include "refined/Constants.h"
 #include "report/Quantities.h"
@@ -16,7 +15,6 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -297,35 +295,35 @@ CovarianceOf(const AxisMotion &            x,
   const double ofNoise = noise(0, 1) * slack / (1.0 + slack);
   return WithError(value, std::hypot(std::sqrt(variance), systematic, ofNoise));
 }
-/** Returns the reason why there is no flicker, and what to do. \a ofScale is the relative error of the illumination
- * change [1]. */
-std::string
-TextOfUnknownFlicker(double ofScale, const std::optional<Interval> & limit)
+/** Returns why the standard deviation of \a flicker is not identifiable. */
+FlickerFailure
+FindFailure(const SeriesOfFlicker & flicker)
 {
-  const std::string giveOffset =
-    ": give the offset (--offset) or dark frames (--dark), or include dark and bright areas "
-    "in the scene";
-  if (!std::isfinite(ofScale))
+  const Quantity & sd = flicker.sd;
+  // The noise of an unknown flicker may be large, but a lamp that is off in most frames makes more than 1, too.
+  const bool isLarge = sd.value && sd.standardError && *sd.standardError < InCommon.largestRelativeError * *sd.value;
+  const bool isBelowOne = sd.interval95 && sd.interval95->high.value_or(2.0) < 1.0;
+  if (!(flicker.scaleError > InCommon.largestRelativeError) && (isLarge || isBelowOne))
   {
-    return "the illumination change is not known, and neither is the flicker" + giveOffset;
+    return FlickerFailure::None;
   }
-  if (ofScale > InCommon.largestRelativeError)
+  if (!std::isfinite(flicker.scaleError))
   {
-    return "the illumination change is known only to within " + PercentApart(ofScale, InCommon.largestRelativeError) +
-           "; " + Percent(InCommon.largestRelativeError) + " is needed for the flicker" + giveOffset;
+    return FlickerFailure::UnknownOffset;
   }
-  return "the flicker is not distinguished from the noise of the frames: its standard deviation may be " +
-         (limit && limit->high ? RoundedApart(*limit->high, 1.0) : std::string("of any size")) +
-         " (below 1 is needed). Record more frames";
+  return flicker.scaleError > InCommon.largestRelativeError ? FlickerFailure::UncertainOffset
+                                                            : FlickerFailure::NoiseOfFrames;
 }
 } // namespace
 
-void
-FillFlicker(Report & report, const RefinedResults & found, double offset, double offsetErrorDn, double scaleError)
+SeriesOfFlicker
+EstimateFlicker(const RefinedResults & found, const UsedOffset & offset, double modelError)
 {
-  OffsetLine line = found.reestimated.line;
-  line.UseOffset(offset);
-  report.flicker = line.gamma;
+  const double offsetFromCentre = offset.valueDn - found.scene.model.centreDn;
+  OffsetLine   line = found.reestimated.line;
+  line.UseOffset(offsetFromCentre);
+  SeriesOfFlicker flicker;
+  flicker.gamma = line.gamma;
   const auto   frames = static_cast<double>(line.gamma.size());
   const double noise = line.Widening() / line.precision;
   double       squares = 0.0;
@@ -334,69 +332,69 @@ FillFlicker(Report & report, const RefinedResults & found, double offset, double
     squares += gamma * gamma;
   }
   const double variance = squares / (frames - 1.0) - noise;
-  const double fromOffset = 2.0 * variance * std::hypot(line.sensitivity * offsetErrorDn, scaleError);
+  const double fromOffset = 2.0 * variance * std::hypot(line.sensitivity * offset.errorDn, modelError);
   const double ownError =
     2.0 * std::sqrt(std::max(0.0, variance) * noise / (frames - 1.0)) + noise * std::sqrt(2.0 / (frames - 1.0));
-  report.flickerSd = RootOf(variance, std::hypot(ownError, fromOffset));
+  flicker.sd = RootOf(variance, std::hypot(ownError, fromOffset));
   if (found.HasLocalIllumination())
   {
     const LocalFlicker & local = found.reestimated.localFlicker;
-    const double         sd = local.Sd(offset);
-    const double         step = 1.0 + offsetErrorDn;
-    const double         slope = (local.Sd(offset + step) - local.Sd(offset - step)) / (2.0 * step);
-    const double         error = std::hypot(slope * offsetErrorDn, sd * std::sqrt(noise), sd * scaleError);
-    report.flickerSd = RootOf(sd * sd, 2.0 * sd * error);
+    const double         sd = local.Sd(offsetFromCentre);
+    const double         step = 1.0 + offset.errorDn;
+    const double         slope = (local.Sd(offsetFromCentre + step) - local.Sd(offsetFromCentre - step)) / (2.0 * step);
+    const double         error = std::hypot(slope * offset.errorDn, sd * std::sqrt(noise), sd * modelError);
+    flicker.sd = RootOf(sd * sd, 2.0 * sd * error);
   }
-  const double ofScale = std::abs(line.sensitivity) * offsetErrorDn;
-  const auto & limit = report.flickerSd.interval95;
-  // The noise of an unknown flicker may be large, but a lamp that is off in most frames makes more than 1, too.
-  const bool isLarge = report.flickerSd.value && report.flickerSd.standardError &&
-                       *report.flickerSd.standardError < InCommon.largestRelativeError * *report.flickerSd.value;
-  if (ofScale > InCommon.largestRelativeError || !(isLarge || (limit && limit->high.value_or(2.0) < 1.0)))
+  flicker.scaleError = std::abs(line.sensitivity) * offset.errorDn;
+  flicker.limit = flicker.sd.interval95;
+  flicker.failure = FindFailure(flicker);
+  if (flicker.failure != FlickerFailure::None)
   {
-    report.flickerSd = Quantity::Without(EstimateStatus::NotIdentifiable);
-    report.Warn(WarningCode::FlickerNotIdentifiable, TextOfUnknownFlicker(ofScale, limit));
+    flicker.sd = Quantity::Without(EstimateStatus::NotIdentifiable);
   }
+  return flicker;
 }
 
-void
-FillMotion(Report & report, const RefinedResults & found, double offset, double offsetErrorDn)
+SeriesOfMotion
+EstimateMotion(const RefinedResults & found, const std::vector<double> & gamma, const UsedOffset & offset)
 {
   const ReestimatedComponents & reestimated = found.reestimated;
-  const FrameWeights            weights = WeighFrames(report.flicker);
+  const FrameWeights            weights = WeighFrames(gamma);
+  SeriesOfMotion                motion;
+  motion.covariance = Quantity::Without(EstimateStatus::NotIdentifiable);
   if (reestimated.line.isLevelMotion || found.IsFlatUnderChange() || weights.frames < 2.0)
   {
-    report.vibrationSdX = report.vibrationSdY = Quantity::Without(EstimateStatus::NotIdentifiable);
-    report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable);
-    return;
+    motion.sdX = motion.sdY = Quantity::Without(EstimateStatus::NotIdentifiable);
+    return motion;
   }
   IlluminationOfShifts light{ reestimated.line, reestimated.line, 0.0, reestimated.motionPhi };
-  if (std::isfinite(offset) && std::isfinite(offsetErrorDn))
+  const double         offsetFromCentre = offset.valueDn - found.scene.model.centreDn;
+  if (std::isfinite(offsetFromCentre) && std::isfinite(offset.errorDn))
   {
-    light.offsetErrorDn = offsetErrorDn;
-    light.inUse.offset = offset;
-    light.inUse.UseOffset(offset);
+    light.offsetErrorDn = offset.errorDn;
+    light.inUse.offset = offsetFromCentre;
+    light.inUse.UseOffset(offsetFromCentre);
   }
   const AxisMotion x = MotionAlong(0, StencilX, reestimated, light, weights);
   const AxisMotion y = MotionAlong(1, StencilY, reestimated, light, weights);
-  report.vibrationSdX = x.sd;
-  report.vibrationSdY = y.sd;
-  report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable);
+  motion.sdX = x.sd;
+  motion.sdY = y.sd;
   if (x.series.empty() || y.series.empty())
   {
-    return;
+    return motion;
   }
   for (std::size_t t = 0; t < x.series.size(); ++t)
   {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN(); // motion of a dark frame
     const bool       isKnown = weights.ofFrames[t] > 0.0;
-    report.motion.push_back({ isKnown ? x.series[t] : unknown, isKnown ? y.series[t] : unknown });
+    motion.shifts.push_back({ isKnown ? x.series[t] : unknown, isKnown ? y.series[t] : unknown });
   }
   const Quantity covariance = CovarianceOf(x, y, reestimated, weights);
   if (std::isfinite(covariance.value.value_or(0.0))) // NaN: the illumination is not known
   {
-    report.vibrationCovariance = covariance;
+    motion.covariance = covariance;
   }
+  return motion;
 }
 
 } // namespace sensornoise

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "refined/OffsetEstimate.h"
+
+#include "base/ChiSquare.h"
+#include "base/Significance.h"
+#include "sensornoise/Settings.h"
+#include "pixels/Constants.h"
+#include "refined/Constants.h"
+#include "refined/GainEstimate.h"
+#include "report/Quantities.h"
+#include "series/Constants.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Returns the offset of the line through the levels of frames of known exposures; null if it is not precise enough. */
+std::optional<OffsetEstimate>
+OffsetByExposures(const RefinedResults & found)
+{
+  if (found.exposures == nullptr || !found.exposures->offsetDn || found.exposures->levels.empty())
+  {
+    return std::nullopt;
+  }
+  const ExposureFit & fit = *found.exposures;
+  const bool          isOfLine = !fit.isOffsetOfDarkFrames && fit.dof > 0.0;
+  const double        halfWidthDn = StudentQuantile(0.975, isOfLine ? fit.dof : 1e6) * fit.offsetDn->standardError;
+  const double        rangeDn = fit.levels.back().meanDn - fit.levels.front().meanDn;
+  if (!(2.0 * halfWidthDn < LargestOffsetInterval * rangeDn))
+  {
+    return std::nullopt;
+  }
+  OffsetEstimate estimate;
+  estimate.valueDn = fit.offsetDn->value;
+  estimate.standardErrorDn = fit.offsetDn->standardError;
+  estimate.interval = Interval{ estimate.valueDn - halfWidthDn, estimate.valueDn + halfWidthDn };
+  return estimate;
+}
+
+/** Ends of an interval of the offset, minus the centre of the levels [DN]. */
+struct OffsetEnds
+{
+  double low;
+  double high;
+};
+
+/** Returns why the illumination does not determine the offset \a estimate, if it does not. */
+OffsetFailure
+FindFailure(const RefinedResults & found,
+            const GainEstimate &   gain,
+            const OffsetLimits &   limits,
+            const OffsetEstimate & estimate,
+            const OffsetEnds &     interval)
+{
+  const InitialNoiseModel &          model = found.scene.model;
+  const OffsetLine &                 line = found.reestimated.line;
+  const std::optional<LocalOffset> & local = found.reestimated.localOffset;
+  const bool                         isLocal = found.HasLocalIllumination();
+  const double                       slackDn = Significance.oneTest * estimate.standardErrorDn;
+  const double                       slackBelowDn =
+    slackDn + Significance.hint * std::sqrt(gain.covariance(1, 1)) / std::max(1e-9, gain.line.gain);
+  if (!found.series.frameOffsets.unlike.empty())
+  {
+    return OffsetFailure::UnlikeOffsets;
+  }
+  if (!(line.contrast > InSeries.leastContrast))
+  {
+    return OffsetFailure::OneIntensity;
+  }
+  if (line.isLevelMotion && !isLocal)
+  {
+    return OffsetFailure::Ramp;
+  }
+  if (!(line.flickerZ > Significance.everyPixel) && !isLocal)
+  {
+    return OffsetFailure::FaintFlicker;
+  }
+  if (isLocal && !local)
+  {
+    return OffsetFailure::LocalIllumination;
+  }
+  if (!std::isfinite(interval.low) || !std::isfinite(interval.high))
+  {
+    return OffsetFailure::Unbounded;
+  }
+  if (interval.high - interval.low > LargestOffsetInterval * (model.brightestDn - model.darkestDn))
+  {
+    return OffsetFailure::WideInterval;
+  }
+  if ((limits.lowestDn && estimate.valueDn < *limits.lowestDn - slackBelowDn) ||
+      estimate.valueDn > limits.highestDn + slackDn)
+  {
+    return OffsetFailure::OutOfLimits;
+  }
+  return isLocal && local->phi > InRefined.largestLocalDispersion ? OffsetFailure::LampsDisagree : OffsetFailure::None;
+}
+
+/** Returns the dark offset as the illumination determines it. */
+OffsetEstimate
+OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits)
+{
+  const InitialNoiseModel &          model = found.scene.model;
+  const OffsetLine &                 line = found.reestimated.line;
+  const std::optional<LocalOffset> & local = found.reestimated.localOffset;
+  OffsetEstimate                     estimate;
+  double                             low = line.low;
+  double                             high = line.high;
+  estimate.valueDn = line.offset + model.centreDn;
+  estimate.standardErrorDn = line.standardError;
+  estimate.phi = line.phi;
+  const bool isLocal = found.HasLocalIllumination();
+  if (isLocal && local)
+  {
+    estimate.valueDn = local->offset + model.centreDn;
+    estimate.standardErrorDn = local->standardError;
+    estimate.phi = local->phi;
+    low = local->low;
+    high = local->high;
+  }
+  estimate.interval = Interval{ low + model.centreDn, high + model.centreDn };
+
+  // Offsets that differ between pixels are taken for signal, which moves the zero away from the levels. A non-linear
+  // response has the same effect.
+  const double lightDn = std::abs(model.centreDn - estimate.valueDn);
+  const double fromPatternDn = lightDn * std::hypot(found.variance.pattern.offsetFraction, gain.RelativeModelError());
+  if (fromPatternDn > InPixels.negligiblePattern * estimate.standardErrorDn)
+  {
+    estimate.standardErrorDn = std::hypot(estimate.standardErrorDn, fromPatternDn);
+    low -= 1.96 * fromPatternDn;
+    high += 1.96 * fromPatternDn;
+    estimate.interval = Interval{ low + model.centreDn, high + model.centreDn };
+  }
+  estimate.failure = FindFailure(found, gain, limits, estimate, { low, high });
+  return estimate;
+}
+} // namespace
+
+OffsetEstimate
+EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits)
+{
+  const OffsetEstimate estimate = OffsetByIllumination(found, gain, limits);
+  return estimate.IsIdentified() ? estimate : OffsetByExposures(found).value_or(estimate);
+}
+
+bool
+IsKnownOffsetOutOfLimits(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits)
+{
+  const KnownOffset & known = *found.settings.offset;
+  const double        slackDn = Significance.oneTest * known.standardErrorDn +
+                         Significance.hint * std::sqrt(gain.covariance(1, 1)) / gain.line.gain;
+  const double rangeDn = found.scene.model.brightestDn - found.scene.model.darkestDn;
+  return (limits.lowestDn && known.valueDn < *limits.lowestDn - slackDn) ||
+         known.valueDn > limits.highestDn + slackDn + InRefined.slackOfRange * rangeDn;
+}
+
+UsedOffset
+ChooseOffset(const RefinedResults & found,
+             const GainEstimate &   gain,
+             const OffsetEstimate & flicker,
+             const OffsetLimits &   limits)
+{
+  const auto & known = found.settings.offset;
+  if (known && !gain.isDarkRejected && !IsKnownOffsetOutOfLimits(found, gain, limits))
+  {
+    return { known->valueDn, known->standardErrorDn };
+  }
+  if (flicker.IsIdentified())
+  {
+    return { flicker.valueDn, flicker.standardErrorDn };
+  }
+  // An offset that is not identifiable lies between the level of sigma = 0 and the darkest level, with about equal
+  // probability.
+  const double lowestDn = limits.lowestDn.value_or(std::min(found.blackDn, limits.highestDn));
+  return { 0.5 * (lowestDn + limits.highestDn), (limits.highestDn - lowestDn) / std::sqrt(12.0) };
+}
+
+} // namespace sensornoise

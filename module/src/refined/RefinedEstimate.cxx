@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "refined/RefinedEstimate.h"
+
+#include "base/Constants.h"
+#include "base/Significance.h"
+#include "pixels/VarianceCurve.h"
+#include "refined/Constants.h"
+#include "refined/SensorLines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Returns the settings with the dark variance of the sensor before filters, without the noise of rows and columns.
+ * Dark frames passed the same filter. */
+RefinedSettings
+SettingsOfSensor(const RefinedResults & found, double codesDn2)
+{
+  RefinedSettings settings = found.settings;
+  if (settings.offset && settings.offset->variance)
+  {
+    DarkVariance & dark = *settings.offset->variance;
+    const double   spread = StandardDeviationOfShapes(dark.valueDn2, found.correlation, codesDn2);
+    dark.valueDn2 = VarianceOfSensor(dark.valueDn2, found.correlation, codesDn2);
+    dark.standardErrorDn2 = std::hypot(FilterFactor(found.correlation) * dark.standardErrorDn2,
+                                       FilterFactor(found.correlation) * found.correlation.LineNoise().standardError,
+                                       spread);
+    settings.offset->maps.reset();
+    if (auto & median = settings.offset->readNoiseMedian; median && FilterFactor(found.correlation) == 1.0)
+    {
+      const double square = median->valueDn * median->valueDn - found.correlation.LineNoise().value;
+      median->valueDn = std::sqrt(std::max(0.0, square));
+    }
+    else
+    {
+      median.reset(); // the median before a filter is not known
+    }
+  }
+  return settings;
+}
+
+/** Returns the standard deviation that the vibration may have, if it is strong; null: its interval excludes that. */
+std::optional<double>
+FindStrongVibration(const RefinedResults & found, const SeriesOfMotion & motion)
+{
+  const auto alongAxis = [](const Quantity & sd, double provisional) {
+    return sd.interval95 && sd.interval95->high ? std::min(*sd.interval95->high, std::sqrt(provisional))
+                                                : std::sqrt(provisional);
+  };
+  const double vibration = std::max(alongAxis(motion.sdX, found.scene.model.vibrationXPixels2),
+                                    alongAxis(motion.sdY, found.scene.model.vibrationYPixels2));
+  return vibration > InRefined.strongVibration && !found.IsFlatUnderChange() ? std::optional(vibration) : std::nullopt;
+}
+
+GainVerdict
+JudgeSensor(const RefinedResults & found, const GainEstimate & gain, double effectOfLines)
+{
+  if (effectOfLines > 0.0)
+  {
+    return GainVerdict::LineIllumination;
+  }
+  return found.correlation.kind == NoiseKind::NotLinear ? GainVerdict::NoiseNotLinear : JudgeGain(found, gain);
+}
+
+/** Returns the signal of the darkest areas over that of the brightest, if neither it nor dark frames let a non-linear
+ * response be noticed. */
+std::optional<double>
+FindUncheckedFraction(const RefinedResults & found, const GainEstimate & gain, double blackDn)
+{
+  const bool   hasDark = found.settings.offset && found.settings.offset->variance;
+  const bool   isTested = hasDark && gain.isLinearityTested && !gain.isDarkRejected;
+  const double inFrames = (found.InDarkestFrame(found.scene.model.centreDn) - blackDn) /
+                          (found.InBrightestFrame(found.scene.model.centreDn) - blackDn);
+  const double fraction =
+    found.variance.curve.DarkestFraction(blackDn) * (gain.isFromFrames ? std::max(0.0, inFrames) : 1.0);
+  return !isTested && fraction > InCommon.darkFraction ? std::optional(fraction) : std::nullopt;
+}
+
+/** Returns the estimate by the line \a gain of the sensor's variance, without that of the frames. */
+RefinedEstimate
+EstimateBy(const RefinedResults & found, const GainEstimate & gain)
+{
+  const double    codesDn2 = found.variance.codeNoise.darkVarianceDn2;
+  RefinedEstimate estimate;
+  estimate.known = found.settings.offset;
+  estimate.limits = LimitsOf(found, gain, codesDn2);
+  estimate.flickerOffset = EstimateOffset(found, gain, estimate.limits);
+  const UsedOffset offset = ChooseOffset(found, gain, estimate.flickerOffset, estimate.limits);
+  estimate.flicker = EstimateFlicker(found, offset, gain.RelativeModelError());
+  estimate.motion = EstimateMotion(found, estimate.flicker.gamma, offset);
+  estimate.strongVibrationPixels = FindStrongVibration(found, estimate.motion);
+  estimate.effectOfLines = EffectOfLineIllumination(
+    found.lines.left, found.scene.model.brightestDn - found.blackDn, gain.line.gain, InRefined.largestLineIllumination);
+  const GainVerdict verdict = JudgeSensor(found, gain, estimate.effectOfLines);
+  estimate.ofSensor = QuantitiesBy(verdict, gain, found, codesDn2);
+  if (verdict != GainVerdict::Identified)
+  {
+    estimate.dark = QuantitiesOfDarkFrames(found.settings, codesDn2, StatusBy(verdict));
+    return estimate;
+  }
+  estimate.dark = QuantitiesByOffset(found, gain, estimate.limits, estimate.flickerOffset, codesDn2);
+  if (estimate.known)
+  {
+    const OffsetEstimate & flicker = estimate.flickerOffset;
+    const double           error = std::hypot(flicker.standardErrorDn, estimate.known->standardErrorDn);
+    estimate.isLightSteady =
+      flicker.IsIdentified() && std::abs(flicker.valueDn - estimate.known->valueDn) > Significance.oneTest * error;
+    estimate.isOffsetOutOfLimits = IsKnownOffsetOutOfLimits(found, gain, estimate.limits);
+  }
+  estimate.uncheckedFraction =
+    FindUncheckedFraction(found, gain, estimate.dark.offset.value.value_or(estimate.limits.rootDn));
+  return estimate;
+}
+
+/** Returns the estimate with bounds of the gain in its place and in that of what follows from it, for frames that have
+ * fewer samples than pixels. One bound is the slope of the variance, as for white noise; the other is the slope of the
+ * total covariance. */
+RefinedEstimate
+WithholdGain(RefinedEstimate estimate)
+{
+  const std::optional<Interval> & all = estimate.ofSensor.gain.interval95;
+  const std::optional<Interval> & white = estimate.ofFrames.varianceSlope.interval95;
+  if (!all || !white)
+  {
+    return estimate;
+  }
+  const auto lower = [](const Interval & a, const Interval & b) {
+    return a.low && b.low ? std::optional(std::max(0.0, std::min(*a.low, *b.low))) : std::nullopt;
+  };
+  const auto higher = [](const Interval & a, const Interval & b) {
+    return a.high && b.high ? std::optional(std::max(*a.high, *b.high)) : std::nullopt;
+  };
+  estimate.ofSensor.gain =
+    Quantity::Without(EstimateStatus::NotIdentifiable, Interval{ lower(*all, *white), higher(*all, *white) });
+  DarkQuantities & dark = estimate.dark;
+  for (Quantity * const quantity :
+       { &estimate.ofSensor.intercept, &dark.readNoise, &dark.readNoiseMedian, &dark.readNoiseElectrons })
+  {
+    *quantity = Quantity::Without(EstimateStatus::NotIdentifiable);
+  }
+  dark.covariance.reset();
+  estimate.isWithheld = true;
+  return estimate;
+}
+} // namespace
+
+RefinedEstimate
+EstimateAll(const RefinedResults & found)
+{
+  const double       codesDn2 = found.variance.codeNoise.darkVarianceDn2;
+  const GainEstimate ofFrames = EstimateGain(found);
+  RefinedEstimate    estimate;
+  if (found.correlation.IsCorrelated() || found.correlation.LineNoise().value > 0.0)
+  {
+    const RefinedSettings settings = SettingsOfSensor(found, codesDn2);
+    const SensorLines     lines = AddCovariances(LinesOf(found.variance), found.correlation, found.blackDn, codesDn2);
+    const RefinedResults  sensor = { settings,       found.scene,       found.series,
+                                     found.variance, found.reestimated, found.correctedVariance,
+                                     found.blackDn,  found.correlation, found.frameNoise,
+                                     found.lines,    found.exposures,   found.darkSignal };
+    estimate = EstimateBy(sensor, EstimateGain(sensor, lines));
+  }
+  else
+  {
+    estimate = EstimateBy(found, ofFrames);
+  }
+  estimate.ofFrames = QuantitiesBy(JudgeGain(found, ofFrames), ofFrames, found, 0.0);
+  if (found.correlation.kind == NoiseKind::Enlarged)
+  {
+    return WithholdGain(std::move(estimate));
+  }
+  return estimate;
+}
+
+} // namespace sensornoise

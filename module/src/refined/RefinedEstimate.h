@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_refined_RefinedEstimate_h
+#define sensornoise_refined_RefinedEstimate_h
+
+#include "SensorNoiseExport.h"
+#include "refined/MotionEstimate.h"
+#include "refined/OffsetEstimate.h"
+#include "refined/RefinedResults.h"
+#include "refined/SensorQuantities.h"
+#include "sensornoise/Settings.h"
+
+#include <optional>
+
+namespace sensornoise
+{
+
+/** What the refined method estimates from the results of its passes: every number with its error and verdict, and the
+ * numbers that a message needs, but no message. MakeRefinedReport() makes the report of it. */
+struct RefinedEstimate
+{
+  /** Line of the variance of the frames as they are: what a denoiser needs. */
+  JudgedGain ofFrames;
+  /** Line of the variance before filters and without the noise of rows and columns: gain and intercept of the sensor.
+   */
+  JudgedGain      ofSensor;
+  DarkQuantities  dark;
+  SeriesOfFlicker flicker;
+  SeriesOfMotion  motion;
+
+  /** Dark frames or offset that are given, with the dark variance of the sensor before filters. */
+  std::optional<KnownOffset> known;
+  OffsetEstimate             flickerOffset; ///< offset as the flicker determines it
+  OffsetLimits               limits;
+
+  /** Whether the gain is bounded alone, and not identified, as frames have fewer samples than pixels. */
+  bool isWithheld{ false };
+  /** Whether the known offset and that of the flicker differ by more than their errors: some light is steady. */
+  bool isLightSteady{ false };
+  /** Whether the known offset lies outside of its limits. */
+  bool isOffsetOutOfLimits{ false };
+  /** Addition of the illumination of rows or columns to the slope of the variance, where it is too large [1]; 0: it is
+   * not. */
+  double effectOfLines{ 0.0 };
+  /** Standard deviation that the vibration may have, where it is strong [pixel]; null: it is not. */
+  std::optional<double> strongVibrationPixels;
+  /** Signal of the darkest areas over that of the brightest, where it is so large that a non-linear response would not
+   * be noticed [1]; null: it is not. */
+  std::optional<double> uncheckedFraction;
+
+  /** Returns whether the verdict on the sensor is by its line of the variance, and not by what the line does not show.
+   */
+  bool
+  IsSensorLineJudged() const
+  {
+    return ofSensor.verdict != GainVerdict::LineIllumination && ofSensor.verdict != GainVerdict::NoiseNotLinear;
+  }
+};
+
+/** Decides on every quantity by the results of the passes. */
+SensorNoise_EXPORT RefinedEstimate
+EstimateAll(const RefinedResults & found);
+
+} // namespace sensornoise
+
+#endif

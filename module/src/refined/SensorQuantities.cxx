@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "refined/SensorQuantities.h"
+
+#include "base/ChiSquare.h"
+#include "base/Eigen.h"
+#include "base/Significance.h"
+#include "pixels/CodeNoise.h"
+#include "pixels/GainByParts.h"
+#include "report/Quantities.h"
+#include "sensornoise/Settings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Returns Student's quantile of the 95 % intervals [1]. */
+double
+StudentOf(const RefinedResults & found)
+{
+  return StudentQuantile(0.975, static_cast<double>(found.scene.frame.frames) - 2.0);
+}
+
+UnlikeParts
+GainsOf(const PartGains & gains, const GainEstimate & gain)
+{
+  const double pixels = std::accumulate(gains.pixels.begin(), gains.pixels.end(), 0.0);
+  UnlikeParts  parts{ gains.partition, gains.size, { KindOf(gains.partition).name, {} } };
+  for (std::size_t k = 0; k < gains.excess.size(); ++k)
+  {
+    parts.record.parts.push_back(
+      { NameOfPart(gains.partition, k),
+        gain.line.gain * (1.0 + gains.excess[k]),
+        std::hypot(std::sqrt(gain.covariance(0, 0)) * (1.0 + gains.excess[k]), gain.line.gain * gains.error[k]),
+        gains.pixels[k] / pixels });
+  }
+  return parts;
+}
+
+/** Returns the partitions whose parts differ. Phases are left out if the noise is correlated: where frames were
+ * resampled, the variance depends on the phase, and not because of the gain. */
+std::vector<UnlikeParts>
+FindUnlikeParts(const RefinedResults & found, const GainEstimate & gain)
+{
+  std::vector<UnlikeParts> unlike;
+  const GainByParts &      parts = found.variance.parts;
+  for (const auto * const own : { &parts.places, &parts.phases, &parts.frames })
+  {
+    if (*own && (*own)->Differ() && !(own == &parts.phases && found.correlation.IsCorrelated()))
+    {
+      unlike.push_back(GainsOf(**own, gain));
+    }
+  }
+  return unlike;
+}
+
+/** Largest distances of the parts' gains below and above their mean, and their rms deviation, relative to it [1]. */
+struct PartsRange
+{
+  double below{ 0.0 };
+  double above{ 0.0 };
+  double rms{ 0.0 };
+};
+
+PartsRange
+RangeOf(const std::vector<UnlikeParts> & unlike, double gain)
+{
+  PartsRange range;
+  for (const UnlikeParts & parts : unlike)
+  {
+    const auto [lowest, highest] = parts.Extremes();
+    range.below += 1.0 - lowest.gain / gain;
+    range.above += highest.gain / gain - 1.0;
+    range.rms = std::hypot(range.rms, parts.rms);
+  }
+  return range;
+}
+
+/** Returns the read noise in electrons from that in DN and the gain. */
+Quantity
+InElectrons(const Quantity & readNoise, const DarkVariance & squareDn2, const GainEstimate & gain, double student)
+{
+  const double g = gain.line.gain;
+  if (readNoise.status == EstimateStatus::UpperLimit)
+  {
+    return UpperLimit(*readNoise.bracket->high / g);
+  }
+  const double fromGain = 2.0 * squareDn2.valueDn2 / g * gain.StandardError();
+  return RootOf(squareDn2.valueDn2 / (g * g), std::hypot(squareDn2.standardErrorDn2, fromGain) / (g * g), student);
+}
+
+/** Returns the covariance of gain, intercept and offset. The error of the offset is independent of the error of the
+ * line; without an offset its elements are NaN. */
+std::array<std::array<double, 3>, 3>
+CovarianceOf(const GainEstimate & gain, std::optional<double> offsetVarianceDn2)
+{
+  // The error of assuming a linear response turns the line about its pivot.
+  const double    ofModel = 0.5 * (gain.below + gain.above);
+  const double    pivotDn = gain.line.pivotDn;
+  Eigen::Matrix2d covariance;
+  covariance << 1.0, -pivotDn, -pivotDn, pivotDn * pivotDn;
+  covariance = gain.covariance + ofModel * ofModel * covariance;
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  const double other = offsetVarianceDn2 ? 0.0 : unknown;
+  return { { { covariance(0, 0), covariance(0, 1), other },
+             { covariance(0, 1), covariance(1, 1), other },
+             { other, other, offsetVarianceDn2.value_or(unknown) } } };
+}
+
+/** Returns bounds of offset and read noise, which are not identifiable. */
+DarkQuantities
+QuantitiesByLimits(const OffsetLimits & limits, const GainEstimate & gain)
+{
+  const double largest = std::sqrt(limits.largestNoiseDn2);
+  const auto   within = [](const Interval & bounds) {
+    return Quantity::Without(EstimateStatus::NotIdentifiable, bounds);
+  };
+  DarkQuantities dark;
+  dark.offset = within({ limits.lowestDn, limits.highestDn });
+  dark.readNoise = within({ 0.0, largest });
+  dark.readNoiseElectrons = within({ 0.0, largest / gain.line.gain });
+  dark.covariance = CovarianceOf(gain, std::nullopt);
+  return dark;
+}
+
+/** Fills the read noise by the value of the line at the offset. */
+void
+FillReadNoise(DarkQuantities &     dark,
+              const GainEstimate & gain,
+              const UsedOffset &   offset,
+              double               quantisationDn2,
+              double               student)
+{
+  const VarianceLine &  v = gain.line;
+  const Eigen::Vector2d design(offset.valueDn, 1.0);
+  const double          square = v.intercept + v.gain * offset.valueDn - quantisationDn2;
+  const double          ofModel = 0.5 * (gain.below + gain.above) * (v.pivotDn - offset.valueDn);
+  const double          error = std::sqrt(design.dot(gain.covariance * design) + ofModel * ofModel +
+                                 v.gain * v.gain * offset.errorDn * offset.errorDn);
+  if (square + Significance.severalTests * error < 0.0)
+  {
+    dark.readNoise = Quantity::Without(EstimateStatus::Failed);
+    dark.readNoiseElectrons = Quantity::Without(EstimateStatus::Failed);
+    return;
+  }
+  dark.readNoise = RootOf(square, error, student);
+  dark.readNoiseElectrons = RootOf(square / (v.gain * v.gain), error / (v.gain * v.gain), student);
+}
+} // namespace
+
+std::pair<const GainByPartsRecord::Part &, const GainByPartsRecord::Part &>
+UnlikeParts::Extremes() const
+{
+  const auto byGain = [](const auto & a, const auto & b) { return a.gain < b.gain; };
+  const auto [lowest, highest] = std::minmax_element(record.parts.begin(), record.parts.end(), byGain);
+  return { *lowest, *highest };
+}
+
+JudgedGain
+QuantitiesBy(GainVerdict verdict, const GainEstimate & line, const RefinedResults & found, double quantisationDn2)
+{
+  JudgedGain judged;
+  judged.line = line;
+  judged.verdict = verdict;
+  if (verdict != GainVerdict::Identified)
+  {
+    for (Quantity * quantity : { &judged.gain, &judged.varianceSlope, &judged.intercept, &judged.totalIntercept })
+    {
+      *quantity = Quantity::Without(StatusBy(verdict));
+    }
+    if (verdict == GainVerdict::FewLitFrames || verdict == GainVerdict::LevelsTooAlike)
+    {
+      judged.gain.bracket = GainBounds(found, line);
+    }
+    return judged;
+  }
+  judged.parts = FindUnlikeParts(found, line);
+  const CodeNoise & codes = found.variance.codeNoise;
+  const double      student = StudentOf(found);
+  const double      gain = line.line.gain;
+  const PartsRange  parts = RangeOf(judged.parts, gain);
+  const double      error = std::sqrt(line.covariance(0, 0));
+  judged.gain = WithError(gain, std::hypot(line.StandardError(), parts.rms * gain), student);
+  judged.gain.interval95 = Interval{ gain * (1.0 - parts.below) - line.below - student * error * (1.0 - parts.below),
+                                     gain * (1.0 + parts.above) + line.above + student * error * (1.0 + parts.above) };
+  judged.varianceSlope = judged.gain;
+  judged.varianceSlope.value = gain + codes.slopeDn;
+  judged.varianceSlope.interval95 =
+    Interval{ *judged.gain.interval95->low + codes.slopeDn, *judged.gain.interval95->high + codes.slopeDn };
+  judged.gain.bracket = GainBounds(found, line);
+  // The value at the pivot is precise, so that an error of the gain changes the intercept in the opposite direction.
+  const double interceptError =
+    std::hypot(std::sqrt(line.covariance(1, 1)), 0.5 * (line.below + line.above) * line.line.pivotDn);
+  judged.totalIntercept = WithError(line.line.intercept + codes.interceptDn2, interceptError, student);
+  judged.intercept = WithError(line.line.intercept - quantisationDn2, interceptError, student);
+  return judged;
+}
+
+DarkQuantities
+QuantitiesOfDarkFrames(const RefinedSettings & settings, double quantisationDn2, EstimateStatus status)
+{
+  DarkQuantities dark;
+  dark.offset = dark.readNoise = dark.readNoiseElectrons = Quantity::Without(status);
+  if (!settings.offset)
+  {
+    return dark;
+  }
+  const KnownOffset & known = *settings.offset;
+  dark.offset = WithError(known.valueDn, known.standardErrorDn);
+  if (!known.variance)
+  {
+    return dark;
+  }
+  const double student = StudentQuantile(0.975, std::max(1.0, static_cast<double>(known.darkFrames) - 1.0));
+  const double square = known.variance->valueDn2 - quantisationDn2;
+  const double halfStepDn2 = 3.0 * quantisationDn2; // below it, the quantization hides the noise
+  dark.readNoise = square < halfStepDn2 ? UpperLimit(std::sqrt(halfStepDn2))
+                                        : RootOf(square, known.variance->standardErrorDn2, student);
+  if (known.readNoiseMedian)
+  {
+    dark.readNoiseMedian = WithError(known.readNoiseMedian->valueDn, known.readNoiseMedian->standardErrorDn, student);
+  }
+  return dark;
+}
+
+DarkQuantities
+QuantitiesByOffset(const RefinedResults & found,
+                   const GainEstimate &   gain,
+                   const OffsetLimits &   limits,
+                   const OffsetEstimate & flicker,
+                   double                 quantisationDn2)
+{
+  const auto & known = found.settings.offset;
+  if (!known && !flicker.IsIdentified())
+  {
+    return QuantitiesByLimits(limits, gain);
+  }
+  const double     student = StudentOf(found);
+  const UsedOffset offset = known ? UsedOffset{ known->valueDn, known->standardErrorDn }
+                                  : UsedOffset{ flicker.valueDn, flicker.standardErrorDn };
+  DarkQuantities   dark;
+  if (known && known->variance)
+  {
+    dark = QuantitiesOfDarkFrames(found.settings, quantisationDn2, EstimateStatus::Failed);
+    const DarkVariance square{ known->variance->valueDn2 - quantisationDn2, known->variance->standardErrorDn2 };
+    dark.readNoiseElectrons = InElectrons(dark.readNoise, square, gain, student);
+  }
+  else
+  {
+    dark.offset = WithError(offset.valueDn, offset.errorDn);
+    FillReadNoise(dark, gain, offset, quantisationDn2, student);
+  }
+  if (!known)
+  {
+    dark.offset.interval95 = flicker.interval;
+  }
+  // The bracket contains the identified offset.
+  dark.offset.bracket = Interval{ limits.lowestDn, std::max(limits.highestDn, offset.valueDn + offset.errorDn) };
+  if (limits.lowestDn)
+  {
+    dark.offset.bracket->low = std::min(*limits.lowestDn, offset.valueDn - offset.errorDn);
+  }
+  dark.covariance = CovarianceOf(gain, offset.errorDn * offset.errorDn);
+  return dark;
+}
+
+} // namespace sensornoise
