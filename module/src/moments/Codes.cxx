@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "moments/Codes.h"
 
+#include "sensornoise/Settings.h"
 #include "base/Text.h"
 #include "sensornoise/StepResults.h"
-#include "sensornoise/Settings.h"
-#include "moments/CodeSteps.h"
+#include "moments/ExtremeLevels.h"
 #include "moments/Constants.h"
-#include "moments/PileUp.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +14,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <iterator>
-#include <map>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -25,62 +23,54 @@
 namespace sensornoise
 {
 
-CodeHistogram::CodeHistogram()
-  : m_Counts(LowestCode + 65536, 0)
-{}
-
-std::vector<std::int32_t>
-CodeHistogram::Occupied() const
+CodeSettings
+MakeCodeSettings(unsigned int bitDepth, double clipLowDn, double clipHighDn, double quantisationStepDn)
 {
-  std::vector<std::int32_t> codes;
-  for (std::size_t i = 0; i < m_Counts.size(); ++i)
+  CodeSettings settings;
+  if (bitDepth > 0)
   {
-    if (m_Counts[i] > 0)
-    {
-      codes.push_back(static_cast<std::int32_t>(i) - LowestCode);
-    }
+    settings.bitDepth = static_cast<int>(bitDepth);
   }
-  return codes;
+  if (!std::isnan(clipLowDn))
+  {
+    settings.clipLowDn = clipLowDn;
+  }
+  if (!std::isnan(clipHighDn))
+  {
+    settings.clipHighDn = clipHighDn;
+  }
+  if (quantisationStepDn > 0.0)
+  {
+    settings.quantisationStepDn = quantisationStepDn;
+  }
+  return settings;
 }
 
-double
-FindQuantisationStep(const std::vector<std::int32_t> & codes, bool & regular)
+void
+ValidateCodeSettings(const CodeSettings & codes)
 {
-  regular = true;
-  std::map<std::int32_t, std::size_t> spacings;
-  for (std::size_t i = 1; i < codes.size(); ++i)
+  if (codes.bitDepth && (*codes.bitDepth < 1 || *codes.bitDepth > 16))
   {
-    ++spacings[codes[i] - codes[i - 1]];
+    throw std::invalid_argument("the bit depth is " + std::to_string(*codes.bitDepth) + "; expected 1 to 16");
   }
-  const auto majority = std::max_element(
-    spacings.begin(), spacings.end(), [](const auto & a, const auto & b) { return a.second < b.second; });
-  if (majority == spacings.end())
+  for (const std::optional<double> & level : { codes.clipLowDn, codes.clipHighDn })
   {
-    return 1.0;
-  }
-  std::int32_t step = majority->first;
-  if (2 * majority->second < codes.size())
-  {
-    // No majority: few codes, far apart. The greatest common divisor of all spacings is a step.
-    step = 0;
-    for (const auto & spacing : spacings)
+    if (level && !(std::abs(*level) <= LargestLevelDn))
     {
-      step = std::gcd(step, spacing.first);
+      throw std::invalid_argument("a clip level is " + Text(*level) + " DN; expected a level within " +
+                                  Text(LargestLevelDn) + " DN of 0");
     }
   }
-  std::map<std::int32_t, std::size_t> remainders;
-  for (const std::int32_t code : codes)
+  if (codes.clipLowDn && codes.clipHighDn && !(*codes.clipLowDn < *codes.clipHighDn))
   {
-    ++remainders[((code % step) + step) % step];
+    throw std::invalid_argument("the clip levels are " + Text(*codes.clipLowDn) + " and " + Text(*codes.clipHighDn) +
+                                " DN; expected low < high");
   }
-  std::size_t onGrid = 0;
-  for (const auto & remainder : remainders)
+  if (codes.quantisationStepDn && !(*codes.quantisationStepDn > 0.0 && *codes.quantisationStepDn <= LargestStepDn))
   {
-    onGrid = std::max(onGrid, remainder.second);
+    throw std::invalid_argument("the code step is " + Text(*codes.quantisationStepDn) +
+                                " DN; expected a positive number, at most " + Text(LargestStepDn));
   }
-  regular = static_cast<double>(codes.size() - onGrid) <=
-            InMoments.largestOffGridFraction * static_cast<double>(codes.size()) + InMoments.offGridCodes;
-  return step;
 }
 
 namespace
@@ -315,6 +305,52 @@ GivenCodes(const CodeSettings & settings)
   range.clipLowDn = settings.clipLowDn;
   range.clipHighDn = settings.clipHighDn;
   range.clipSource = settings.clipLowDn || settings.clipHighDn ? "given" : "none";
+  return range;
+}
+
+namespace
+{
+
+/** Returns whether the outermost of \a levels is a pile-up. \a stepDn is their spacing, if it is known [DN]. */
+bool
+PilesUp(const OutermostLevels & levels, std::optional<double> stepDn, double typicalVarianceDn2, double depth)
+{
+  const double step = stepDn.value_or(levels.Step());
+  return IsPileUpEvidence(typicalVarianceDn2, step, depth) && IsPileUp(levels.Pixels(), levels.MostInside(step));
+}
+
+/** Returns "given", "pile-up" or "none". */
+std::string
+SourceOf(bool isGiven, bool isPileUp)
+{
+  return isGiven ? "given" : (isPileUp ? "pile-up" : "none");
+}
+
+} // namespace
+
+CodeRange
+FindLevels(const OutermostLevels & minima,
+           const OutermostLevels & maxima,
+           double                  typicalVarianceDn2,
+           const CodeSettings &    settings,
+           const ExtremeDepths &   depths)
+{
+  CodeRange range = GivenCodes(settings);
+  if (minima.Pixels() > 0 && maxima.Pixels() > 0 && minima.Level() == maxima.Level())
+  {
+    return range;
+  }
+  const auto & step = settings.quantisationStepDn;
+  const bool   low = !settings.clipLowDn && PilesUp(minima, step, typicalVarianceDn2, depths.low);
+  const bool   high = !settings.clipHighDn && PilesUp(maxima, step, typicalVarianceDn2, depths.high);
+  if (low || high)
+  {
+    range.clipLowDn = low ? minima.Level() : settings.clipLowDn;
+    range.clipHighDn = high ? maxima.Level() : settings.clipHighDn;
+    const std::string lowSource = SourceOf(settings.clipLowDn.has_value(), low);
+    const std::string highSource = SourceOf(settings.clipHighDn.has_value(), high);
+    range.SetClipSources(lowSource, highSource);
+  }
   return range;
 }
 

@@ -5,58 +5,13 @@
 
 #include "sensornoise/StepResults.h"
 #include "sensornoise/Settings.h"
-#include "moments/PileUp.h"
+#include "moments/ExtremeLevels.h"
 #include "SensorNoiseExport.h"
 
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace sensornoise
 {
-
-/** Histogram of the extremes of the pixels over time: the number of pixels by digital number. */
-class SensorNoise_EXPORT CodeHistogram
-{
-public:
-  CodeHistogram();
-  /** Counts a pixel whose extreme is \a code, a whole number from -32768 to 65535 [DN]. */
-  void
-  Add(double code)
-  {
-    ++m_Counts[static_cast<std::size_t>(static_cast<std::int32_t>(code) + LowestCode)];
-  }
-  /** Returns the number of pixels whose extreme is \a code. */
-  std::uint32_t
-  Count(std::int32_t code) const
-  {
-    const std::int32_t i = code + LowestCode;
-    return i < 0 || i >= static_cast<std::int32_t>(m_Counts.size()) ? 0 : m_Counts[static_cast<std::size_t>(i)];
-  }
-  /** Returns the codes that occur, ascending. */
-  std::vector<std::int32_t>
-  Occupied() const;
-  /** Returns whether Add() accepts \a value. */
-  static bool
-  IsCode(double value)
-  {
-    return value >= -LowestCode && value <= 65535.0 && value == std::floor(value);
-  }
-
-private:
-  static constexpr std::int32_t LowestCode = 32768; // room for signed and unsigned 16-bit codes
-  std::vector<std::uint32_t>    m_Counts;
-};
-
-/** Returns the quantization step [DN]: the most frequent distance between neighbouring codes that occur. Without a
- * majority it is the greatest common divisor of the distances.
- *
- * 12 bits left-aligned in 16 bits have the step 16. Rescaled data (for example by 65535/4095) have distances of 16 and
- * 17, so that more than 2 % of the codes lie off the grid. Then \a regular is set to false. A few stray codes do not
- * matter. */
-SensorNoise_EXPORT double
-FindQuantisationStep(const std::vector<std::int32_t> & codes, bool & regular);
 
 /** Returns the outermost code of \a extremes that is not due to stray pixels [DN].
  *
@@ -85,6 +40,23 @@ FindCodes(const CodeHistogram & minima,
 /** Returns the given settings only: floating-point data have no codes. */
 SensorNoise_EXPORT CodeRange
 GivenCodes(const CodeSettings & settings);
+
+/** Finds the clip levels of floating-point data from the extremes of every pixel over time, as FindCodes() does for
+ * integers. A clip level is a pile-up of the extremes: many pixels have exactly the outermost value as extreme.
+ *
+ * Given values take precedence. Floating-point data have no DN range: where nothing is given and nothing piles up, no
+ * pixel is clipped. Converted codes, and codes scaled by one number, pile up like the codes, and are compared with the
+ * levels one step apart. The division by a flat field spreads a clip level over many values; then it cannot be found
+ * and must be given.
+ *
+ * \a typicalVarianceDn2 is the median temporal variance of the pixels that vary [DN^2], see IsPileUpEvidence(). \a
+ * minima or \a maxima may be empty if they are known to have no pile-up. */
+SensorNoise_EXPORT CodeRange
+FindLevels(const OutermostLevels & minima,
+           const OutermostLevels & maxima,
+           double                  typicalVarianceDn2,
+           const CodeSettings &    settings,
+           const ExtremeDepths &   depths = {});
 
 } // namespace sensornoise
 

@@ -6,7 +6,7 @@
 #include "base/Eigen.h"
 #include "base/Text.h"
 #include "moments/Constants.h"
-#include "moments/EvenPixels.h"
+#include "moments/Exposures.h"
 #include "moments/StackMaps.h"
 
 #include <algorithm>

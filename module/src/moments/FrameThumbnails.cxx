@@ -7,8 +7,7 @@
 #include "base/Quantiles.h"
 #include "moments/Constants.h"
 #include "moments/FrameFit.h"
-#include "moments/IlluminationChange.h"
-#include "moments/StackRequirements.h"
+#include "moments/StackFrames.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,10 +6,13 @@
 #include "sensornoise/StepResults.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Settings.h"
-#include "moments/TemporalMaps.h"
 #include "moments/TemporalMoments.h"
 #include "SensorNoiseExport.h"
+#include "moments/Constants.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -43,6 +46,53 @@ struct StackMaps
 template <typename TPixel>
 SensorNoise_EXPORT StackMaps
 MakeStackMaps(TemporalMoments<TPixel> moments, const CodeSettings & settings, const ParallelFor & parallelFor);
+
+/** Returns whether the values of a stack are counts, so that 0 means no event and not a clip level.
+ *
+ * The variance of counts is proportional to their mean, down to a fraction of one. A sensor whose offset is near 0 has
+ * read noise and quantization noise there, clipped at 0, so that the ratio of variance to mean changes. The ratio is
+ * compared between pixels with a mean below one step, of 1 to 3, of 3 to 10, and above 10 steps. \a stepDn is the
+ * quantization step [DN]. */
+template <typename TPixel>
+bool
+AreCountsFromZero(const TemporalMaps<TPixel> & maps, double stepDn)
+{
+  constexpr std::size_t      groups = 4;
+  std::array<double, groups> mean{};
+  std::array<double, groups> variance{};
+  std::array<double, groups> squares{}; // sum of the squared variances
+  std::array<double, groups> pixels{};
+  const std::size_t          stride = std::max<std::size_t>(1, maps.GetNumberOfPixels() / InMoments.pixelsOfCounts);
+  for (std::size_t p = 0; p < maps.GetNumberOfPixels(); p += stride)
+  {
+    const double steps = maps.mean[p] / stepDn;
+    if (maps.IsFinite(p) && maps.GetMinimum(p) >= 0.0 && steps > InMoments.leastCount && steps < InMoments.largestCount)
+    {
+      const std::size_t group = steps < 1.0 ? 0 : steps < 3.0 ? 1 : steps < 10.0 ? 2 : 3;
+      mean[group] += steps;
+      const double ofSteps = maps.variance[p] / (stepDn * stepDn);
+      variance[group] += ofSteps;
+      squares[group] += ofSteps * ofSteps;
+      pixels[group] += 1.0;
+    }
+  }
+  // The standard error of the mean variance of a group is sqrt(spread) / pixels.
+  double      least = 0.0;
+  double      largest = 0.0;
+  std::size_t told = 0;
+  for (std::size_t k = 0; k < groups; ++k)
+  {
+    const double spread = squares[k] - variance[k] * variance[k] / std::max(1.0, pixels[k]);
+    if (variance[k] > 0.0 && std::sqrt(std::max(0.0, spread)) < InMoments.errorOfCountRatio * variance[k])
+    {
+      const double ratio = variance[k] / mean[k];
+      least = told == 0 ? ratio : std::min(least, ratio);
+      largest = told == 0 ? ratio : std::max(largest, ratio);
+      ++told;
+    }
+  }
+  return told >= 2 && largest < (1.0 + InMoments.largestCountRatio) * least;
+}
 
 } // namespace sensornoise
 

@@ -4,7 +4,7 @@
 
 #include "base/BinaryStream.h"
 #include "sensornoise/FrameGeometry.h"
-#include "moments/StackRequirements.h"
+#include "moments/StackFrames.h"
 
 #include <algorithm>
 #include <iterator>

@@ -8,11 +8,9 @@
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Report.h"
 #include "base/PixelLayout.h"
-#include "moments/DistinctFrames.h"
-#include "moments/FrameFingerprints.h"
-#include "moments/FrameThumbnails.h"
-#include "moments/PassFrames.h"
+#include "moments/StackFrames.h"
 #include "moments/StackMoments.h"
+#include "moments/FrameThumbnails.h"
 #include "moments/UnlikeFrames.h"
 
 #include <cstddef>

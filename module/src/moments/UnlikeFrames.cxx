@@ -6,7 +6,7 @@
 #include "moments/Constants.h"
 #include "moments/FrameFit.h"
 #include "moments/FrameThumbnails.h"
-#include "moments/StackRequirements.h"
+#include "moments/StackFrames.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,20 +1,162 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#ifndef sensornoise_moments_DistinctFrames_h
-#define sensornoise_moments_DistinctFrames_h
+#ifndef sensornoise_moments_StackFrames_h
+#define sensornoise_moments_StackFrames_h
 
 #include "SensorNoiseExport.h"
+#include "base/NothingToMeasure.h"
 #include "sensornoise/Parallel.h"
-#include "moments/ChosenFrames.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <istream>
 #include <limits>
+#include <ostream>
+#include <string>
 #include <vector>
 
 namespace sensornoise
 {
+
+struct FrameGeometry;
+
+/** Least number of frames of a stack that the methods measure. */
+inline constexpr std::size_t MinimumFrames = 5;
+
+/** Largest number of frames: up to it all sums over integer pixels are exact. The moments are exact for up to 2^22
+ * frames, see IntegerMoments::MostFrames, the projections of the refined method for 2^34. The illumination factors of
+ * the published method are rounded so that their sums are exact. At 2^22 frames they keep 15 bits: the rounding, at
+ * most 3e-5 of the flicker, is far below any noise. */
+inline constexpr std::size_t MaximumFrames = std::size_t{ 1 } << 22;
+
+/** Throws std::invalid_argument if a stack has fewer than MinimumFrames or more than MaximumFrames frames, frames of
+ * fewer than 3 x 3 pixels, or a mask of another size than a frame. \a maskPixels is 0 without a mask. */
+SensorNoise_EXPORT void
+RequireStack(const FrameGeometry & geometry, std::size_t frames, std::size_t maskPixels);
+
+/** Throws NothingToMeasure if fewer than MinimumFrames distinct frames are left. It does not if no pixel is \a valid:
+ * then this is the reason why frames are equal, and it is reported instead. */
+inline void
+RequireDistinctFrames(std::size_t distinct, const std::vector<std::uint8_t> & valid)
+{
+  if (distinct < MinimumFrames && std::find(valid.begin(), valid.end(), std::uint8_t{ 1 }) != valid.end())
+  {
+    throw NothingToMeasure("only " + std::to_string(distinct) +
+                           (distinct == 1 ? " distinct frame is" : " distinct frames are") +
+                           " left, as equal frames are counted once; expected at least " +
+                           std::to_string(MinimumFrames) + ". Record more frames");
+  }
+}
+
+/** \class PassFrames
+ * \brief The frames of the current pass over a stack that have been added, in this or another process. */
+class SensorNoise_EXPORT PassFrames
+{
+public:
+  explicit PassFrames(std::size_t frames);
+
+  /** Number of the current pass, from 0. */
+  unsigned int
+  GetPass() const
+  {
+    return m_Pass;
+  }
+
+  /** Number of the frame that is to be added next. */
+  std::size_t
+  GetNext() const
+  {
+    return m_Next;
+  }
+
+  /** Marks the next \a count frames as added and returns the first. Throws std::logic_error if fewer are left, or if
+   * one has been added before. */
+  std::size_t
+  Add(std::size_t count);
+
+  /** Passes over the next \a count frames, which another process adds. Throws std::logic_error if fewer are left. */
+  void
+  Skip(std::size_t count);
+
+  /** Makes frame \a t the next one. Throws std::logic_error if there is no such frame. */
+  void
+  GoTo(std::size_t t);
+
+  /** Marks all frames of the pass as not added, and goes to frame 0. */
+  void
+  Forget();
+
+  /** Returns 1 for every frame that has been added, else 0. */
+  const std::vector<std::uint8_t> &
+  GetHas() const
+  {
+    return m_Has;
+  }
+
+  /** Throws std::runtime_error if a frame has been added both here and to \a other. */
+  void
+  RequireApart(const PassFrames & other) const;
+
+  /** Marks the frames of \a other as added. Throws std::runtime_error if one has been added here, too. */
+  void
+  Merge(const PassFrames & other);
+
+  /** Ends the pass. Throws std::logic_error if a frame is missing. */
+  void
+  EndPass();
+
+  /** Writes the pass and its frames, see BinaryStream. */
+  void
+  Save(std::ostream & out) const;
+  /** Reads the frames of a stream, of the same pass. Throws std::runtime_error if it is of another pass. */
+  PassFrames
+  ReadOther(std::istream & in) const;
+
+private:
+  std::vector<std::uint8_t> m_Has;
+  std::size_t               m_Next{ 0 };
+  unsigned int              m_Pass{ 0 };
+};
+
+/** Calls function(frames, number) with the frames that \a isChosen selects, in order and contiguous in memory. If all
+ * frames are chosen, they are passed in place. Otherwise copies are passed, at most 32 MiB or one frame at a time.
+ * \a frames holds as many frames as \a isChosen has flags. */
+template <typename TPixel, typename TFunction>
+void
+ForChosenFrames(const TPixel *                    frames,
+                std::size_t                       pixels,
+                const std::vector<std::uint8_t> & isChosen,
+                const ParallelFor &               parallelFor,
+                TFunction                         function)
+{
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < isChosen.size(); ++k)
+  {
+    if (isChosen[k] != 0)
+    {
+      chosen.push_back(k);
+    }
+  }
+  if (chosen.empty() || chosen.size() == isChosen.size())
+  {
+    if (!chosen.empty())
+    {
+      function(frames, chosen.size());
+    }
+    return;
+  }
+  const std::size_t   together = std::max<std::size_t>(1, (std::size_t{ 32 } << 20) / (pixels * sizeof(TPixel)));
+  std::vector<TPixel> copies(std::min(together, chosen.size()) * pixels);
+  for (std::size_t first = 0; first < chosen.size(); first += together)
+  {
+    const std::size_t number = std::min(together, chosen.size() - first);
+    parallelFor(number, [&](std::size_t k) {
+      std::copy_n(frames + chosen[first + k] * pixels, pixels, copies.data() + k * pixels);
+    });
+    function(static_cast<const TPixel *>(copies.data()), number);
+  }
+}
 
 /** \class DistinctFrames
  * \brief The frames of a stack that are counted. Of equal frames only the first one, the original, is counted; frames

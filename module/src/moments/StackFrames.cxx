@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/PassFrames.h"
+#include "moments/StackFrames.h"
 
+#include "sensornoise/FrameGeometry.h"
 #include "base/BinaryStream.h"
 
 #include <algorithm>
@@ -11,9 +12,36 @@
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace sensornoise
 {
+
+void
+RequireStack(const FrameGeometry & geometry, std::size_t frames, std::size_t maskPixels)
+{
+  if (frames < MinimumFrames)
+  {
+    throw std::invalid_argument("the stack has " + std::to_string(frames) + (frames == 1 ? " frame" : " frames") +
+                                "; expected at least " + std::to_string(MinimumFrames) +
+                                ". Give all frames of the burst, as a list, a folder or a stack");
+  }
+  if (frames > MaximumFrames)
+  {
+    throw std::invalid_argument("the stack has " + std::to_string(frames) + " frames; expected at most " +
+                                std::to_string(MaximumFrames) + ". Measure a part of them: --frames");
+  }
+  if (geometry.width < 3 || geometry.height < 3)
+  {
+    throw std::invalid_argument("the frames have " + std::to_string(geometry.width) + " x " +
+                                std::to_string(geometry.height) + " pixels; expected at least 3 x 3");
+  }
+  if (maskPixels != 0 && maskPixels != geometry.Pixels())
+  {
+    throw std::invalid_argument("the mask has " + std::to_string(maskPixels) + " pixels, but the frames have " +
+                                std::to_string(geometry.Pixels()) + "; expected one value for each pixel");
+  }
+}
 
 PassFrames::PassFrames(std::size_t frames)
   : m_Has(frames, 0)
@@ -122,6 +150,34 @@ PassFrames::ReadOther(std::istream & in) const
   RequireCount("as the pass", ReadCount(in), m_Pass + 1);
   ReadNumbers(in, other.m_Has);
   return other;
+}
+
+DistinctFrames::DistinctFrames(std::vector<std::size_t> originals)
+  : m_Originals(std::move(originals))
+  , m_Places(m_Originals.size())
+{
+  for (std::size_t t = 0; t < m_Originals.size(); ++t)
+  {
+    m_Places[t] = m_Originals[t] == t ? m_Count++ : m_Places[m_Originals[t]];
+  }
+  m_Repeated = m_Originals.size() - m_Count;
+}
+
+DistinctFrames
+DistinctFrames::Without(const std::vector<std::size_t> & leftOut) const
+{
+  DistinctFrames others = *this;
+  for (const std::size_t t : leftOut)
+  {
+    others.m_Places[m_Originals[t]] = None;
+  }
+  others.m_Count = 0;
+  for (std::size_t t = 0; t < m_Originals.size(); ++t)
+  {
+    std::size_t & place = others.m_Places[t];
+    place = m_Originals[t] != t ? others.m_Places[m_Originals[t]] : place != None ? others.m_Count++ : None;
+  }
+  return others;
 }
 
 } // namespace sensornoise

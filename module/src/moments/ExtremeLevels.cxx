@@ -1,19 +1,143 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/CodeSteps.h"
+#include "moments/ExtremeLevels.h"
 
 #include "moments/Constants.h"
+#include "base/Quantiles.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <map>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 namespace sensornoise
 {
+
+CodeHistogram::CodeHistogram()
+  : m_Counts(LowestCode + 65536, 0)
+{}
+
+std::vector<std::int32_t>
+CodeHistogram::Occupied() const
+{
+  std::vector<std::int32_t> codes;
+  for (std::size_t i = 0; i < m_Counts.size(); ++i)
+  {
+    if (m_Counts[i] > 0)
+    {
+      codes.push_back(static_cast<std::int32_t>(i) - LowestCode);
+    }
+  }
+  return codes;
+}
+
+void
+OutermostLevels::Insert(double outwards)
+{
+  ++m_Counts[outwards];
+  if (m_Counts.size() > MostLevels)
+  {
+    m_Counts.erase(std::prev(m_Counts.end()));
+  }
+  m_Innermost = m_Counts.rbegin()->first;
+}
+
+double
+OutermostLevels::Step() const
+{
+  std::vector<double> spacings;
+  for (auto inner = m_Counts.begin(); inner != m_Counts.end(); ++inner)
+  {
+    if (inner != m_Counts.begin())
+    {
+      spacings.push_back(std::prev(inner)->first - inner->first);
+    }
+  }
+  return spacings.empty() ? 0.0 : Quantile(spacings, InMoments.stepQuantile);
+}
+
+std::size_t
+OutermostLevels::MostInside(double stepDn) const
+{
+  return m_Counts.empty() ? 0 : this->MostInside(m_Counts.begin(), stepDn);
+}
+
+std::size_t
+OutermostLevels::MostInside(Counts::const_iterator end, double stepDn) const
+{
+  std::size_t most = 0;
+  // Half a step more: spacings of rescaled codes differ in the last digits.
+  const double reach = end->first - (InMoments.levelsInsidePileUp + 0.5) * stepDn;
+  for (auto level = std::next(end); level != m_Counts.end() && level->first >= reach; ++level)
+  {
+    most = std::max(most, level->second);
+  }
+  return most;
+}
+
+void
+OutermostLevels::LeaveOutStray(double stepDn)
+{
+  double beyond = 0.0;
+  for (auto level = m_Counts.begin(); level != m_Counts.end(); ++level)
+  {
+    const auto pixels = static_cast<double>(level->second);
+    const bool isApart = level != m_Counts.begin() &&
+                         std::prev(level)->first - level->first > (InMoments.levelsOutsidePileUp + 0.5) * stepDn;
+    if (isApart && beyond <= InMoments.largestStrayFraction * pixels &&
+        IsPileUp(level->second, this->MostInside(level, stepDn)))
+    {
+      m_Counts.erase(m_Counts.begin(), level);
+      return;
+    }
+    beyond += pixels;
+  }
+}
+
+double
+FindQuantisationStep(const std::vector<std::int32_t> & codes, bool & regular)
+{
+  regular = true;
+  std::map<std::int32_t, std::size_t> spacings;
+  for (std::size_t i = 1; i < codes.size(); ++i)
+  {
+    ++spacings[codes[i] - codes[i - 1]];
+  }
+  const auto majority = std::max_element(
+    spacings.begin(), spacings.end(), [](const auto & a, const auto & b) { return a.second < b.second; });
+  if (majority == spacings.end())
+  {
+    return 1.0;
+  }
+  std::int32_t step = majority->first;
+  if (2 * majority->second < codes.size())
+  {
+    // No majority: few codes, far apart. The greatest common divisor of all spacings is a step.
+    step = 0;
+    for (const auto & spacing : spacings)
+    {
+      step = std::gcd(step, spacing.first);
+    }
+  }
+  std::map<std::int32_t, std::size_t> remainders;
+  for (const std::int32_t code : codes)
+  {
+    ++remainders[((code % step) + step) % step];
+  }
+  std::size_t onGrid = 0;
+  for (const auto & remainder : remainders)
+  {
+    onGrid = std::max(onGrid, remainder.second);
+  }
+  regular = static_cast<double>(codes.size() - onGrid) <=
+            InMoments.largestOffGridFraction * static_cast<double>(codes.size()) + InMoments.offGridCodes;
+  return step;
+}
 
 namespace
 {

@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/PixelCalibration.h"
+#include "moments/DarkMaps.h"
 
 #include "base/ChiSquare.h"
 #include "base/Constants.h"
 #include "sensornoise/Parallel.h"
-#include "moments/DarkMaps.h"
-#include "moments/RoundingError.h"
 
 #include <algorithm>
 #include <cmath>
