@@ -2,13 +2,260 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "correlation/CommonNoise.h"
 
+#include "base/Avx2.h"
 #include "correlation/Constants.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdlib>
+#include <numeric>
+#include <vector>
 
 namespace sensornoise
 {
+
+namespace
+{
+/** Number of segments in a row or column of a tile, and of square cells along its side. Segments or cells that are
+ * neither equal nor adjacent are far apart. */
+constexpr std::size_t Segments = 4;
+
+/** Sums of segments, [segment][line]: the values of adjacent lines are adjacent in memory. */
+template <std::size_t VSide>
+using LineSums = std::array<std::array<double, VSide>, Segments>;
+using CellSums = std::array<double, Segments * Segments>;
+
+/** Sums over the segments of a tile's rows, over the segments of its columns, and over its cells. */
+template <std::size_t VSide>
+struct SegmentSums
+{
+  static constexpr std::size_t Length = VSide / Segments; // of a segment [pixels]
+  using Line = std::array<double, VSide>;
+
+  LineSums<VSide> rows;
+  LineSums<VSide> columns;
+  CellSums        cells;
+
+  template <typename TFunction>
+  void
+  Sum(TFunction valueOf)
+  {
+    columns = {};
+    for (std::size_t y = 0; y < VSide; ++y)
+    {
+      Line   values;
+      Line & column = columns[y / Length];
+      for (std::size_t x = 0; x < VSide; ++x)
+      {
+        values[x] = valueOf(y * VSide + x);
+        column[x] += values[x];
+      }
+      this->SumRow(values, y);
+    }
+    this->SumCells();
+  }
+
+  /** Computes the sums of the cells alone. */
+  template <typename TFunction>
+  void
+  SumOfCells(TFunction valueOf)
+  {
+    columns = {};
+    for (std::size_t y = 0; y < VSide; ++y)
+    {
+      Line & column = columns[y / Length];
+      for (std::size_t x = 0; x < VSide; ++x)
+      {
+        column[x] += valueOf(y * VSide + x);
+      }
+    }
+    this->SumCells();
+  }
+
+private:
+  /** Adds four values of a segment side by side: a single sum would wait for each addition before the next. */
+  void
+  SumRow(const Line & values, std::size_t y)
+  {
+    for (std::size_t s = 0; s < Segments; ++s)
+    {
+      std::array<double, 4> own{};
+      for (std::size_t x = s * Length; x < (s + 1) * Length; x += own.size())
+      {
+        for (std::size_t k = 0; k < own.size(); ++k)
+        {
+          own[k] += values[x + k];
+        }
+      }
+      rows[s][y] = (own[0] + own[1]) + (own[2] + own[3]);
+    }
+  }
+  void
+  SumCells()
+  {
+    for (std::size_t k = 0; k < cells.size(); ++k)
+    {
+      const double * const first = columns[k / Segments].data() + k % Segments * Length;
+      cells[k] = std::accumulate(first, first + Length, 0.0);
+    }
+  }
+};
+
+double
+CellProduct(const CellSums & cells)
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    for (std::size_t j = i + 2 * Segments; j < cells.size(); ++j)
+    {
+      const std::size_t a = i % Segments;
+      const std::size_t b = j % Segments;
+      sum += a + 2 <= b || b + 2 <= a ? cells[i] * cells[j] : 0.0;
+    }
+  }
+  return sum;
+}
+
+/** Sums of products of segments that are far apart along two lines, by the distance of the lines: [distance][line]. */
+template <std::size_t VSide>
+struct LineProducts
+{
+  std::array<std::array<double, VSide>, DistantCovariance::Lines> sums{};
+
+  void
+  Add(const LineSums<VSide> & lines)
+  {
+    std::array<double, VSide> last{}; // sum of the last two segments
+    for (std::size_t y = 0; y < VSide; ++y)
+    {
+      last[y] = lines[2][y] + lines[3][y];
+    }
+    for (std::size_t d = 0; d < DistantCovariance::Lines; ++d)
+    {
+      for (std::size_t y = 0; y < VSide - d; ++y)
+      {
+        sums[d][y] += lines[0][y] * last[y + d] + lines[1][y] * lines[3][y + d] + lines[0][y + d] * last[y] +
+                      lines[1][y + d] * lines[3][y];
+      }
+    }
+  }
+  double
+  Total(std::size_t d) const
+  {
+    return std::accumulate(sums[d].begin(), sums[d].end(), 0.0);
+  }
+};
+
+/** Products of all segments and cells that are far apart. */
+template <std::size_t VSide>
+struct SegmentProducts
+{
+  LineProducts<VSide> rows;
+  LineProducts<VSide> columns;
+  double              cells{ 0.0 };
+
+  void
+  Add(const SegmentSums<VSide> & sums)
+  {
+    rows.Add(sums.rows);
+    columns.Add(sums.columns);
+    cells += CellProduct(sums.cells);
+  }
+  /** Adds the products, times \a factor, to one member of every DistantSums of \a light. */
+  void
+  AddTo(DistantCovariance & light, double DistantSums::* member, double factor) const
+  {
+    for (std::size_t d = 0; d < DistantCovariance::Lines; ++d)
+    {
+      light.rows[d].*member += factor * rows.Total(d);
+      light.columns[d].*member += factor * columns.Total(d);
+    }
+    light.far.*member += factor * cells;
+  }
+};
+
+template <std::size_t VSide>
+DistantCovariance
+SumTile(const NoiseResiduals & residuals, std::size_t i)
+{
+  constexpr std::size_t size = VSide * VSide;
+  const std::size_t     frames = residuals.GetTiles().frames;
+  const float *         w = residuals.WeightOf(i);
+  const float *         z = residuals.LightOf(i);
+  const double          factor = 1.0 / residuals.GetDof();
+  DistantCovariance     light;
+  const auto            addOnce = [&light](double DistantSums::* member, auto valueOf) {
+    SegmentSums<VSide>     sums{};
+    SegmentProducts<VSide> products;
+    sums.Sum(valueOf);
+    products.Add(sums);
+    products.AddTo(light, member, 1.0);
+  };
+  addOnce(&DistantSums::constant, [=](std::size_t p) { return w[p]; });
+  addOnce(&DistantSums::light, [=](std::size_t p) { return static_cast<double>(w[p]) * z[p]; });
+  addOnce(&DistantSums::signalSquare, [=](std::size_t p) { return static_cast<double>(w[p]) * z[p] * z[p]; });
+  CallWithAvx2([&] {
+    SegmentSums<VSide>     sums{};
+    SegmentProducts<VSide> products;
+    double                 ofLight = 0.0;
+    for (std::size_t t = 0; t < frames; ++t)
+    {
+      const float * values = residuals.OfTile(i) + t * size;
+      sums.Sum([=](std::size_t p) { return static_cast<double>(w[p] * values[p]); });
+      products.Add(sums);
+      sums.SumOfCells([=](std::size_t p) { return static_cast<double>(w[p] * z[p] * values[p]); });
+      ofLight += CellProduct(sums.cells);
+    }
+    products.AddTo(light, &DistantSums::covariance, factor);
+    light.far.signalCovariance += factor * ofLight;
+  });
+  if (residuals.GetLinesTakenOff())
+  {
+    const bool areRows = *residuals.GetLinesTakenOff() == LineAxis::Rows;
+    for (const float * const share : residuals.LineProjectionsOf(i)) // restores what the regression removed
+    {
+      SegmentSums<VSide>  sums{};
+      LineProducts<VSide> products;
+      sums.Sum([=](std::size_t p) { return static_cast<double>(w[p] * share[p]); });
+      products.Add(areRows ? sums.rows : sums.columns);
+      (areRows ? light.rows : light.columns)[0].covariance += products.Total(0);
+    }
+  }
+  return light;
+}
+} // namespace
+
+DistantSums &
+DistantSums::operator+=(const DistantSums & other)
+{
+  covariance += other.covariance;
+  constant += other.constant;
+  light += other.light;
+  signalCovariance += other.signalCovariance;
+  signalSquare += other.signalSquare;
+  return *this;
+}
+
+DistantCovariance &
+DistantCovariance::operator+=(const DistantCovariance & other)
+{
+  for (std::size_t d = 0; d < Lines; ++d)
+  {
+    rows[d] += other.rows[d];
+    columns[d] += other.columns[d];
+  }
+  far += other.far;
+  return *this;
+}
+
+DistantCovariance
+SumDistantCovariance(const NoiseResiduals & residuals, std::size_t i)
+{
+  return residuals.GetTiles().side == SampleTiles::Side ? SumTile<SampleTiles::Side>(residuals, i)
+                                                        : SumTile<SampleTiles::SmallSide>(residuals, i);
+}
 
 namespace
 {

@@ -3,12 +3,12 @@
 #ifndef sensornoise_correlation_CorrelationEstimate_h
 #define sensornoise_correlation_CorrelationEstimate_h
 
-#include "sensornoise/StepResults.h"
 #include "SensorNoiseExport.h"
+#include "sensornoise/StepResults.h"
 #include "sensornoise/Parallel.h"
-#include "correlation/NoiseCorrelation.h"
-#include "correlation/NoiseSample.h"
 #include "sensornoise/Report.h"
+#include "correlation/NoiseCorrelation.h"
+#include "correlation/FrameSample.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -49,6 +49,11 @@ EstimateCorrelation(NoiseSample                       sample,
                     const std::vector<std::uint8_t> & take,
                     const CorrelationSettings &       settings,
                     const ParallelFor &               parallelFor = SerialFor);
+
+/** Returns the record of the spatial and temporal noise correlation. If it was not measured, only the noise class is
+ * filled. */
+SensorNoise_EXPORT NoiseCorrelationRecord
+RecordOf(const NoiseCorrelation & correlation);
 
 } // namespace sensornoise
 

@@ -2,14 +2,106 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "correlation/CorrelationSums.h"
 
-#include "correlation/MixtureKurtosis.h"
-#include "correlation/UnequalFrames.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdlib>
 
 namespace sensornoise
 {
+
+namespace
+{
+Eigen::Index
+ColumnOf(CovarianceShape shape)
+{
+  return static_cast<Eigen::Index>(shape);
+}
+
+/** Returns the variance at a signal by a line through the bins [DN^2], which have the inverse of their squared variance
+ * as weights. The result is clamped between 0 and the variance of the darkest bin. */
+double
+VarianceAt(double lightDn, const Eigen::MatrixXd & shapes)
+{
+  Eigen::MatrixXd line(shapes.rows(), 2);
+  line << shapes.col(ColumnOf(CovarianceShape::Light)), shapes.col(ColumnOf(CovarianceShape::Constant));
+  const Eigen::VectorXd variance = shapes.col(ColumnOf(CovarianceShape::Variance));
+  const Eigen::VectorXd fit = line.completeOrthogonalDecomposition().solve(variance);
+  const double          inverse = line.col(1).maxCoeff();
+  return inverse > 0.0 ? std::clamp(fit(0) * lightDn + fit(1), 0.0, 1.0 / inverse) : 0.0;
+}
+constexpr auto FirstPart = static_cast<std::size_t>(CovarianceShape::FirstPart);
+} // namespace
+
+CovarianceShapes::CovarianceShapes(const LagSums & own, double leastSignalDn, double unfilteredDn2)
+  : m_InBins(Eigen::MatrixXd::Zero(NoiseResiduals::IntensityBins, NumberOfShapes))
+{
+  for (std::size_t b = 0; b < own.bins.size(); ++b)
+  {
+    const PairSums & bin = own.bins[b];
+    if (bin.pairs > 0.0)
+    {
+      const auto row = static_cast<Eigen::Index>(b);
+      m_InBins.row(row).head(4) << bin.pairs - unfilteredDn2 * bin.constant, bin.light, bin.square, bin.constant;
+      m_InBins.row(row) /= bin.pairs;
+    }
+  }
+  m_DarkDn2 = VarianceAt(leastSignalDn, m_InBins);
+  for (std::size_t k = FirstPart; k < NumberOfShapes; ++k)
+  {
+    m_InBins.col(static_cast<Eigen::Index>(k)) =
+      m_InBins.col(ColumnOf(CovarianceShape::Variance)) -
+      this->PartAfterFilter(k) * m_InBins.col(ColumnOf(CovarianceShape::Constant));
+  }
+}
+
+double
+CovarianceShapes::PartAfterFilter(std::size_t shape) const
+{
+  return m_DarkDn2 * static_cast<double>(shape + 1 - FirstPart) / static_cast<double>(PartsAfterFilter);
+}
+
+WeightedShape
+CovarianceShapes::UnitOf(std::size_t shape) const
+{
+  WeightedShape unit;
+  const bool    isPart = shape >= FirstPart;
+  unit.ofVariance = isPart || shape == static_cast<std::size_t>(CovarianceShape::Variance) ? 1.0 : 0.0;
+  unit.ofLight = shape == static_cast<std::size_t>(CovarianceShape::Light) ? 1.0 : 0.0;
+  unit.ofSquare = shape == static_cast<std::size_t>(CovarianceShape::Square) ? 1.0 : 0.0;
+  unit.constantDn2 = isPart ? -this->PartAfterFilter(shape) : 0.0;
+  return unit;
+}
+
+std::array<FittedShape, NumberOfShapes>
+FitShapes(const Eigen::MatrixXd & shapes, const Eigen::VectorXd & shared, const Eigen::VectorXd & errors)
+{
+  std::array<FittedShape, NumberOfShapes> fits;
+  for (std::size_t k = 0; k < NumberOfShapes; ++k)
+  {
+    double product = 0.0;
+    double square = 0.0;
+    double own = 0.0;
+    for (Eigen::Index b = 0; b < shared.size(); ++b)
+    {
+      const double shape = shapes(b, static_cast<Eigen::Index>(k));
+      if (errors(b) > 0.0)
+      {
+        const double w = 1.0 / (errors(b) * errors(b));
+        product += w * shape * shared(b);
+        square += w * shape * shape;
+        own += w * shared(b) * shared(b);
+      }
+    }
+    if (square > 0.0)
+    {
+      fits[k].coefficient = product / square;
+      fits[k].chi2 = own - product * product / square;
+    }
+  }
+  return fits;
+}
 
 namespace
 {
@@ -224,6 +316,59 @@ CorrelationSums::Autocovariance(const TileSums & sums, const Eigen::MatrixXd & m
     found /= 1.0 - Ratio(same.covariance - own.covariance, same.pairs);
   }
   return mixing.fullPivLu().solve(Eigen::VectorXd(m_Residuals.GetDof() * found));
+}
+
+namespace
+{
+/** Returns the slope of the covariance along the signal, and its value at zero signal. Both are divided by the variance
+ * in the sums, so that the bins have equal weight. */
+Eigen::Vector2d
+FitLineOf(const LagSums & sums)
+{
+  constexpr auto  bins = static_cast<Eigen::Index>(NoiseResiduals::IntensityBins);
+  Eigen::MatrixXd design = Eigen::MatrixXd::Zero(bins, 2);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(bins);
+  for (Eigen::Index b = 0; b < bins; ++b)
+  {
+    const PairSums & bin = sums.bins[static_cast<std::size_t>(b)];
+    if (bin.pairs > 0.0)
+    {
+      const double scale = 1.0 / std::sqrt(bin.pairs);
+      design.row(b) << scale * bin.light, scale * bin.constant;
+      values(b) = scale * bin.covariance;
+    }
+  }
+  return design.completeOrthogonalDecomposition().solve(values);
+}
+} // namespace
+
+std::vector<CovarianceLine>
+FitCovarianceLines(const CorrelationSums & sums, const CorrelationSums::Lags & lags)
+{
+  CorrelationSums::Lags all{ 0 };
+  all.insert(all.end(), lags.begin(), lags.end());
+  const double                blackDn = sums.GetResiduals().GetBlackDn();
+  const JackknifeEstimate     lines = Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
+    const CommonNoise common = FindCommonNoise(tiles.shared);
+    Eigen::VectorXd   numbers(2 * static_cast<Eigen::Index>(all.size()));
+    Eigen::Index      k = 0;
+    for (const std::size_t lag : all)
+    {
+      const Eigen::Vector2d line =
+        FitLineOf(lag == 0 ? tiles.lags[0] : common.TakeOff(tiles.lags[lag], sums.GetLag(lag)));
+      numbers.segment<2>(k) << line(0), line(1) - line(0) * blackDn;
+      k += 2;
+    }
+    return numbers;
+  });
+  std::vector<CovarianceLine> found;
+  for (Eigen::Index k = 0; k < lines.value.size(); k += 2)
+  {
+    found.push_back({ sums.GetLag(all[static_cast<std::size_t>(k / 2)]),
+                      { lines.value(k), lines.StandardError(k) },
+                      { lines.value(k + 1), lines.StandardError(k + 1) } });
+  }
+  return found;
 }
 
 } // namespace sensornoise

@@ -6,20 +6,61 @@
 #include "SensorNoiseExport.h"
 #include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
-#include "correlation/BlockPhases.h"
+#include "correlation/LagSums.h"
+#include "correlation/NoiseCorrelation.h"
+#include "correlation/PositionDependence.h"
 #include "correlation/CommonNoise.h"
 #include "correlation/Jackknife.h"
-#include "correlation/LagSums.h"
 #include "correlation/NoiseKurtosis.h"
 #include "correlation/NoiseResiduals.h"
-#include "correlation/DistantCovariance.h"
-#include "correlation/CovarianceShapes.h"
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
 namespace sensornoise
 {
+
+/** \class CovarianceShapes
+ * \brief Predicted dependence of the noise covariance on the signal, for each shape.
+ *
+ * \a own are the sums of the zero lag. \a leastSignalDn is the least possible signal, 0 where black is known [DN].
+ * \a unfilteredDn2 is the variance that no filter has changed, of quantization and line noise [DN^2]. */
+class SensorNoise_EXPORT CovarianceShapes
+{
+public:
+  CovarianceShapes(const LagSums & own, double leastSignalDn, double unfilteredDn2);
+
+  /** Returns the covariance that a coefficient of 1 of each shape makes, relative to the variance: bins x shapes. */
+  const Eigen::MatrixXd &
+  InBins() const
+  {
+    return m_InBins;
+  }
+  /** Returns a shape by its index, without coefficient and probability. */
+  WeightedShape
+  UnitOf(std::size_t shape) const;
+
+private:
+  /** Returns the variance that was added after the filter, according to a shape [DN^2]. */
+  double
+  PartAfterFilter(std::size_t shape) const;
+
+  Eigen::MatrixXd m_InBins;
+  double          m_DarkDn2{ 0.0 }; // variance at the least signal [DN^2]
+};
+
+/** Fit of one shape to the covariances in the bins. */
+struct FittedShape
+{
+  double coefficient{ 0.0 };
+  double chi2{ 0.0 };
+};
+
+/** Fits each shape alone to \a shared, the covariances of the bins relative to the variance, with their standard
+ * errors. */
+SensorNoise_EXPORT std::array<FittedShape, NumberOfShapes>
+FitShapes(const Eigen::MatrixXd & shapes, const Eigen::VectorXd & shared, const Eigen::VectorXd & errors);
 
 /** All sums of a tile. The lags are the lags of a CorrelationSums, in the same order. */
 struct TileSums
@@ -139,6 +180,11 @@ private:
   std::vector<Lag>       m_Lags;
   Eigen::VectorXd        m_OfUnequalFrames; // covariance over signal, by temporal lag [DN]
 };
+
+/** Fits the covariance at the zero lag, and then at each of \a lags, by a line through the four intensity bins: slope
+ * times level + intercept. Filtered noise has linear covariances, whichever part of the read noise was filtered. */
+SensorNoise_EXPORT std::vector<CovarianceLine>
+FitCovarianceLines(const CorrelationSums & sums, const CorrelationSums::Lags & lags);
 
 } // namespace sensornoise
 

@@ -6,10 +6,7 @@
 #include "base/Significance.h"
 #include "correlation/Constants.h"
 #include "correlation/CorrelationSums.h"
-#include "correlation/CovarianceLines.h"
-#include "correlation/SpaceCorrelation.h"
-#include "correlation/TemporalMixing.h"
-#include "correlation/TimeCorrelation.h"
+#include "correlation/TotalCovariance.h"
 
 #include <algorithm>
 #include <cmath>

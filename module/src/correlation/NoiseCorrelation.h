@@ -9,7 +9,7 @@
 #include "correlation/LagSums.h"
 #include "correlation/NoiseKurtosis.h"
 #include "correlation/NoiseResiduals.h"
-#include "correlation/EnlargementTrace.h"
+#include "correlation/PositionDependence.h"
 
 #include <array>
 #include <cstddef>

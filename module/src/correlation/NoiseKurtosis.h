@@ -4,6 +4,7 @@
 #define sensornoise_correlation_NoiseKurtosis_h
 
 #include "SensorNoiseExport.h"
+#include "base/Eigen.h"
 #include "correlation/NoiseResiduals.h"
 
 #include <array>
@@ -40,11 +41,61 @@ struct KurtosisSums
   }
 };
 
-class MixtureKurtosis;
-
 /** Returns the expected K of normal noise with the same variance in all frames. */
 SensorNoise_EXPORT double
 NormalKurtosis(const NoiseResiduals & residuals);
+
+/** Returns E[sum_t r_t^4 / (sum_t r_t^2)^2] for normally distributed r with a \a covariance. It is exact, as an
+ * integral over s from 0:
+ *
+ *     3 int s |1 + 2 s S|^(-1/2) sum_t m_t(s)^2 ds,   m(s) the diagonal of S (1 + 2 s S)^(-1),
+ *
+ * where 1/a^2 = int s exp(-s a) ds is used, and the factor exp(-s r'r) turns the distribution of r into a normal
+ * distribution of smaller covariance. */
+SensorNoise_EXPORT double
+KurtosisOfNormal(const Eigen::MatrixXd & covariance);
+
+/** \class MixtureKurtosis
+ * \brief The kurtosis K of KurtosisSums for normal noise whose variance differs from frame to frame.
+ *
+ * Frames of different variances are a mixture. Its tails are longer than the tails of one normal distribution, also
+ * without any non-linear processing. K depends on the fraction b of a pixel's variance that is shot noise. It is
+ * interpolated by a polynomial of sqrt(1 - b) through the exact values at the Chebyshev points of [0, 1]: near b = 1,
+ * where frames without illumination have no noise, K is no polynomial of b. Where all frames have equal noise, K is
+ * NormalKurtosis(). */
+class SensorNoise_EXPORT MixtureKurtosis
+{
+public:
+  explicit MixtureKurtosis(const NoiseResiduals & residuals);
+
+  /** Returns K for a pixel. \a lightDn is its signal above black [DN], \a weight the inverse of the typical variance of
+   * its residuals [1/DN^2]. */
+  double
+  At(double lightDn, double weight) const
+  {
+    return m_IsEqual ? m_Equal : this->AtFraction(this->ShotFraction(lightDn, weight));
+  }
+  /** Returns K for a fraction of shot noise [1]. */
+  double
+  AtFraction(double shotFraction) const;
+
+private:
+  /** Returns the fraction of shot noise in the variance at the mean illumination. The variance of the residuals is
+   * larger by N_0 / n times the shot noise. */
+  double
+  ShotFraction(double lightDn, double weight) const;
+
+  /** Number of points of the polynomial: enough for K to 2e-4 where four frames of twenty are illuminated. */
+  static constexpr std::size_t Points = 9;
+
+  bool                       m_IsEqual{ true };
+  double                     m_Equal;
+  std::array<double, Points> m_Polynomial{}; // coefficients in powers of 2 sqrt(1 - b) - 1
+  double                     m_Gain{ 0.0 };
+  double                     m_OffsetDn{ 0.0 };
+  double                     m_Mean{ 0.0 }; // N_0 / n
+};
+
 /** Returns the sums of tile \a i; \a normal gives the expected K of normal noise. */
 SensorNoise_EXPORT KurtosisSums
 KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKurtosis & normal);

@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "correlation/SpaceCorrelation.h"
+#include "correlation/TotalCovariance.h"
 
 #include "base/Constants.h"
-#include "base/Eigen.h"
 #include "base/Significance.h"
-#include "correlation/BlockPhases.h"
+#include "correlation/PositionDependence.h"
 #include "correlation/Constants.h"
-#include "correlation/CovarianceShapes.h"
 
 #include <algorithm>
 #include <array>
@@ -279,6 +277,85 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
                  : isCharge                                   ? NoiseKind::Crosstalk
                                                               : NoiseKind::Filtered;
   }
+}
+
+bool
+IsCorrelatedInTime(const std::vector<LagCoefficient> & coefficients)
+{
+  return std::any_of(coefficients.begin(), coefficients.end(), [](const LagCoefficient & lag) {
+    return lag.coefficient.Exceeds(InCorrelation.leastTimeCoefficient, Significance.severalTests);
+  });
+}
+
+void
+SumOverTime(CorrelationSums & sums, NoiseCorrelation & found)
+{
+  found.kind = NoiseKind::Temporal;
+  const Eigen::MatrixXd & basis = sums.GetResiduals().GetBasis();
+  double                  last = 1.0;
+  for (std::size_t known = 0; last > InCorrelation.smallTimeCoefficient && sums.TimeLags().size() > known;)
+  {
+    known = sums.TimeLags().size();
+    const Eigen::MatrixXd   mixing = TemporalMixing(basis, known);
+    const JackknifeEstimate estimate = Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
+      const Eigen::VectorXd covariance = sums.Autocovariance(tiles, mixing);
+      return Eigen::VectorXd(Eigen::Vector2d(2.0 * covariance.sum() - covariance(0),
+                                             covariance.tail(2).cwiseAbs().maxCoeff() / covariance(0)));
+    });
+    found.timeFactor = { estimate.value(0), estimate.StandardError(0) };
+    last = estimate.value(1);
+    if (last > InCorrelation.smallTimeCoefficient)
+    {
+      sums.AddTimeLags(std::min(static_cast<int>(known) + 2, InCorrelation.mostTimeLags));
+    }
+  }
+  // The error includes the lags beyond, for a tail that continues to decrease as before.
+  found.timeFactor.standardError = std::hypot(found.timeFactor.standardError, 2.0 * last);
+}
+
+namespace
+{
+/** Returns B_k times a matrix. */
+Eigen::MatrixXd
+ShiftBothWays(const Eigen::MatrixXd & matrix, Eigen::Index k)
+{
+  if (k == 0)
+  {
+    return matrix;
+  }
+  const Eigen::Index rows = matrix.rows() - k;
+  Eigen::MatrixXd    shifted = Eigen::MatrixXd::Zero(matrix.rows(), matrix.cols());
+  shifted.topRows(rows) += matrix.bottomRows(rows);
+  shifted.bottomRows(rows) += matrix.topRows(rows);
+  return shifted;
+}
+
+/** Returns sum_t a_t' b_(t+d) over the rows of two matrices. */
+double
+DiagonalOf(const Eigen::MatrixXd & a, const Eigen::MatrixXd & b, Eigen::Index d)
+{
+  const Eigen::Index rows = a.rows() - d;
+  return a.topRows(rows).cwiseProduct(b.bottomRows(rows)).sum();
+}
+} // namespace
+
+Eigen::MatrixXd
+TemporalMixing(const Eigen::MatrixXd & basis, std::size_t lags)
+{
+  const auto      size = static_cast<Eigen::Index>(lags) + 1;
+  Eigen::MatrixXd mixing(size, size);
+  for (Eigen::Index k = 0; k < size; ++k)
+  {
+    // P B P = B - Q (B Q)' - (B Q) Q' + Q (Q' B Q) Q'
+    const Eigen::MatrixXd shifted = ShiftBothWays(basis, k);
+    const Eigen::MatrixXd both = basis * (basis.transpose() * shifted);
+    for (Eigen::Index d = 0; d < size; ++d)
+    {
+      const double own = d == k ? static_cast<double>(basis.rows() - d) : 0.0;
+      mixing(d, k) = own - DiagonalOf(basis, shifted, d) - DiagonalOf(shifted, basis, d) + DiagonalOf(both, basis, d);
+    }
+  }
+  return mixing;
 }
 
 } // namespace sensornoise

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_correlation_TotalCovariance_h
+#define sensornoise_correlation_TotalCovariance_h
+
+#include "SensorNoiseExport.h"
+#include "base/Eigen.h"
+#include "correlation/CorrelationSums.h"
+#include "correlation/NoiseCorrelation.h"
+
+#include <cstddef>
+
+namespace sensornoise
+{
+
+/** Returns whether the spatial noise correlation exceeds the reporting threshold: the nearest neighbours together
+ * exceed InCorrelation.leastEffect, or one of \a coefficients exceeds InCorrelation.leastCoefficient, both
+ * significantly. Covariances that grow with the signal are tested in the brightest bin. */
+SensorNoise_EXPORT bool
+IsCorrelatedInSpace(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients);
+
+/** Sums the noise covariance over all spatial lags within reach. The reach grows until the next ring is small or not
+ * significant. Fits the dependence on the signal, and sets the noise class unless it is Temporal. */
+SensorNoise_EXPORT void
+SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found);
+
+/** Returns whether one of the temporal \a coefficients significantly exceeds InCorrelation.leastTimeCoefficient. */
+SensorNoise_EXPORT bool
+IsCorrelatedInTime(const std::vector<LagCoefficient> & coefficients);
+
+/** Sums the noise covariance over temporal lags, until the last two are small, and sets the noise class to Temporal.
+ * More lags than needed increase the error: after the projection of a short burst, distant lags are hardly
+ * distinguishable. */
+SensorNoise_EXPORT void
+SumOverTime(CorrelationSums & sums, NoiseCorrelation & found);
+
+/** Returns the matrix M by which the projection mixes the autocovariances R_k of a series. With P = I - Q Q', for
+ * orthonormal \a basis Q,
+ *
+ *     E[sum_t r_t r_(t+d)] = sum_k M_dk R_k,   M_dk = sum_t (P B_k P)_(t, t+d),   d, k = 0 ... lags,
+ *
+ * where B_0 = I and B_k is the shift by k frames both ways. Exact for any distribution of the noise. */
+SensorNoise_EXPORT Eigen::MatrixXd
+TemporalMixing(const Eigen::MatrixXd & basis, std::size_t lags);
+
+} // namespace sensornoise
+
+#endif
