@@ -3,13 +3,13 @@
 #include "scene/InitialNoiseModel.h"
 
 #include "base/Constants.h"
-#include "base/Eigen.h"
 #include "base/NothingToMeasure.h"
 #include "base/Quantiles.h"
 #include "base/Significance.h"
+#include "base/Stencils.h"
 #include "scene/Constants.h"
-#include "scene/VarianceSample.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -74,6 +74,113 @@ FitInitialNoiseModel(const ReferenceFrame & frame)
   }
   SetCoefficients(model, theta, sample);
   return model;
+}
+
+namespace
+{
+constexpr std::size_t Bins = 32; // number of intensity bins
+} // namespace
+
+VarianceSample
+SampleVariance(const ReferenceFrame & frame, const std::vector<std::size_t> & pixels, const InitialNoiseModel & model)
+{
+  const auto &      stencils = MotionStencils();
+  const std::size_t n = pixels.size();
+  VarianceSample    sample;
+  sample.design.resize(static_cast<Eigen::Index>(n), VarianceSample::Terms);
+  sample.level.resize(n);
+  sample.raw.resize(n);
+  sample.energy.resize(n);
+  sample.scale = std::max(1e-9, model.brightestDn - model.darkestDn);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const std::size_t p = pixels[i];
+    const double      gx = ApplyStencil(stencils[StencilX], frame.mean.data(), frame.geometry.width, p);
+    const double      gy = ApplyStencil(stencils[StencilY], frame.mean.data(), frame.geometry.width, p);
+    const double      x = (frame.neighbourMean[p] - model.darkestDn) / sample.scale;
+    sample.level[i] = frame.neighbourMean[p];
+    sample.raw[i] = frame.variance[p];
+    sample.energy[i] = gx * gx + gy * gy;
+    sample.design.row(static_cast<Eigen::Index>(i)) << 1.0, x, x * x, gx * gx, gy * gy, gx * gy;
+  }
+  return sample;
+}
+
+VariancePrediction
+StartFromMedians(const VarianceSample & sample)
+{
+  const std::vector<std::size_t> binOf = BinsOfEqualCount(sample.level, Bins);
+  const double                   middleEnergy = QuantileOf(sample.energy, 0.5);
+  std::vector<double>            smooth;
+  std::vector<std::size_t>       smoothBin;
+  for (std::size_t i = 0; i < sample.Size(); ++i)
+  {
+    if (sample.energy[i] <= middleEnergy)
+    {
+      smooth.push_back(sample.raw[i]);
+      smoothBin.push_back(binOf[i]);
+    }
+  }
+  const std::vector<double> medians = MediansOfBins(smooth, smoothBin, Bins);
+  VariancePrediction        start;
+  double                    largest = 0.0;
+  for (const double median : medians)
+  {
+    if (std::isfinite(median))
+    {
+      largest = std::max(largest, median);
+      start.lowest = start.lowest == 0.0 ? median : std::min(start.lowest, median);
+    }
+  }
+  start.variance.resize(sample.Size());
+  start.keep.resize(sample.Size());
+  for (std::size_t i = 0; i < sample.Size(); ++i)
+  {
+    const double median = medians[binOf[i]];
+    start.variance[i] = std::isfinite(median) ? median : largest;
+    start.keep[i] =
+      sample.raw[i] <
+          (sample.energy[i] <= middleEnergy ? InScene.startRatioSmooth : InScene.startRatioRough) * start.variance[i]
+        ? 1
+        : 0;
+  }
+  return start;
+}
+
+VarianceSample::Coefficients
+SolveKept(const VarianceSample & sample, const VariancePrediction & prediction)
+{
+  using Gram = Eigen::Matrix<double, VarianceSample::Terms, VarianceSample::Terms>;
+  Gram                         gram = Gram::Zero();
+  VarianceSample::Coefficients right = VarianceSample::Coefficients::Zero();
+  for (std::size_t i = 0; i < sample.Size(); ++i)
+  {
+    if (prediction.keep[i] != 0)
+    {
+      const double w = 1.0 / (prediction.variance[i] * prediction.variance[i]);
+      const auto   terms = sample.TermsOf(i);
+      gram.noalias() += w * terms.transpose() * terms;
+      right.noalias() += w * sample.raw[i] * terms.transpose();
+    }
+  }
+  const VarianceSample::Coefficients unit = (gram.diagonal().array() + 1e-300).rsqrt();
+  const Gram                         scaled = unit.asDiagonal() * gram * unit.asDiagonal();
+  return unit.asDiagonal() * scaled.completeOrthogonalDecomposition().solve(unit.asDiagonal() * right);
+}
+
+void
+Predict(const VarianceSample &               sample,
+        const VarianceSample::Coefficients & theta,
+        double                               largestRatio,
+        VariancePrediction &                 prediction)
+{
+  prediction.variance.resize(sample.Size());
+  prediction.keep.resize(sample.Size());
+  for (std::size_t i = 0; i < sample.Size(); ++i)
+  {
+    prediction.variance[i] = std::max(InScene.leastFractionOfDarkest * prediction.lowest, sample.TermsOf(i).dot(theta));
+    prediction.keep[i] = sample.raw[i] < largestRatio * prediction.variance[i] ? 1 : 0;
+  }
 }
 
 } // namespace sensornoise

@@ -3,8 +3,6 @@
 #include "scene/ReferenceFrame.h"
 
 #include "base/FirstTouch.h"
-#include "base/Stencils.h"
-#include "base/Avx2.h"
 
 #include <algorithm>
 #include <cmath>

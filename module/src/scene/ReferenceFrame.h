@@ -6,6 +6,8 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
+#include "base/Stencils.h"
+#include "base/Avx2.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -49,6 +51,23 @@ FillNeighbourMean(ReferenceFrame & frame, const ParallelFor & parallelFor = Seri
 /** Sets the unknown means to NaN again, as in a map for display. */
 SensorNoise_EXPORT void
 RestoreUnknownMeans(ReferenceFrame & frame, const ParallelFor & parallelFor = SerialFor);
+
+/** Calls function(begin, end) for blocks of the pixels of all rows except those next to the border, in any order and
+ * possibly at the same time. Within these blocks a stencil reads nothing outside of the map, not even at the ends of
+ * the rows, where its value has no meaning. Loops over whole blocks therefore need no test, and are compiled to SIMD
+ * instructions (AVX2). */
+template <typename TFunction>
+void
+ForInnerBlocks(const FrameGeometry & geometry, const ParallelFor & parallelFor, TFunction function)
+{
+  if (geometry.height > 2 * StencilMargin)
+  {
+    const std::size_t first = StencilMargin * geometry.width;
+    ForBlocks(geometry.Pixels() - 2 * first, parallelFor, [&function, first](std::size_t begin, std::size_t end) {
+      CallWithAvx2([&] { function(first + begin, first + end); });
+    });
+  }
+}
 
 } // namespace sensornoise
 

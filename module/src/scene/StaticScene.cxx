@@ -2,17 +2,207 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/StaticScene.h"
 
+#include "base/Quantiles.h"
+#include "base/Significance.h"
 #include "sensornoise/Report.h"
 #include "base/Stencils.h"
 #include "moments/StackRequirements.h"
+#include "scene/Constants.h"
 #include "scene/TransientRegion.h"
 #include "scene/UsablePixels.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace sensornoise
 {
+
+namespace
+{
+/** The lines of the frame that are parallel to a border: line 0 is the outermost one. */
+struct BorderLines
+{
+  const std::vector<double> &       mean;
+  const std::vector<std::uint8_t> & valid;
+  std::size_t                       first;  // number of the pixel at the corner
+  std::ptrdiff_t                    inward; // distance from a line to the next one [pixels in memory]
+  std::ptrdiff_t                    along;  // distance from a pixel of a line to the next one [pixels in memory]
+  std::size_t                       lines;
+  std::size_t                       length;
+
+  /** Returns the levels of about InScene.pixelsOfBorderLine pixels in the middle half of a line [DN]. The ends are left
+   * out, because strips of the other borders may cover them. NaN: not valid. */
+  std::vector<double>
+  LevelsOf(std::size_t line) const
+  {
+    const std::size_t   middle = length / 2;
+    const std::size_t   step = std::max<std::size_t>(1, middle / InScene.pixelsOfBorderLine);
+    std::vector<double> levels;
+    for (std::size_t j = length / 4; j < length / 4 + middle; j += step)
+    {
+      const auto p =
+        static_cast<std::size_t>(static_cast<std::ptrdiff_t>(first) + static_cast<std::ptrdiff_t>(line) * inward +
+                                 static_cast<std::ptrdiff_t>(j) * along);
+      levels.push_back(valid[p] != 0 ? mean[p] : std::numeric_limits<double>::quiet_NaN());
+    }
+    return levels;
+  }
+};
+
+/** Returns the centre of the levels of a line [DN]; null: too few of its pixels are valid. */
+std::optional<RobustCentre>
+LevelsAlongLine(std::vector<double> levels)
+{
+  levels.erase(std::remove_if(levels.begin(), levels.end(), [](double level) { return !std::isfinite(level); }),
+               levels.end());
+  if (levels.size() < InScene.leastPixelsOfBorderLine)
+  {
+    return std::nullopt;
+  }
+  return CentreOf(std::move(levels));
+}
+
+/** Returns the median absolute difference between \a levels and \a others [DN]; infinite if there is none. */
+double
+MedianDifference(const std::vector<double> & levels, const std::vector<double> & others)
+{
+  std::vector<double> differences;
+  for (std::size_t j = 0; j < levels.size(); ++j)
+  {
+    const double difference = std::abs(levels[j] - others[j]);
+    if (std::isfinite(difference))
+    {
+      differences.push_back(difference);
+    }
+  }
+  return differences.empty() ? std::numeric_limits<double>::infinity() : Quantile(differences, 0.5);
+}
+
+/** Returns the fraction of the levels whose distance from \a level exceeds \a distance [1]. */
+double
+FractionBeyond(const std::vector<double> & levels, double level, double distance)
+{
+  std::size_t beyond = 0;
+  std::size_t counted = 0;
+  for (const double own : levels)
+  {
+    beyond += std::abs(own - level) > distance ? 1 : 0;
+    counted += std::isfinite(own) ? 1 : 0;
+  }
+  return static_cast<double>(beyond) / static_cast<double>(std::max<std::size_t>(1, counted));
+}
+
+/** Returns whether the strip of \a count lines ends within one pixel, and is either darker than nearly all of the scene
+ * or without the structure of the scene beside it. */
+bool
+EndsSharply(const BorderLines & border, const RobustCentre & outermost, std::size_t count)
+{
+  const double                      distance = Significance.severalTests * outermost.sd;
+  const std::vector<double>         beside = border.LevelsOf(count);
+  const std::vector<double>         next = border.LevelsOf(count + 1);
+  const std::optional<RobustCentre> first = LevelsAlongLine(beside);
+  if (!first || FractionBeyond(beside, outermost.median, distance) < InScene.leastBorderFraction)
+  {
+    return false;
+  }
+  const double step = MedianDifference(beside, std::vector<double>(beside.size(), outermost.median));
+  const double inside = std::max(MedianDifference(next, beside), MedianDifference(border.LevelsOf(count + 2), next));
+  if (!(step > distance) || inside > InScene.largestBorderSlope * step)
+  {
+    return false;
+  }
+  if (count > 1)
+  {
+    const auto last = LevelsAlongLine(border.LevelsOf(count - 1));
+    if (!last || std::abs(last->median - outermost.median) > InScene.largestBlur * step)
+    {
+      return false;
+    }
+  }
+  const bool          hasStructure = first->sd > InScene.leastStructure * outermost.sd;
+  std::vector<double> scene;
+  const std::size_t   middle = border.lines - border.lines / 4; // the opposite border may have a strip, too
+  for (std::size_t line = count; line < middle; line += std::max<std::size_t>(1, border.lines / 64))
+  {
+    const std::vector<double> own = border.LevelsOf(line);
+    scene.insert(scene.end(), own.begin(), own.end());
+  }
+  scene.erase(std::remove_if(scene.begin(), scene.end(), [](double level) { return !std::isfinite(level); }),
+              scene.end());
+  const double darkest = Quantile(scene, InScene.darkestOfScene);
+  return hasStructure || outermost.median + distance < darkest;
+}
+
+/** Returns the number of lines of the strip that begins with line 0; 0: there is none. */
+std::size_t
+CountLines(const BorderLines & border, const RobustCentre & outermost)
+{
+  const auto largest = static_cast<std::size_t>(InScene.largestBorder * static_cast<double>(border.lines));
+  for (std::size_t k = 1; k <= largest && k + 3 <= border.lines; ++k)
+  {
+    const std::optional<RobustCentre> own = LevelsAlongLine(border.LevelsOf(k));
+    if (!own)
+    {
+      return 0;
+    }
+    const bool isEven = own->sd < Significance.severalTests * outermost.sd;
+    const bool isNear = std::abs(own->median - outermost.median) < Significance.severalTests * outermost.sd;
+    if (!(isEven && isNear) && EndsSharply(border, outermost, k))
+    {
+      return k;
+    }
+    if (!isEven)
+    {
+      return 0;
+    }
+  }
+  return 0;
+}
+
+std::optional<MaskedStrip>
+FindStrip(const BorderLines & border, const char * words)
+{
+  const std::optional<RobustCentre> outermost = LevelsAlongLine(border.LevelsOf(0));
+  const std::size_t                 count = outermost && outermost->sd > 0.0 ? CountLines(border, *outermost) : 0;
+  if (count == 0)
+  {
+    return std::nullopt;
+  }
+  return MaskedStrip{ words, count, outermost->median, LevelsAlongLine(border.LevelsOf(count))->median };
+}
+} // namespace
+
+MaskedBorder
+FindMaskedBorder(const std::vector<double> &       mean,
+                 const std::vector<std::uint8_t> & valid,
+                 const FrameGeometry &             geometry)
+{
+  MaskedBorder      border;
+  const std::size_t w = geometry.width;
+  const std::size_t h = geometry.height;
+  if (std::min(w, h) < InScene.leastBorderedSide)
+  {
+    return border;
+  }
+  const auto row = static_cast<std::ptrdiff_t>(w);
+  const auto find = [&](const BorderLines & lines, const char * words) {
+    const auto strip = FindStrip(lines, words);
+    if (strip)
+    {
+      border.strips.push_back(*strip);
+    }
+    return strip ? strip->lines : 0;
+  };
+  border.left = find({ mean, valid, 0, 1, row, w, h }, "leftmost columns");
+  border.right = find({ mean, valid, w - 1, -1, row, w, h }, "rightmost columns");
+  border.top = find({ mean, valid, 0, row, 1, h, w }, "top rows");
+  border.bottom = find({ mean, valid, (h - 1) * w, -row, 1, h, w }, "bottom rows");
+  return border;
+}
 
 namespace
 {

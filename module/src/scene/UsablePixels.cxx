@@ -7,12 +7,13 @@
 #include "sensornoise/Report.h"
 #include "base/Stencils.h"
 #include "base/Text.h"
-#include "scene/Constants.h"
-#include "scene/GuardBand.h"
+#include "base/BoxSum.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -143,6 +144,186 @@ RequireFineQuantization(const UsablePixels & pixels, double stepDn)
                              " of the pixels). Use more bits, or a higher analogue gain",
                            WarningCode::CodesTooCoarse);
   }
+}
+
+namespace
+{
+/** Clip levels and their guard: levels that the noise must not reach [DN], relative brightness of the brightest and the
+ * darkest frame [1], and distance in standard deviations [1]. */
+struct GuardedLevels
+{
+  double lowDn;
+  double highDn;
+  double brightest;
+  double darkest;
+  double sds;
+};
+
+GuardedLevels
+LevelsOf(const CodeRange & codes, double brightest, double darkest, double sds)
+{
+  constexpr double never = std::numeric_limits<double>::infinity();
+  return { codes.clipLowDn ? *codes.clipLowDn + 0.5 * codes.StepAt(*codes.clipLowDn) : -never,
+           codes.clipHighDn ? *codes.clipHighDn - 0.5 * codes.StepAt(*codes.clipHighDn) : never,
+           brightest,
+           darkest,
+           sds };
+}
+
+/** Marks the usable pixels of [begin, end) that reach a clip level. Small arguments are passed by value: by reference
+ * they could alias the output, which prevents vectorization. */
+void
+MarkGuarded(const ReferenceFrame & frame,
+            InitialNoiseModel      model,
+            GuardedLevels          guard,
+            std::size_t            begin,
+            std::size_t            end,
+            std::uint8_t *         guarded)
+{
+  const double * const       mean = frame.mean.data();
+  const double * const       neighbourMean = frame.neighbourMean.data();
+  const std::uint8_t * const usable = frame.usable.data();
+  const std::size_t          width = frame.geometry.width;
+  for (std::size_t p = begin; p < end; ++p)
+  {
+    const auto [gx, gy] = ApplyGradient(mean, width, p);
+    const double level = neighbourMean[p];
+    const double flux = std::max(0.0, level - model.darkestDn);
+    const double noise = model.NoiseVariance(level);
+    const double motion = model.MotionVariance(gx, gy);
+    const double high =
+      level + guard.brightest * flux + guard.sds * std::sqrt(noise * (1.0 + guard.brightest) + motion);
+    const double low = level + guard.darkest * flux - guard.sds * std::sqrt(noise + motion);
+    const bool   isReached = (high >= guard.highDn) | (low <= guard.lowDn); // no short-circuit, to avoid a branch
+    guarded[p] = usable[p] != 0 && isReached ? 1 : 0;
+  }
+}
+
+/** Marks the usable pixels of [begin, end) that reach a clip level, if the signal scales about \a offsetDn. The noise
+ * is evaluated at the levels that are reached, so that in a dark frame it is small. */
+void
+MarkGuardedAbout(double                 offsetDn,
+                 double                 lowestNoiseDn2,
+                 const ReferenceFrame & frame,
+                 InitialNoiseModel      model,
+                 GuardedLevels          guard,
+                 std::size_t            begin,
+                 std::size_t            end,
+                 std::uint8_t *         guarded)
+{
+  const double * const       mean = frame.mean.data();
+  const double * const       neighbourMean = frame.neighbourMean.data();
+  const std::uint8_t * const usable = frame.usable.data();
+  const std::size_t          width = frame.geometry.width;
+  for (std::size_t p = begin; p < end; ++p)
+  {
+    const auto [gx, gy] = ApplyGradient(mean, width, p);
+    const double signal = std::max(0.0, neighbourMean[p] - offsetDn);
+    const double highest = 1.0 + guard.brightest;
+    const double lowest = 1.0 + guard.darkest;
+    const double motion = model.MotionVariance(gx, gy);
+    const double highDn = offsetDn + highest * signal;
+    const double lowDn = offsetDn + lowest * signal;
+    const double high = highDn + guard.sds * std::sqrt(model.NoiseVariance(highDn) + highest * highest * motion);
+    const double lowNoise = std::min(lowestNoiseDn2, model.NoiseVariance(lowDn));
+    const double low = lowDn - guard.sds * std::sqrt(lowNoise + lowest * lowest * motion);
+    const bool   isReached = (high >= guard.highDn) | (low <= guard.lowDn);
+    guarded[p] = usable[p] != 0 && isReached ? 1 : guarded[p];
+  }
+}
+} // namespace
+
+std::vector<std::uint8_t>
+FindGuardBand(const ReferenceFrame &    frame,
+              const InitialNoiseModel & model,
+              const CodeRange &         codes,
+              double                    brightest,
+              double                    darkest,
+              const ParallelFor &       parallelFor,
+              double                    sds)
+{
+  std::vector<std::uint8_t> guarded(frame.mean.size(), 0);
+  if (!codes.clipLowDn && !codes.clipHighDn)
+  {
+    return guarded;
+  }
+  const GuardedLevels guard = LevelsOf(codes, brightest, darkest, sds);
+  ForInnerBlocks(frame.geometry, parallelFor, [&](std::size_t begin, std::size_t end) {
+    MarkGuarded(frame, model, guard, begin, end, guarded.data());
+  });
+  return guarded;
+}
+
+std::vector<std::uint8_t>
+FindGuardBand(const ReferenceFrame &    frame,
+              const InitialNoiseModel & model,
+              const CodeRange &         codes,
+              const IlluminationRange & range,
+              const ParallelFor &       parallelFor,
+              double                    sds)
+{
+  std::vector<std::uint8_t> guarded(frame.mean.size(), 0);
+  if (!codes.clipLowDn && !codes.clipHighDn)
+  {
+    return guarded;
+  }
+  for (const double offsetDn : { range.lowestOffsetDn, range.highestOffsetDn })
+  {
+    const double        signal = std::max(1e-3, model.centreDn - offsetDn);
+    const GuardedLevels guard = LevelsOf(codes, range.highestDn / signal, std::max(-1.0, range.lowestDn / signal), sds);
+    ForInnerBlocks(frame.geometry, parallelFor, [&](std::size_t begin, std::size_t end) {
+      MarkGuardedAbout(offsetDn, range.lowestNoiseDn2, frame, model, guard, begin, end, guarded.data());
+    });
+  }
+  return guarded;
+}
+
+namespace
+{
+/** Marks the pixels [begin, end) whose variance \a model does not explain. The model is passed by value: by reference
+ * it could alias the output, which prevents vectorization. */
+void
+MarkOutlierPixels(const ReferenceFrame & frame,
+                  InitialNoiseModel      model,
+                  std::size_t            begin,
+                  std::size_t            end,
+                  std::uint8_t *         unexplained)
+{
+  const double * const       mean = frame.mean.data();
+  const double * const       level = frame.neighbourMean.data();
+  const double * const       variance = frame.variance.data();
+  const std::uint8_t * const usable = frame.usable.data();
+  const std::size_t          width = frame.geometry.width;
+  const double               leastDn2 = InScene.leastFractionOfDarkest * model.interceptDn2;
+  for (std::size_t p = begin; p < end; ++p)
+  {
+    const auto [gx, gy] = ApplyGradient(mean, width, p);
+    const double expected = std::max(leastDn2, model.RawVariance(level[p], gx, gy));
+    const bool   isAbove = variance[p] > model.largestRatio * expected;
+    unexplained[p] = usable[p] != 0 && isAbove ? 1 : 0;
+  }
+}
+} // namespace
+
+std::vector<std::uint8_t>
+FindOutlierPixels(const ReferenceFrame & frame, const InitialNoiseModel & model, const ParallelFor & parallelFor)
+{
+  std::vector<std::uint8_t> unexplained(frame.mean.size(), 0);
+  ForInnerBlocks(frame.geometry, parallelFor, [&](std::size_t begin, std::size_t end) {
+    MarkOutlierPixels(frame, model, begin, end, unexplained.data());
+  });
+  const std::size_t         width = frame.geometry.width;
+  const auto                rows = [&] { return RowsOf(unexplained, width); };
+  std::vector<std::uint8_t> crowded(unexplained.size());
+  ForBoxRows(rows, width, frame.geometry.height, 3, parallelFor, [&](std::size_t y, const double * crowd) {
+    const double most = InCommon.largestOutlierFraction * 49.0;
+    std::transform(crowd,
+                   crowd + width,
+                   unexplained.data() + y * width,
+                   crowded.data() + y * width,
+                   [most](double near, std::uint8_t own) { return near > most ? std::uint8_t{ 2 } : own; });
+  });
+  return crowded;
 }
 
 } // namespace sensornoise
