@@ -6,7 +6,6 @@
 #include "SensorNoiseExport.h"
 #include "base/Eigen.h"
 #include "pixels/PartTiles.h"
-#include "pixels/Partition.h"
 
 #include <cstddef>
 #include <cstdint>

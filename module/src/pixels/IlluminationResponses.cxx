@@ -3,14 +3,15 @@
 #include "pixels/IlluminationResponses.h"
 
 #include "base/Eigen.h"
-#include "sensornoise/Parallel.h"
 #include "base/Stencils.h"
+#include "sensornoise/Parallel.h"
 #include "pixels/Constants.h"
-#include "pixels/PixelCoordinates.h"
+#include "pixels/ProjectionSums.h"
 #include "pixels/VarianceLine.h"
 #include "scene/ReferenceFrame.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -181,6 +182,104 @@ RemoveMotionLeakage(const IlluminationResponses & data, const ParallelFor & para
     });
   });
   return responses;
+}
+
+double
+LocalFlicker::Sd(double offset) const
+{
+  const double flux = wII - 2.0 * offset * wI + offset * offset * w;
+  return std::sqrt(std::max(0.0, energy / (flux * (frames - 1.0))));
+}
+
+LocalFlicker
+SumLocalFlicker(const IlluminationResponses & data)
+{
+  const ReferenceFrame & frame = data.frame;
+  const std::size_t      light = data.factors;
+  LocalFlicker           sums;
+  sums.frames = static_cast<double>(frame.frames);
+  for (std::size_t p = 0; p < data.mask.size(); ++p)
+  {
+    if (data.mask[p] != 0)
+    {
+      const double noise = data.line.At(frame.neighbourMean[p]);
+      const double centred = frame.mean[p] - data.centreDn;
+      for (std::size_t j = 0; j < light; ++j)
+      {
+        sums.energy += std::pow(data.coordinates.At(p, j), 2) / noise - 1.0;
+      }
+      sums.w += 1.0 / noise;
+      sums.wI += centred / noise;
+      sums.wII += centred * centred / noise;
+    }
+  }
+  return sums;
+}
+
+namespace
+{
+/** Sums of the weight w times powers of I, the mean minus the centre, and times z, the response. */
+struct LineSums
+{
+  double w{ 0.0 };
+  double wI{ 0.0 };
+  double wII{ 0.0 };
+  double wZ{ 0.0 };
+  double wIZ{ 0.0 };
+};
+} // namespace
+
+bool
+IsOffsetDrift(const IlluminationResponses & data)
+{
+  const std::size_t      side = InPattern.driftTileSide;
+  const ReferenceFrame & frame = data.frame;
+  const std::size_t      width = frame.geometry.width;
+  const std::size_t      light = data.factors;
+  const Tiles            tiles{ side, side, (width + side - 1) / side };
+  const std::size_t      count = tiles.across * ((frame.geometry.height + side - 1) / side);
+  for (std::size_t j = 1; j < light; ++j)
+  {
+    std::vector<LineSums> parts(count);
+    LineSums              whole;
+    for (std::size_t p = 0; p < data.mask.size(); ++p)
+    {
+      if (data.mask[p] != 0)
+      {
+        const double w = 1.0 / data.line.At(frame.neighbourMean[p]);
+        const double centred = frame.mean[p] - data.centreDn;
+        const double z = data.coordinates.At(p, j);
+        for (LineSums * s : { &parts[tiles.Of(p, width)], &whole })
+        {
+          s->w += w;
+          s->wI += w * centred;
+          s->wII += w * centred * centred;
+          s->wZ += w * z;
+          s->wIZ += w * centred * z;
+        }
+      }
+    }
+    const double determinant = whole.w * whole.wII - whole.wI * whole.wI;
+    const double level = (whole.wII * whole.wZ - whole.wI * whole.wIZ) / determinant;
+    const double slope = (whole.w * whole.wIZ - whole.wI * whole.wZ) / determinant;
+    const double explained = level * whole.wZ + slope * whole.wIZ;
+    double       chi2 = 0.0;
+    double       used = 0.0;
+    for (const LineSums & s : parts)
+    {
+      if (s.w > 0.0)
+      {
+        chi2 += std::pow(s.wZ - level * s.w - slope * s.wI, 2) / s.w;
+        used += 1.0;
+      }
+    }
+    if (chi2 > InPattern.largestDriftChi2 * std::max(1.0, used - 2.0) ||
+        explained < InPattern.leastDriftExplained * chi2)
+    {
+      return false;
+    }
+  }
+  return light > 1;
 }
 
 } // namespace sensornoise

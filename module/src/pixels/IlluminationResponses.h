@@ -8,6 +8,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <vector>
 
 namespace sensornoise
@@ -52,6 +54,52 @@ struct Tiles
  * offset. */
 SensorNoise_EXPORT std::vector<std::vector<double>>
 RemoveMotionLeakage(const IlluminationResponses & data, const ParallelFor & parallelFor);
+
+/** Dark offset from the responses of the pixels to the illumination components. */
+struct LocalOffset
+{
+  double offset{ 0.0 };                                            ///< offset minus the centre [DN]
+  double standardError{ std::numeric_limits<double>::infinity() }; ///< standard error of the offset [DN]
+  /** Lower end of the 95 % interval, minus the centre [DN]; infinite: not bounded. */
+  double low{ -std::numeric_limits<double>::infinity() };
+  /** Upper end of the 95 % interval, minus the centre [DN]; infinite: not bounded. */
+  double high{ std::numeric_limits<double>::infinity() };
+  /** Dispersion of the lines about the common zero, over their noise [1]; 1 if only noise separates them. */
+  double      phi{ 1.0 };
+  std::size_t tiles{ 0 }; ///< number of tiles that determine a line
+};
+
+/** Estimates the dark offset where the illumination is local. The response of a pixel to an illumination component is
+ * S_j = rho_j (mean - mu), with rho_j nearly constant over a tile. The lines of all tiles and components therefore
+ * cross zero at mu. Tiles of 8 to 64 pixels and strips of rows are tried, and the partition of the smallest standard
+ * error is used. The dispersion of the lines widens the error. Null if no tile determines a line. Estimator.md, 3.7. */
+SensorNoise_EXPORT std::optional<LocalOffset>
+FindLocalOffset(const IlluminationResponses & data, const ParallelFor & parallelFor = SerialFor);
+
+/** Sums that give the standard deviation over time of local illumination for any offset. */
+struct SensorNoise_EXPORT LocalFlicker
+{
+  double energy{ 0.0 }; ///< sum over the pixels of sum_j (S_j^2 / noise - 1), over the illumination components j [1]
+  double w{ 0.0 };      ///< sum of the weights w = 1 / noise [1/DN^2]
+  double wI{ 0.0 };     ///< sum of w I, where I is the mean minus the centre [1/DN]
+  double wII{ 0.0 };    ///< sum of w I^2 [1]
+  double frames{ 0.0 }; ///< number of frames T
+
+  /** Returns the root mean square over the frame of the standard deviation of the illumination over time, relative to
+   * its mean [1]: sqrt(sum w sum_j (S_j^2 - noise) / ((T - 1) sum w q^2)), where q is the mean above \a offset.
+   * \a offset is relative to the centre [DN]. */
+  double
+  Sd(double offset) const;
+};
+
+/** Computes the sums over the pixels of the mask. */
+SensorNoise_EXPORT LocalFlicker
+SumLocalFlicker(const IlluminationResponses & data);
+
+/** Returns whether each further illumination component is one line a + b mean over the whole frame. Then a common
+ * offset drifts, and there is no second light source that changes. */
+SensorNoise_EXPORT bool
+IsOffsetDrift(const IlluminationResponses & data);
 
 } // namespace sensornoise
 

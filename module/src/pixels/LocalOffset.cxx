@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/LocalOffset.h"
+#include "pixels/IlluminationResponses.h"
 
 #include "base/ChiSquare.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/Constants.h"
-#include "pixels/IlluminationResponses.h"
 #include "pixels/VarianceLine.h"
 #include "scene/ReferenceFrame.h"
 

@@ -5,6 +5,8 @@
 
 #include "base/Eigen.h"
 
+#include <vector>
+
 namespace sensornoise
 {
 
@@ -55,6 +57,72 @@ ProductInLoops(const TMatrix & matrix, const TVector & vector)
     }
   }
   return product;
+}
+
+/** Mean excess of the variance over a line, of one bin of a VarianceCurve. */
+struct ExcessOfBin
+{
+  double x;      ///< level above the pivot of the line [DN]
+  double excess; ///< mean excess of the variance over the line [DN^2]
+  double weight; ///< weight of the mean excess [1/DN^4]
+};
+
+/** Result of a weighted regression of the excess of bins on \a VTerms functions of the level. */
+template <int VTerms>
+struct CurveRegression
+{
+  using Terms = Eigen::Matrix<double, VTerms, 1>;
+
+  bool                                  isDetermined{ false };
+  Terms                                 coefficients{ Terms::Zero() };
+  Eigen::Matrix<double, VTerms, VTerms> covariance{
+    Eigen::Matrix<double, VTerms, VTerms>::Zero()
+  }; ///< inverse of the weighted normal equations
+  double chi2{ 0.0 }; ///< weighted sum of squares about the fit [1]
+};
+
+/** Fits the excess of \a bins by a linear combination of the functions termsAt(x), which returns
+ * CurveRegression<VTerms>::Terms. The result is not determined if the normal equations are singular. */
+template <int VTerms, typename TTerms>
+CurveRegression<VTerms>
+RegressCurve(const std::vector<ExcessOfBin> & bins, TTerms termsAt)
+{
+  using Terms = typename CurveRegression<VTerms>::Terms;
+  constexpr double        leastPivot = 1e-10; // relative to the diagonal element; below it is rounding
+  CurveRegression<VTerms> fit;
+  auto &                  gram = fit.covariance; // inverted in place
+  Terms                   right = Terms::Zero();
+  for (const ExcessOfBin & bin : bins)
+  {
+    const Terms terms = termsAt(bin.x);
+    for (int i = 0; i < VTerms; ++i)
+    {
+      right(i) += bin.weight * bin.excess * terms(i);
+      for (int j = 0; j < VTerms; ++j)
+      {
+        gram(i, j) += bin.weight * terms(i) * terms(j);
+      }
+    }
+  }
+  const Terms whole = gram.diagonal();
+  fit.isDetermined = InvertNormalEquations(
+    gram, [&](Eigen::Index k, double pivot) { return pivot > leastPivot * whole(k) && whole(k) > 0.0; });
+  if (!fit.isDetermined)
+  {
+    return {};
+  }
+  fit.coefficients = ProductInLoops(gram, right);
+  for (const ExcessOfBin & bin : bins)
+  {
+    const Terms terms = termsAt(bin.x);
+    double      rest = bin.excess;
+    for (int i = 0; i < VTerms; ++i)
+    {
+      rest -= fit.coefficients(i) * terms(i);
+    }
+    fit.chi2 += bin.weight * rest * rest;
+  }
+  return fit;
 }
 
 } // namespace sensornoise

@@ -7,7 +7,6 @@
 #include "base/Eigen.h"
 #include "pixels/Constants.h"
 #include "pixels/PartTiles.h"
-#include "pixels/Partition.h"
 
 #include <cstddef>
 #include <cstdint>

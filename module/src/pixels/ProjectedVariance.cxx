@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/ProjectedVariance.h"
 
+#include "base/Avx2.h"
 #include "base/BoxSum.h"
 #include "base/FirstTouch.h"
-#include "sensornoise/Parallel.h"
 #include "base/Stencils.h"
-#include "base/Avx2.h"
+#include "sensornoise/Parallel.h"
 #include "pixels/Constants.h"
-#include "pixels/MotionLeverage.h"
 #include "pixels/VarianceLine.h"
 #include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
@@ -16,13 +15,115 @@
 #include "series/TemporalBasis.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 namespace sensornoise
 {
+
+namespace
+{
+/** \class MotionLeverage
+ * \brief Leverage of a pixel in the estimate of the motion, times its noise variance: D' G^-1 D, with its derivatives D
+ * [DN^2].
+ *
+ * The motion was estimated from the same pixels, so the estimate follows the noise of each of them. This matters only
+ * in the few pixels that dominate the regression. A bound, K sum_k D_k^2 (G^-1)_kk for K components, excludes the other
+ * pixels row by row. The references must outlive the object. */
+class MotionLeverage
+{
+public:
+  /** Prepares the weights of the bound. */
+  MotionLeverage(const ReferenceFrame & frame, const MotionSeries & motion);
+
+  /** Sets bounds[x] to the bound of pixel x of row \a y [DN^2]. It is 0 at the StencilMargin pixels next to the left
+   * and the right border. */
+  void
+  FillBounds(std::size_t y, double * bounds) const;
+
+  /** Returns the leverage of pixel \a p times its noise variance [DN^2]. */
+  double
+  At(std::size_t p) const;
+
+private:
+  const ReferenceFrame &               m_Frame;
+  const MotionSeries &                 m_Motion;
+  std::array<double, NumberOfStencils> m_Weights{}; // of the squared derivatives in the bound
+};
+
+/** Adds the squares of a derivative along a row, times \a weight. Both pointers are at the first pixel that has a
+ * derivative. */
+template <std::size_t VStencil>
+void
+AddSquares(const double * row, std::size_t width, double weight, double * bounds)
+{
+  if (weight > 0.0)
+  {
+    for (std::size_t x = 0; x + 2 * StencilMargin < width; ++x)
+    {
+      const double derivative = detail::ValueOfStencil<VStencil>(row + x, static_cast<std::ptrdiff_t>(width));
+      bounds[x] += weight * derivative * derivative;
+    }
+  }
+}
+
+template <std::size_t... VStencils>
+void
+AddAllSquares(const double *                               row,
+              std::size_t                                  width,
+              const std::array<double, NumberOfStencils> & weights,
+              double *                                     bounds,
+              std::index_sequence<VStencils...>)
+{
+  (AddSquares<VStencils>(row, width, weights[VStencils], bounds), ...);
+}
+
+MotionLeverage::MotionLeverage(const ReferenceFrame & frame, const MotionSeries & motion)
+  : m_Frame(frame)
+  , m_Motion(motion)
+{
+  const std::size_t size = motion.stencils.size();
+  for (std::size_t k = 0; k < size; ++k)
+  {
+    m_Weights.at(motion.stencils[k]) = static_cast<double>(size) * motion.inverseGram.data()[k * size + k];
+  }
+}
+
+void
+MotionLeverage::FillBounds(std::size_t y, double * bounds) const
+{
+  const std::size_t    width = m_Frame.geometry.width;
+  const double * const row = m_Frame.mean.data() + y * width;
+  std::fill(bounds, bounds + width, 0.0);
+  CallWithAvx2([this, row, width, bounds] {
+    AddAllSquares(
+      row + StencilMargin, width, m_Weights, bounds + StencilMargin, std::make_index_sequence<NumberOfStencils>());
+  });
+}
+
+double
+MotionLeverage::At(std::size_t p) const
+{
+  const std::size_t                    size = m_Motion.stencils.size();
+  const auto                           all = ApplyStencils(m_Frame.mean.data(), m_Frame.geometry.width, p);
+  std::array<double, NumberOfStencils> derivatives{};
+  for (std::size_t k = 0; k < size; ++k)
+  {
+    derivatives[k] = all[m_Motion.stencils[k]];
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i < size; ++i)
+  {
+    const double * inverse = m_Motion.inverseGram.data() + i * size;
+    sum += derivatives[i] * std::inner_product(inverse, inverse + size, derivatives.begin(), 0.0);
+  }
+  return sum;
+}
+} // namespace
 
 ProjectedVariance::ProjectedVariance(const ReferenceFrame &            frame,
                                      const TemporalBasis &             basis,

@@ -6,8 +6,8 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/CodeNoise.h"
-#include "pixels/FrameDof.h"
-#include "pixels/ResidualSquares.h"
+#include "pixels/UnequalIllumination.h"
+#include "pixels/ProjectionSums.h"
 #include "pixels/RoughnessClasses.h"
 #include "pixels/VarianceLine.h"
 

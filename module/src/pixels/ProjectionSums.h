@@ -18,6 +18,9 @@
 namespace sensornoise
 {
 
+class TemporalBasis;
+struct ReferenceFrame;
+
 /** \class ProjectionSums
  * \brief Third pass: the sum over time of every pixel's values times each component of a TemporalBasis.
  *
@@ -122,6 +125,89 @@ private:
   std::size_t                 m_LastSlab;
   std::vector<Eigen::ArrayXd> m_Slabs; // unlike std::vector, not filled by one thread when resized
 };
+
+/** \class PixelCoordinates
+ * \brief Coordinates S_j of every pixel's time series in the TemporalBasis: the pixel's response to each component
+ * [DN].
+ *
+ * The coordinates replace the sums over time in the same memory. */
+class SensorNoise_EXPORT PixelCoordinates
+{
+public:
+  /** Number of pixels whose coordinates of one component are adjacent. */
+  static constexpr std::size_t BlockPixels = ProjectionSums::BlockPixels;
+
+  /** Holds no pixels. */
+  PixelCoordinates() = default;
+
+  /** Takes \a sums over and converts them to coordinates. \a mean is the map of means over time [DN]. */
+  explicit PixelCoordinates(ProjectionSums &&           sums,
+                            const TemporalBasis &       basis,
+                            const std::vector<double> & mean,
+                            const ParallelFor &         parallelFor);
+  /** Takes over sums that are coordinates already. */
+  explicit PixelCoordinates(ProjectionSums && coordinates);
+
+  /** Returns the first pixel, and the end, of the range whose coordinates are held. */
+  std::size_t
+  FirstPixel() const
+  {
+    return m_Coordinates.FirstPixel();
+  }
+  std::size_t
+  LastPixel() const
+  {
+    return m_Coordinates.LastPixel();
+  }
+
+  /** Returns the coordinate of pixel \a p in component \a j [DN]. */
+  double
+  At(std::size_t p, std::size_t j) const
+  {
+    return m_Coordinates.At(p, j);
+  }
+  /** Returns the coordinates in component \a j of the pixels of a block, from its pixel \a first on [DN]. */
+  const double *
+  Of(std::size_t first, std::size_t j) const
+  {
+    return &m_Coordinates.At(first, j);
+  }
+
+private:
+  ProjectionSums m_Coordinates; // converted in place
+};
+
+/** Squared deviations of every pixel without the components of a basis: all that ProjectedVariance needs of the
+ * coordinates S_j. */
+struct ResidualSquares
+{
+  std::vector<double> rss;  ///< sum of squares about the mean minus sum_j S_j^2 [DN^2]
+  std::vector<float>  skew; ///< sum_i S_i sum_j K_ij, K_ij = sum_t Q_tj^2 Q_ti [DN]
+};
+
+/** Appends the squares of the pixels whose \a sums are held, which must follow the pixels that \a squares has already.
+ * With \a keepCoordinates the coordinates replace the sums, else the sums are released slab by slab. */
+SensorNoise_EXPORT void
+AppendResidualSquares(const ReferenceFrame & frame,
+                      const TemporalBasis &  basis,
+                      ProjectionSums &       sums,
+                      bool                   keepCoordinates,
+                      const ParallelFor &    parallelFor,
+                      ResidualSquares &      squares);
+
+/** Fills \a squares, which has a place for every pixel, for the pixels [begin, end). \a frames are all frames of a
+ * stack; no sums are held, and the bits are the same. \a begin must be a multiple of ProjectionSums::BlockPixels.
+ * \a coordinates is filled too, for as many of the first components as it has. Different pixels may be filled at the
+ * same time. */
+template <typename TPixel>
+void
+FillResidualSquares(const ReferenceFrame &          frame,
+                    const TemporalBasis &           basis,
+                    const ProjectedFrames<TPixel> & frames,
+                    std::size_t                     begin,
+                    std::size_t                     end,
+                    ResidualSquares &               squares,
+                    ProjectionSums &                coordinates);
 
 } // namespace sensornoise
 

@@ -4,20 +4,22 @@
 #define sensornoise_pixels_RejectionModel_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/Parallel.h"
 #include "base/PixelRuns.h"
+#include "base/Significance.h"
+#include "sensornoise/Parallel.h"
+#include "pixels/ProjectedVariance.h"
 #include "pixels/VarianceLine.h"
 #include "scene/ReferenceFrame.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace sensornoise
 {
-
-class ProjectedVariance;
 
 /** Rejection model: the variance that pixels are tested against. It is a line times the deviation from the line that
  * the whole sensor has, for example by a non-linear response, and it includes the dispersion of the noise from pixel to
@@ -100,6 +102,84 @@ FitRejectionModel(const VarianceLine &              line,
                   const std::vector<std::uint8_t> & mask,
                   double                            blackDn,
                   const ParallelFor &               parallelFor);
+
+/** Limits beyond which a chi-square variable over its degrees of freedom deviates from 1 by more than
+ * Significance.manyTests standard deviations. The cube root of the variable is about normal (Wilson & Hilferty
+ * 1931). */
+struct FarLimits
+{
+  double low;  ///< lower limit [1]
+  double high; ///< upper limit [1]
+
+  /** Computes the limits for \a freedom degrees of freedom, above 0. */
+  explicit FarLimits(double dof)
+  {
+    const double s = 2.0 / (9.0 * dof);
+    const double far = Significance.manyTests * std::sqrt(s);
+    const double above = 1.0 - s + far;
+    const double below = 1.0 - s - far;
+    low = below * below * below;
+    high = above * above * above;
+  }
+};
+
+/** Test of a run of pixels, inside and outside the mask, against a rejection model, with SIMD instructions. */
+struct TestedRun
+{
+  OfRun expected; ///< variance by the model at the pixel's level [DN^2]
+  OfRun ratio;    ///< variance over the expected variance [1]
+  OfRun isAbove;  ///< 1 where the ratio is beyond the upper limit of FarLimits, else 0
+  OfRun isOff;    ///< 1 where the ratio is beyond either limit of FarLimits, else 0
+
+  /** Tests \a pixels pixels, at most PixelsPerRun, from pixel \a first on. */
+  void
+  Judge(const ProjectedVariance & projected, const RejectionModel & judge, std::size_t first, std::size_t pixels)
+  {
+    const ReferenceFrame & frame = projected.GetFrame();
+    const double * const   level = judge.LevelsOf(frame).data() + first;
+    const double * const   variance = projected.GetVariance().data() + first;
+    const float * const    dof = projected.GetDof().data() + first;
+    const VarianceLine     line = judge.line;
+    judge.FillVariance(level, pixels, expected);
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      ratio[i] = variance[i] / expected[i];
+      const FarLimits far(line.EffectiveDof(dof[i], expected[i]));
+      isAbove[i] = ratio[i] < far.high ? 0.0 : 1.0;
+      isOff[i] = ratio[i] > far.low ? isAbove[i] : 1.0;
+    }
+  }
+};
+
+/** Result of the test of the roughness classes against a rejection model. */
+struct ClassFit
+{
+  /** First rejected class; all rougher classes are rejected, too. */
+  std::size_t         firstBad{ ProjectedVariance::Classes };
+  std::vector<double> pixels; ///< number of pixels of each class
+  /** Mean of variance over model of each class, without outliers [1]. */
+  std::vector<double> ratio;
+  /** Reduced chi-square of the ratios of the classes that are kept [1]. */
+  double reducedChi2{ 1.0 };
+};
+
+/** Compares the mean variance of each roughness class with the flat classes. A class fails if its mean is higher by
+ * more than 3 standard errors and 0.15 %, or if its fraction of outliers is higher by 1 %. The first of two failing
+ * classes in a row, and all rougher ones, are rejected. Estimator.md, 3.5. */
+SensorNoise_EXPORT ClassFit
+TestClasses(const ProjectedVariance &         projected,
+            const RejectionModel &            line,
+            const std::vector<std::uint8_t> & mask,
+            const ParallelFor &               parallelFor);
+
+/** Marks the pixels of neighbourhoods that do not fit the rejection model. A neighbourhood is rejected if the mean
+ * variance of its 15 x 15 pixels exceeds the model by 5 standard deviations and 4 %, or if it holds 15 % outliers.
+ * Single noisy pixels are not marked; the fit trims them. Estimator.md, 3.5. */
+SensorNoise_EXPORT std::vector<std::uint8_t>
+RejectNeighbourhoods(const ProjectedVariance &         projected,
+                     const RejectionModel &            line,
+                     const std::vector<std::uint8_t> & mask,
+                     const ParallelFor &               parallelFor);
 
 } // namespace sensornoise
 

@@ -5,16 +5,22 @@
 #include "base/BoxSum.h"
 #include "base/FirstTouch.h"
 #include "base/Quantiles.h"
+#include "base/Significance.h"
 #include "base/Stencils.h"
 #include "pixels/Constants.h"
+#include "pixels/ProjectedVariance.h"
 #include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace sensornoise
 {
@@ -141,6 +147,201 @@ ClassifyRoughness(const ReferenceFrame &            frame,
     ClassifyRow(sums, frame.neighbourMean.data() + y * width, model, edges, width, classOf.data() + y * width);
   });
   return classOf;
+}
+
+namespace
+{
+/** Bins of the level whose square roots have equal widths, because the standard deviation of shot noise grows with the
+ * square root. */
+class LevelBins
+{
+public:
+  LevelBins(const std::vector<double> & levels, const std::vector<std::uint8_t> & usable)
+    : m_Levels(levels)
+  {
+    double highest = -std::numeric_limits<double>::infinity();
+    m_LowestDn = -highest;
+    for (std::size_t p = 0; p < levels.size(); ++p)
+    {
+      if (usable[p] != 0)
+      {
+        m_LowestDn = std::min(m_LowestDn, levels[p]);
+        highest = std::max(highest, levels[p]);
+      }
+    }
+    m_RangeDn = std::max(0.0, highest - m_LowestDn);
+  }
+
+  std::size_t
+  Of(std::size_t p) const
+  {
+    const double fraction = std::sqrt(std::max(0.0, m_Levels[p] - m_LowestDn) / std::max(1e-300, m_RangeDn));
+    return std::min(InPixels.levelBins - 1,
+                    static_cast<std::size_t>(fraction * static_cast<double>(InPixels.levelBins)));
+  }
+  std::vector<std::size_t>
+  CountsOf(const std::vector<std::uint8_t> & mask) const
+  {
+    std::vector<std::size_t> counts(InPixels.levelBins, 0);
+    for (std::size_t p = 0; p < mask.size(); ++p)
+    {
+      counts[this->Of(p)] += mask[p] != 0 ? 1U : 0U;
+    }
+    return counts;
+  }
+
+private:
+  const std::vector<double> & m_Levels;
+  double                      m_LowestDn;
+  double                      m_RangeDn;
+};
+
+/** Returns one more than the highest bin that has enough pixels. */
+std::size_t
+EndOf(const std::vector<std::size_t> & counts)
+{
+  std::size_t end = counts.size();
+  while (end > 0 && counts[end - 1] < InPixels.leastPixelsOfLevel)
+  {
+    --end;
+  }
+  return end;
+}
+
+/** Returns for each bin the median roughness class of its pixels. */
+std::vector<std::size_t>
+FindMedianClasses(const ProjectedVariance & projected, const std::vector<std::uint8_t> & usable, const LevelBins & bins)
+{
+  std::vector<std::vector<std::size_t>> counts(InPixels.levelBins,
+                                               std::vector<std::size_t>(ProjectedVariance::Classes, 0));
+  for (std::size_t p = 0; p < usable.size(); ++p)
+  {
+    counts[bins.Of(p)][projected.ClassOf(p)] += usable[p] != 0 ? 1U : 0U;
+  }
+  std::vector<std::size_t> medians;
+  for (const std::vector<std::size_t> & own : counts)
+  {
+    std::size_t total = 0;
+    for (const std::size_t count : own)
+    {
+      total += count;
+    }
+    std::size_t median = 0;
+    for (std::size_t sum = own[0]; 2 * sum < total && median + 1 < own.size();)
+    {
+      sum += own[++median];
+    }
+    medians.push_back(median);
+  }
+  return medians;
+}
+
+/** Returns the line through the median level and variance of each bin, weighted by the inverse square of the
+ * variance. */
+VarianceLine
+LineThroughMedians(const ProjectedVariance & projected, const std::vector<std::uint8_t> & mask, const LevelBins & bins)
+{
+  const VarianceData               data = projected.GetData(mask);
+  std::vector<std::vector<double>> levels(InPixels.levelBins);
+  std::vector<std::vector<double>> variances(InPixels.levelBins);
+  for (const std::size_t p : SamplePixels(mask.data(), mask.size(), mask.size()))
+  {
+    levels[bins.Of(p)].push_back(data.mean[p]);
+    variances[bins.Of(p)].push_back(data.variance[p]);
+  }
+  VarianceLine    line;
+  Eigen::Matrix2d gram = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right = Eigen::Vector2d::Zero();
+  double          lowest = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < InPixels.levelBins; ++b)
+  {
+    if (levels[b].size() < InPixels.leastPixelsOfLevel)
+    {
+      continue;
+    }
+    const double variance = Quantile(variances[b], 0.5);
+    if (variance > 0.0)
+    {
+      const Eigen::Vector2d row(Quantile(levels[b], 0.5), 1.0);
+      gram += row * row.transpose() / (variance * variance);
+      right += row / variance;
+      lowest = std::min(lowest, variance);
+    }
+  }
+  const Eigen::Vector2d solution = gram.ldlt().solve(right);
+  line.gain = solution(0);
+  line.intercept = solution(1);
+  line.pivotDn = gram(1, 1) > 0.0 ? gram(0, 1) / gram(1, 1) : 0.0;
+  line.lowestDn2 = InPixels.lowestShare * lowest;
+  line.isDetermined = solution.allFinite() && std::isfinite(lowest) && line.gain > 0.0;
+  return line;
+}
+} // namespace
+
+std::vector<std::uint8_t>
+MaskOfFlatClasses(const ProjectedVariance &         projected,
+                  const std::vector<std::uint8_t> & usable,
+                  const ParallelFor &               parallelFor)
+{
+  const auto                last = static_cast<std::uint8_t>(InPixels.flatShare * ProjectedVariance::Classes);
+  std::vector<std::uint8_t> mask(usable.size());
+  ForPixels(mask.size(),
+            parallelFor,
+            [=, usable = usable.data(), classOf = projected.GetClasses().data(), own = mask.data()](std::size_t p) {
+              own[p] = usable[p] != 0 && classOf[p] <= last ? 1 : 0;
+            });
+  return mask;
+}
+
+std::optional<BrighterPixels>
+FindBrighterPixels(const ProjectedVariance &         projected,
+                   const std::vector<std::uint8_t> & usable,
+                   const std::vector<std::uint8_t> & flat,
+                   const ParallelFor &               parallelFor)
+{
+  const LevelBins   bins(projected.GetFrame().neighbourMean, usable);
+  const std::size_t covered = EndOf(bins.CountsOf(flat));
+  const std::size_t end = EndOf(bins.CountsOf(usable));
+  // The bins are of square roots: half of them reach a quarter of the signal.
+  if (covered == 0 || 2 * covered >= end)
+  {
+    return std::nullopt;
+  }
+  const std::vector<std::size_t> medians = FindMedianClasses(projected, usable, bins);
+  BrighterPixels                 found;
+  found.mask = flat;
+  found.beyond.resize(flat.size());
+  ForPixels(flat.size(), parallelFor, [&](std::size_t p) {
+    const std::size_t bin = bins.Of(p);
+    const bool        isBeyond = usable[p] != 0 && bin >= covered && projected.ClassOf(p) <= medians[bin];
+    found.beyond[p] = isBeyond ? 1 : 0;
+    found.mask[p] = isBeyond ? 1 : found.mask[p];
+  });
+  found.through = LineThroughMedians(projected, found.mask, bins);
+  if (!found.through.isDetermined)
+  {
+    return std::nullopt;
+  }
+  return found;
+}
+
+bool
+AgreesWithLine(const ProjectedVariance & projected, const std::vector<std::uint8_t> & mask, const VarianceLine & line)
+{
+  const VarianceData data = projected.GetData(mask);
+  double             pixels = 0.0;
+  double             near = 0.0;
+  for (std::size_t p = 0; p < mask.size(); ++p)
+  {
+    if (mask[p] != 0)
+    {
+      const double expected = line.At(data.mean[p]);
+      const double limit = Significance.oneTest * std::sqrt(line.SamplingVariance(data.dof[p], expected));
+      pixels += 1.0;
+      near += std::abs(data.variance[p] - expected) < limit ? 1.0 : 0.0;
+    }
+  }
+  return near > InPixels.leastFractionNearLine * pixels;
 }
 
 } // namespace sensornoise

@@ -5,14 +5,17 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
+#include "pixels/VarianceLine.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace sensornoise
 {
 
+class ProjectedVariance;
 struct InitialNoiseModel;
 struct ReferenceFrame;
 
@@ -27,6 +30,40 @@ ClassifyRoughness(const ReferenceFrame &            frame,
                   const InitialNoiseModel &         model,
                   const std::vector<std::uint8_t> & mask,
                   const ParallelFor &               parallelFor);
+
+/** \file
+ * Selection of the pixels for the first line, before any pixel is rejected: pixels in flat areas, where motion leaves
+ * almost no residuals. */
+
+/** Returns the mask of the \a usable pixels of the flatter roughness classes. Motion that the temporal components do
+ * not describe leaves almost no residuals there. */
+SensorNoise_EXPORT std::vector<std::uint8_t>
+MaskOfFlatClasses(const ProjectedVariance &         projected,
+                  const std::vector<std::uint8_t> & usable,
+                  const ParallelFor &               parallelFor);
+
+/** Pixels at levels that the flat pixels do not reach, for a scene whose flat areas are all dark. Estimator.md, 3.5. */
+struct BrighterPixels
+{
+  std::vector<std::uint8_t> mask;    ///< 1: a flat pixel, or one of the flatter half of the pixels of a higher level
+  std::vector<std::uint8_t> beyond;  ///< 1: a pixel of the mask at a higher level
+  VarianceLine              through; ///< line through the median variances at all levels, without errors
+};
+
+/** Finds the pixels at the levels that the \a flat pixels, which are usable, do not reach. A line through the flat
+ * pixels alone would be extrapolated to these levels, and pixels would be rejected by the error of the extrapolation.
+ *
+ * Null if the flat pixels reach a quarter of the signal of the brightest usable pixels. */
+SensorNoise_EXPORT std::optional<BrighterPixels>
+FindBrighterPixels(const ProjectedVariance &         projected,
+                   const std::vector<std::uint8_t> & usable,
+                   const std::vector<std::uint8_t> & flat,
+                   const ParallelFor &               parallelFor);
+
+/** Returns whether the variance of most pixels of \a mask agrees with \a line within sampling noise. The variance of a
+ * signal lies on one line with the variance of the dark pixels; the variance by motion does not. */
+SensorNoise_EXPORT bool
+AgreesWithLine(const ProjectedVariance & projected, const std::vector<std::uint8_t> & mask, const VarianceLine & line);
 
 } // namespace sensornoise
 

@@ -8,7 +8,7 @@
 #include "pixels/CodeNoise.h"
 #include "pixels/GainByParts.h"
 #include "pixels/FixedPatternEstimate.h"
-#include "pixels/StaticPixels.h"
+#include "pixels/RejectionModel.h"
 #include "pixels/VarianceCurve.h"
 #include "pixels/VarianceLine.h"
 

@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/VarianceCurve.h"
 
+#include "base/Eigen.h"
 #include "base/Significance.h"
+#include "pixels/NormalEquations.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -126,6 +131,152 @@ VarianceCurve::FitHalves() const
     }
   }
   return slopes;
+}
+
+namespace
+{
+/** The levels of the curve's bins, from 0 at the darkest to 1 at the brightest, and the line along them. */
+struct ScaledCurve
+{
+  std::vector<double> level;
+  std::vector<double> pixels;
+  double              lineAtDarkest{ 0.0 }; // [DN^2]
+  double              lineRise{ 0.0 };      // from the darkest to the brightest [DN^2]
+  double              rangeDn{ 0.0 };
+  double              darkestSignalDn{ 0.0 }; // signal at the darkest level [DN]; 0: taken to be small
+};
+
+double
+PolynomialAt(const Eigen::VectorXd & coefficients, double x)
+{
+  double value = 0.0;
+  for (Eigen::Index k = coefficients.size(); k-- > 0;)
+  {
+    value = value * x + coefficients(k);
+  }
+  return value;
+}
+
+/** Returns the inverse of a matrix of normal equations; null if they do not determine all terms. */
+std::optional<Eigen::MatrixXd>
+InverseOf(Eigen::MatrixXd matrix)
+{
+  double     smallest = std::numeric_limits<double>::infinity();
+  double     largest = 0.0;
+  const bool isDetermined = InvertNormalEquations(matrix, [&](Eigen::Index, double pivot) {
+    smallest = std::min(smallest, pivot);
+    largest = std::max(largest, pivot);
+    return smallest > 1e-10 * largest;
+  });
+  return isDetermined ? std::optional(std::move(matrix)) : std::nullopt;
+}
+
+/** Returns the mean local gain of the line plus the polynomial \a excess; null if there is none, see FindMeanGain(). */
+std::optional<double>
+MeanLocalGain(const ScaledCurve & curve, const Eigen::VectorXd & excess)
+{
+  const auto   at = [&](double x) { return curve.lineAtDarkest + curve.lineRise * x + PolynomialAt(excess, x); };
+  const double slope = (curve.lineRise + excess(1)) / curve.rangeDn;
+  const double darkest = at(0.0);
+  if (!(slope > 0.0) || !(darkest > 0.0))
+  {
+    return std::nullopt;
+  }
+  double z = std::sqrt(darkest) / slope;
+  if (curve.darkestSignalDn > 0.0)
+  {
+    const double power = std::min(1.9, slope * curve.darkestSignalDn / darkest);
+    z = curve.darkestSignalDn / ((2.0 - power) * std::sqrt(darkest));
+  }
+  double sum = 0.0;
+  double count = 0.0;
+  double x = 0.0;
+  for (std::size_t b = 0; b < curve.level.size(); ++b)
+  {
+    // V is taken to be a line over each step, which is exact for a line, however steep its square root is near the
+    // dark.
+    constexpr int steps = 8;
+    const double  step = (curve.level[b] - x) / steps;
+    for (int i = 0; i < steps && step > 0.0; ++i)
+    {
+      const double first = at(x);
+      const double last = at(x + step);
+      if (!(first > 0.0 && last > 0.0))
+      {
+        return std::nullopt;
+      }
+      z += curve.rangeDn * step / (std::sqrt(first) + std::sqrt(last));
+      x += step;
+    }
+    sum += curve.pixels[b] * std::sqrt(at(curve.level[b])) / z;
+    count += curve.pixels[b];
+  }
+  return sum / count;
+}
+} // namespace
+
+std::optional<MeanGain>
+FindMeanGain(const VarianceCurve & curve, int degree, const std::optional<double> & offsetDn)
+{
+  const auto terms = static_cast<Eigen::Index>(degree + 1);
+  if (curve.bins.size() < static_cast<std::size_t>(degree) + 2)
+  {
+    return std::nullopt;
+  }
+  // The bins are sorted by the levels of the neighbours, so their own levels need not rise.
+  const auto            levelOf = [](const CurveBin & bin) { return bin.x / bin.weight; };
+  std::vector<CurveBin> bins = curve.bins;
+  std::sort(bins.begin(), bins.end(), [&](const CurveBin & a, const CurveBin & b) { return levelOf(a) < levelOf(b); });
+  const double darkest = levelOf(bins.front());
+  ScaledCurve  scaled;
+  scaled.rangeDn = levelOf(bins.back()) - darkest;
+  scaled.darkestSignalDn = offsetDn ? std::max(0.0, curve.line.pivotDn + darkest - *offsetDn) : 0.0;
+  scaled.lineAtDarkest = curve.line.intercept + curve.line.gain * (curve.line.pivotDn + darkest);
+  scaled.lineRise = curve.line.gain * scaled.rangeDn;
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(terms, terms);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(terms);
+  double          information = 0.0;
+  for (const CurveBin & bin : bins)
+  {
+    const double    x = (levelOf(bin) - darkest) / scaled.rangeDn;
+    Eigen::VectorXd powers(terms);
+    for (Eigen::Index k = 0; k < terms; ++k)
+    {
+      powers(k) = std::pow(x, static_cast<double>(k));
+    }
+    gram += bin.weight * powers * powers.transpose();
+    right += bin.excess * powers;
+    scaled.level.push_back(x);
+    scaled.pixels.push_back(bin.pixels);
+    information += bin.weight * std::pow(bin.x / bin.weight, 2);
+  }
+  const std::optional<Eigen::MatrixXd> covariance = InverseOf(gram);
+  if (!covariance || !(scaled.rangeDn > 0.0))
+  {
+    return std::nullopt;
+  }
+  const Eigen::VectorXd       excess = ProductInLoops(*covariance, right);
+  const std::optional<double> value = MeanLocalGain(scaled, excess);
+  if (!value)
+  {
+    return std::nullopt;
+  }
+  // Derivatives of the gain with respect to the coefficients, by differences of a tenth of a standard error.
+  Eigen::VectorXd derivative(terms);
+  for (Eigen::Index k = 0; k < terms; ++k)
+  {
+    const double    step = std::sqrt((*covariance)(k, k));
+    Eigen::VectorXd moved = excess;
+    moved(k) += 0.1 * step;
+    derivative(k) = (MeanLocalGain(scaled, moved).value_or(*value) - *value) / (0.1 * step);
+  }
+  const Eigen::VectorXd moment = ProductInLoops(*covariance, derivative);
+  double                variance = -1.0 / information; // sampling variance of the line's gain, which is subtracted
+  for (Eigen::Index k = 0; k < terms; ++k)
+  {
+    variance += derivative(k) * moment(k);
+  }
+  return MeanGain{ *value, std::max(0.0, variance) };
 }
 
 } // namespace sensornoise

@@ -7,6 +7,7 @@
 #include "pixels/VarianceLine.h"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace sensornoise
@@ -97,6 +98,60 @@ private:
   Slope
   SlopeOf(std::size_t first, std::size_t last) const;
 };
+
+/** Mean over the pixels of the local gain d(mean DN)/d(electron) of a non-linear response. */
+struct MeanGain
+{
+  double value{ 0.0 };    ///< mean local gain [DN/e-]
+  double variance{ 0.0 }; ///< sampling variance of its difference from the line's gain [DN^2/e-^2]
+};
+
+/** Computes the mean local gain if the variance V follows a polynomial of \a degree instead of a line.
+ *
+ * With x electrons, response y(x), local gain G = dy/dx and the square s of the read noise in electrons,
+ * V = G^2 (x + s). So Z = sqrt(x + s) grows by dZ = dy / (2 sqrt(V)), as in a variance-stabilising transform, and
+ *
+ *     G(y) = sqrt(V(y)) / Z(y),   Z(y) = Z(y0) + integral from y0 to y of dy / (2 sqrt(V)).
+ *
+ * If the signal at the darkest level y0 of the scene is small, V' = G there, and Z(y0) = sqrt(V(y0)) / V'(y0). If V is
+ * a line, G is its slope. The slope of V is not the local gain: it contains twice the change of G.
+ *
+ * The other extreme is V(y0) that is all shot noise, as with a tone curve. Then V falls to 0 at the offset mu as the
+ * power q = V' (y0 - mu) / V of the signal, and Z(y0) = (y0 - mu) / ((2 - q) sqrt(V)). \a offsetDn selects this case
+ * and is mu [DN].
+ *
+ * Null if the polynomial does not rise at the darkest level, is not positive, or is not determined by the levels. */
+SensorNoise_EXPORT std::optional<MeanGain>
+FindMeanGain(const VarianceCurve & curve, int degree, const std::optional<double> & offsetDn = std::nullopt);
+
+/** \class VarianceStep
+ * \brief Two parallel lines of the variance, one below and one above a level, as for pixels with two amplifiers that
+ * each serve a range of levels. Estimator.md, 3.16. */
+struct SensorNoise_EXPORT VarianceStep
+{
+  double levelDn{ 0.0 };     ///< level of the step [DN]
+  double halfWidthDn{ 0.0 }; ///< half width of the interval about it in which pixels may be of either amplifier [DN]
+  /** Variance by the line above the step minus variance by the line below, at one level [DN^2]. */
+  double sizeDn2{ 0.0 };
+  double errorDn2{ 0.0 }; ///< standard error of sizeDn2 [DN^2]
+  /** The line below the step. Its slope is common to both lines; its covariance is for (gain, intercept). */
+  VarianceLine line;
+  /** Excess over the common slope below the step and above it [DN/e-], estimated from the levels and
+   * InSteps.priorOfGains together, and the larger of their standard errors [DN/e-]. */
+  double slopeBelow{ 0.0 };
+  double slopeAbove{ 0.0 };
+  double errorOfSlopes{ 0.0 };
+
+  /** Returns the deviations of \a curve, in which the step was found, from the two lines, without the levels about the
+   * step. */
+  VarianceCurve
+  RestOf(const VarianceCurve & curve) const;
+};
+
+/** Finds a step of the variance, up or down. Null if there is none, if it is small, or if a smooth curve or a broken
+ * line of as many parameters describes the variance as well. */
+SensorNoise_EXPORT std::optional<VarianceStep>
+FindVarianceStep(const VarianceCurve & curve);
 
 } // namespace sensornoise
 

@@ -3,18 +3,19 @@
 #include "pixels/VarianceFit.h"
 
 #include "base/Constants.h"
-#include "sensornoise/Parallel.h"
+#include "base/Eigen.h"
 #include "base/Quantiles.h"
-#include "pixels/ChiSquareTrim.h"
+#include "sensornoise/Parallel.h"
 #include "pixels/Constants.h"
-#include "pixels/MedianLine.h"
 #include "pixels/VarianceCurve.h"
 #include "pixels/VarianceLine.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -23,6 +24,60 @@ namespace sensornoise
 
 namespace
 {
+/** Fits a first line to the medians of 40 bins of the intensity. \a trim has the medians for the degrees of freedom of
+ * all pixels. Null if there is only one intensity. */
+std::optional<VarianceLine>
+FitMedians(const VarianceData & data, const ChiSquareTrim & trim)
+{
+  const auto          sample = SamplePixels(data.mask, data.pixels);
+  VarianceLine        line;
+  std::vector<double> level;
+  for (const std::size_t p : sample)
+  {
+    level.push_back(data.neighbourMean[p]);
+    line.pivotDn += data.mean[p] / static_cast<double>(sample.size());
+  }
+  constexpr std::size_t bins = 40;
+  const auto            binOf = BinsOfEqualCount(level, bins);
+  std::vector<double>   value;
+  std::vector<double>   centred;
+  std::vector<double>   count(bins, 0.0);
+  for (std::size_t i = 0; i < sample.size(); ++i)
+  {
+    value.push_back(data.variance[sample[i]] / trim.Of(data.dof[sample[i]]).median);
+    centred.push_back(data.mean[sample[i]] - line.pivotDn);
+    count[binOf[i]] += 1.0;
+  }
+  // Medians on both axes: if a bin holds parts of two patches, both medians are from the larger part.
+  const auto medians = MediansOfBins(value, binOf, bins);
+  const auto levels = MediansOfBins(centred, binOf, bins);
+  double     s0 = 0.0, s1 = 0.0, s2 = 0.0, r0 = 0.0, r1 = 0.0;
+  double     lowest = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < bins; ++b)
+  {
+    if (count[b] > InPixels.fewestPixelsOfBin && medians[b] > 0.0)
+    {
+      const double w = count[b] / (medians[b] * medians[b]);
+      const double x = levels[b];
+      s0 += w;
+      s1 += w * x;
+      s2 += w * x * x;
+      r0 += w * medians[b];
+      r1 += w * x * medians[b];
+      lowest = std::min(lowest, medians[b]);
+    }
+  }
+  const double determinant = s0 * s2 - s1 * s1;
+  if (!(determinant > 1e-12 * s0 * s2) || !std::isfinite(lowest))
+  {
+    return std::nullopt;
+  }
+  line.lowestDn2 = std::max(1e-9, InPixels.lowestShare * lowest);
+  line.gain = (s0 * r1 - s1 * r0) / determinant;
+  line.intercept = (s2 * r0 - s1 * r1) / determinant - line.gain * line.pivotDn;
+  return line;
+}
+
 ValueRange
 FindDofRange(const VarianceData & data, const ParallelFor & parallelFor)
 {
@@ -200,6 +255,98 @@ VarianceFit::CurveAbout(const VarianceLine & line, SortedBy sortedBy) const
     }
   }
   return curve;
+}
+
+/** \file
+ * Errors and curvature of the line of VarianceFit. */
+
+namespace
+{
+/** Returns the covariance of (gain, intercept) from the sums of the squared weighted residuals times 1, x and x
+ * squared, where x is the mean above the line's pivot. */
+Eigen::Matrix2d
+Sandwich(const VarianceLine & line, double squaresXX, double squaresX, double squares)
+{
+  // In the coordinates (gain, value at pivotDn) the information is diagonal.
+  Eigen::Matrix2d inverse;
+  inverse << 1.0 / line.spreadDn2, 0.0, 0.0, 1.0 / line.weightSum;
+  Eigen::Matrix2d meat;
+  meat << squaresXX, squaresX, squaresX, squares;
+  Eigen::Matrix2d toIntercept;
+  toIntercept << 1.0, 0.0, -line.pivotDn, 1.0;
+  return toIntercept * inverse * meat * inverse * toIntercept.transpose();
+}
+} // namespace
+
+void
+VarianceFit::FillErrors()
+{
+  if (!m_Line.isDetermined)
+  {
+    return;
+  }
+  // Sums of the squared weight times the squared residual R times powers of x, the mean above the pivot, and sums of
+  // the weight times powers of x and R.
+  enum : std::size_t
+  {
+    WWRR,
+    WWRRX,
+    WWRRXX,
+    WX3,
+    WX4,
+    WXXR,
+    Kept,
+    W,
+    WXX,
+    Sums
+  };
+  const double atPivot = m_Line.intercept + m_Line.gain * m_Line.pivotDn;
+  const auto   s = this->SumTerms<Sums>([atPivot, gain = m_Line.gain](double w, double x, double value) {
+    const double residual = value - atPivot - gain * x;
+    const double square = w * w * residual * residual;
+    const double wxx = w * x * x;
+    return std::array<double, Sums>{ square,      square * x,     square * x * x,      wxx * x,
+                                     wxx * x * x, wxx * residual, w > 0.0 ? 1.0 : 0.0, w,
+                                     wxx };
+  });
+  m_Line.covariance = Sandwich(m_Line, s[WWRRXX], s[WWRRX], s[WWRR]);
+  const auto pixels = static_cast<double>(m_Dofs.values);
+  // Quadratic column of the parabola, orthogonal to the first two columns: q = x^2 - a x - b.
+  const double a = s[WX3] / s[WXX];
+  const double b = s[WXX] / s[W];
+  const double quadratic = s[WX4] - a * s[WX3] - b * s[WXX];
+  if (quadratic > 0.0)
+  {
+    m_Line.curvature = s[WXXR] / quadratic;
+    m_Line.curvatureSd = 1.0 / std::sqrt(quadratic);
+    m_Line.curvatureTilt = a;
+    m_Line.curvatureLift = b;
+  }
+  m_Line.trimmedFraction = (pixels - s[Kept]) / pixels;
+  m_Line.isDetermined = std::isfinite(m_Line.gain) && m_Line.covariance.allFinite();
+}
+
+SampledVariance::SampledVariance(const VarianceData & data, std::size_t most, const ParallelFor & parallelFor)
+{
+  const std::vector<std::size_t> pixels = SamplePixels(data.mask, data.pixels, most);
+  m_Mean.resize(pixels.size());
+  m_NeighbourMean.resize(pixels.size());
+  m_Variance.resize(pixels.size());
+  m_Dof.resize(pixels.size());
+  m_Mask.assign(pixels.size(), 1);
+  ForPixels(pixels.size(), parallelFor, [&](std::size_t i) {
+    const std::size_t p = pixels[i];
+    m_Mean[i] = data.mean[p];
+    m_NeighbourMean[i] = data.neighbourMean[p];
+    m_Variance[i] = data.variance[p];
+    m_Dof[i] = data.dof[p];
+  });
+}
+
+VarianceData
+SampledVariance::GetData() const
+{
+  return { m_Mean.data(), m_NeighbourMean.data(), m_Variance.data(), m_Dof.data(), m_Mask.data(), m_Mask.size() };
 }
 
 } // namespace sensornoise

@@ -4,12 +4,12 @@
 #define sensornoise_pixels_VarianceFit_h
 
 #include "SensorNoiseExport.h"
+#include "base/Avx2.h"
 #include "base/Eigen.h"
-#include "sensornoise/Parallel.h"
 #include "base/PixelRuns.h"
 #include "base/ValueRange.h"
-#include "base/Avx2.h"
-#include "pixels/ChiSquareTrim.h"
+#include "sensornoise/Parallel.h"
+#include "pixels/Constants.h"
 #include "pixels/VarianceCurve.h"
 #include "pixels/VarianceLine.h"
 
@@ -22,6 +22,38 @@
 
 namespace sensornoise
 {
+
+/** \class ChiSquareTrim
+ * \brief Limits for two-sided trimming of sample variances, and the bias of the trimmed mean.
+ *
+ * Trimming chi-square variables of k degrees of freedom to the interval from a to b multiplies their mean by
+ * (F_{k+2}(b) - F_{k+2}(a)) / (F_k(b) - F_k(a)). */
+class SensorNoise_EXPORT ChiSquareTrim
+{
+public:
+  /** Computes the limits for all whole degrees of freedom from \a lowest to \a highest, 1 or more. \a tail is the
+   * probability of each trimmed tail [1]. */
+  ChiSquareTrim(double lowest, double highest, double tail = InPixels.trimTail);
+
+  struct Limits
+  {
+    double low;    ///< variances below it are trimmed, relative to the expected variance [1]
+    double high;   ///< variances above it are trimmed, relative to the expected variance [1]
+    double mean;   ///< mean of the variances that are kept, relative to the expected variance [1]
+    double median; ///< median of all variances, relative to the expected variance [1]
+  };
+  /** Returns the limits for the degrees of freedom in the table that are nearest to \a freedom. */
+  const Limits &
+  Of(double dof) const
+  {
+    const auto k = static_cast<std::size_t>(std::max(1.0, dof + 0.5));
+    return m_Limits[std::min(m_Limits.size() - 1, k - std::min(k, m_First))];
+  }
+
+private:
+  std::size_t         m_First;
+  std::vector<Limits> m_Limits;
+};
 
 /** Rule by which a fit trims outliers. */
 enum class TrimRule : std::uint8_t
@@ -256,6 +288,28 @@ private:
   double                       m_BrightDof{ 1.0 };     // highest degrees of freedom of the brightest pixels
   double                       m_ReachDn2{ 0.0 };      // largest excess that is kept [DN^2]
   double                       m_ReachBelowDn2{ 0.0 }; // largest deficit that is kept [DN^2]
+};
+
+/** \class SampledVariance
+ * \brief Copies of the maps of VarianceData at evenly spread pixels of the mask. A line that pixels are tested against,
+ * and the start of a fit of all pixels, are fitted to them. The cost does not grow with the size of the frame. */
+class SensorNoise_EXPORT SampledVariance
+{
+public:
+  /** Copies all pixels of the mask. If it has twice \a most or more, copies evenly spread ones, between \a most and
+   * twice as many. */
+  SampledVariance(const VarianceData & data, std::size_t most, const ParallelFor & parallelFor);
+
+  /** Returns the maps, all of whose pixels count. They are valid as long as the object. */
+  VarianceData
+  GetData() const;
+
+private:
+  std::vector<double>       m_Mean;
+  std::vector<double>       m_NeighbourMean;
+  std::vector<double>       m_Variance;
+  std::vector<float>        m_Dof;
+  std::vector<std::uint8_t> m_Mask;
 };
 
 } // namespace sensornoise

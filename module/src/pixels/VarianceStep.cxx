@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/VarianceStep.h"
+#include "pixels/VarianceCurve.h"
 
 #include "base/Significance.h"
 #include "pixels/Constants.h"
-#include "pixels/CurveRegression.h"
+#include "pixels/NormalEquations.h"
 
 #include <algorithm>
 #include <cmath>

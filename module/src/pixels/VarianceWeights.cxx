@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/VarianceFit.h"
 
-#include "base/ChiSquare.h"
-#include "sensornoise/Parallel.h"
-#include "base/Quantiles.h"
 #include "base/Avx2.h"
+#include "base/ChiSquare.h"
+#include "base/Quantiles.h"
+#include "sensornoise/Parallel.h"
 #include "moments/Constants.h"
 #include "moments/DefectivePixels.h"
-#include "pixels/ChiSquareTrim.h"
 #include "pixels/Constants.h"
 #include "pixels/VarianceLine.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -22,6 +22,20 @@
 
 namespace sensornoise
 {
+
+ChiSquareTrim::ChiSquareTrim(double lowest, double highest, double tail)
+  : m_First(static_cast<std::size_t>(std::max(1.0, std::round(lowest))))
+{
+  for (auto k = static_cast<double>(m_First); k <= std::max(1.0, std::round(highest)); k += 1.0)
+  {
+    const double low = ChiSquareQuantile(tail, k);
+    const double high = ChiSquareUpperQuantile(tail, k);
+    m_Limits.push_back({ low / k,
+                         high / k,
+                         (ChiSquareCdf(high, k + 2.0) - ChiSquareCdf(low, k + 2.0)) / (1.0 - 2.0 * tail),
+                         ChiSquareQuantile(0.5, k) / k });
+  }
+}
 
 namespace
 {
