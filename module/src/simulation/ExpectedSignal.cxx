@@ -3,7 +3,7 @@
 #include "simulation/ExpectedSignal.h"
 
 #include "simulation/FixedPattern.h"
-#include "simulation/LinearShift.h"
+#include "simulation/FrameResampling.h"
 #include "sensornoise/Simulator.h"
 
 #include <algorithm>

@@ -4,9 +4,14 @@
 #define sensornoise_simulation_FixedPattern_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/FrameGeometry.h"
+#include "sensornoise/SensorFlaws.h"
 #include "sensornoise/SimulationSettings.h"
+#include "simulation/SettingChecks.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 /** \file
@@ -16,6 +21,51 @@
 
 namespace sensornoise
 {
+
+/** \throws std::invalid_argument if a transmission is not from 0 to 1. */
+inline void
+CheckSettings(const ColourFilterSettings & settings)
+{
+  RequireFraction(settings.transmissionR, "transmission of the red filter");
+  RequireFraction(settings.transmissionG, "transmission of the green filter");
+  RequireFraction(settings.transmissionB, "transmission of the blue filter");
+}
+
+/** Multiplies each pixel of \a efficiency by the transmission of its filter. An empty map stands for 1 everywhere, and
+ * stays empty where there are no filters. */
+SensorNoise_EXPORT void
+ApplyFilters(const ColourFilterSettings & settings,
+             std::size_t                  width,
+             std::size_t                  height,
+             std::vector<double> &        efficiency);
+
+/** \throws std::invalid_argument that names the first setting that cannot be used. */
+SensorNoise_EXPORT void
+CheckSettings(const PatternSettings & settings);
+
+/** Returns the gain of every pixel in units of the camera's gain [1]: 1 + gainSd normal, times 1 + columnGainSd normal
+ * for its column. The map is divided by its mean, so that its mean is 1. Empty if both settings are 0. */
+SensorNoise_EXPORT std::vector<double>
+DrawGainPattern(const PatternSettings & settings, std::uint64_t seed, std::size_t width, std::size_t height);
+
+/** Returns the efficiency of every column in units of the mean efficiency [1]: 1 + columnEfficiencySd normal, divided
+ * by the mean over the columns. Empty if the setting is 0. */
+SensorNoise_EXPORT std::vector<double>
+DrawColumnEfficiency(const PatternSettings & settings, std::uint64_t seed, std::size_t width);
+
+/** Returns the offset of every column relative to the camera's offset [DN]. The offsets are normal numbers, whose mean
+ * is 0 to within its error. Empty if the setting is 0. */
+SensorNoise_EXPORT std::vector<double>
+DrawColumnOffsetDn(const PatternSettings & settings, std::uint64_t seed, std::size_t width);
+
+/** \throws std::invalid_argument that names the first setting that cannot be used. */
+SensorNoise_EXPORT void
+CheckSettings(const ReadNoiseSettings & settings);
+
+/** Returns the read noise of every pixel in units of the median of the pixels that are not in the tail [1]. Empty if
+ * all pixels are equal. */
+SensorNoise_EXPORT std::vector<double>
+DrawReadNoisePattern(const ReadNoiseSettings & settings, std::uint64_t seed, std::size_t pixels);
 
 /** Returns the efficiency of every pixel in units of the camera's efficiency: prnuSd, columnEfficiencySd and the colour
  * filters [1]. */

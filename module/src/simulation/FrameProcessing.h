@@ -5,14 +5,76 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
-#include "simulation/DoubleFrame.h"
 #include "sensornoise/SensorFlaws.h"
+#include "simulation/DoubleFrame.h"
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <mutex>
 
 /** \file
  * The processing of whole frames, in order. */
 
 namespace sensornoise
 {
+
+/** \throws std::invalid_argument that names the first setting that cannot be used. */
+SensorNoise_EXPORT void
+CheckSettings(const DefectCorrectionSettings & settings);
+
+/** Returns \a codesDn with corrected defects [DN]; every decision uses the uncorrected frame. */
+SensorNoise_EXPORT DoubleFrame
+CorrectDefects(const DoubleFrame & codesDn, const DefectCorrectionSettings & settings, const ParallelFor & parallelFor);
+
+/** \throws std::invalid_argument that names the first setting that cannot be used. */
+SensorNoise_EXPORT void
+CheckSettings(const TemporalFilterSettings & settings);
+
+/** \class TemporalFilter
+ * \brief Recursive temporal filter, which outputs frames in any order with the same bits.
+ *
+ * The last output is kept, so that consecutive frames need one input each; an earlier frame starts again from frame 0.
+ * Several threads may call it. */
+class SensorNoise_EXPORT TemporalFilter
+{
+public:
+  using InputFrame = std::function<DoubleFrame(std::size_t frame)>;
+
+  explicit TemporalFilter(const TemporalFilterSettings & settings);
+
+  /** Returns frame \a frame of the output. \a inputOf makes a frame of the input; it is called at most once for each.
+   */
+  DoubleFrame
+  OutputFrame(std::size_t frame, const InputFrame & inputOf, const ParallelFor & parallelFor);
+
+private:
+  struct State
+  {
+    std::size_t frame{ 0 };
+    DoubleFrame output;
+  };
+
+  double                       m_Weight;
+  std::mutex                   m_Mutex; ///< protects the pointer below; never held while a frame is computed
+  std::shared_ptr<const State> m_Last;
+};
+
+/** \throws std::invalid_argument that names the first setting that cannot be used. */
+SensorNoise_EXPORT void
+CheckSettings(const MedianSettings & settings);
+
+/** Returns \a codesDn filtered [DN]. */
+SensorNoise_EXPORT DoubleFrame
+FilterByMedian(const DoubleFrame & codesDn, const MedianSettings & settings, const ParallelFor & parallelFor);
+
+/** \throws std::invalid_argument that names the first setting that cannot be used. */
+SensorNoise_EXPORT void
+CheckSettings(const SmoothingSettings & settings);
+
+/** Returns \a codesDn smoothed [DN]. */
+SensorNoise_EXPORT DoubleFrame
+SmoothFrame(DoubleFrame codesDn, const SmoothingSettings & settings, const ParallelFor & parallelFor);
 
 /** Returns whether a row depends on other rows of its frame, or on other frames. */
 inline bool

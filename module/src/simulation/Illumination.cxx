@@ -4,7 +4,6 @@
 
 #include "base/Text.h"
 #include "simulation/Random.h"
-#include "simulation/RandomStreams.h"
 #include "simulation/SettingChecks.h"
 
 #include <algorithm>

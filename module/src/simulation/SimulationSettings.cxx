@@ -3,24 +3,15 @@
 #include "sensornoise/SimulationSettings.h"
 
 #include "base/Text.h"
-#include "simulation/BlockQuantisation.h"
-#include "simulation/BrighterFatter.h"
-#include "simulation/ChargeCoupling.h"
-#include "simulation/ColourFilters.h"
-#include "simulation/Companding.h"
-#include "simulation/DefectCorrection.h"
-#include "simulation/FrameBinning.h"
-#include "simulation/FrameRepetition.h"
+#include "simulation/ChargeExchange.h"
+#include "simulation/FixedPattern.h"
+#include "simulation/FrameProcessing.h"
 #include "simulation/FrameResampling.h"
-#include "simulation/FrameSmoothing.h"
-#include "simulation/GainPattern.h"
 #include "simulation/Illumination.h"
-#include "simulation/LineNoise.h"
-#include "simulation/MedianFilter.h"
-#include "simulation/ReadNoisePattern.h"
+#include "simulation/LossyCompression.h"
+#include "simulation/ReadOut.h"
 #include "simulation/ResponseCurve.h"
 #include "simulation/SettingChecks.h"
-#include "simulation/TemporalFilter.h"
 
 #include <cmath>
 #include <limits>
@@ -29,6 +20,19 @@
 
 namespace sensornoise
 {
+namespace
+{
+/** \throws std::invalid_argument if the setting cannot be used. */
+void
+CheckSettings(const RepetitionSettings & settings)
+{
+  RequireSetting(
+    settings.count >= 1, "number of times that a frame is written", static_cast<double>(settings.count), "1 or more");
+  RequireSetting(
+    settings.period >= 1, "period of repeated frames", static_cast<double>(settings.period), "1 or more exposures");
+}
+} // namespace
+
 CameraModel
 PaperCamera(char name)
 {

@@ -2,14 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/Simulator.h"
 
+#include "report/JsonWriter.h"
+#include "sensornoise/SimulationSettings.h"
 #include "simulation/Illumination.h"
 #include "simulation/Random.h"
-#include "simulation/RandomStreams.h"
 #include "simulation/ReadOut.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <vector>
 
 namespace sensornoise
 {
@@ -120,6 +124,100 @@ DrawTruth(const SimulationSettings & settings, std::size_t width, std::size_t he
   truth.realisedReadNoiseRmsDn = readNoise.rmsDn;
   truth.realisedReadNoiseMedianDn = readNoise.medianDn;
   return truth;
+}
+
+/** Writes the settings of the flaws, a member for each of them. The members have the names of the settings without the
+ * units, which are DN, electrons, pixels and rows as there. */
+void
+WriteJson(JsonWriter & json, const SensorFlaws & flaws)
+{
+  json.Object([&] {
+    json.ObjectMember("filters", [&] {
+      const ColourFilterSettings & filters = flaws.filters;
+      json.Member("bayer", filters.pattern ? NameOf(*filters.pattern) : "none");
+      json.Member("transmission",
+                  std::array<double, 3>{ filters.transmissionR, filters.transmissionG, filters.transmissionB });
+    });
+    json.ObjectMember("pattern", [&] {
+      json.Member("gain_sd", flaws.pattern.gainSd).Member("column_gain_sd", flaws.pattern.columnGainSd);
+      json.Member("column_efficiency_sd", flaws.pattern.columnEfficiencySd);
+      json.Member("column_offset_sd", flaws.pattern.columnOffsetSdDn);
+    });
+    json.Member("brighter_fatter_per_electron", flaws.brighterFatter.perElectron);
+    json.Member("coupling_fraction", flaws.coupling.fraction);
+    json.ObjectMember("read_noise", [&] {
+      json.Member("spread", flaws.readNoise.spread).Member("tail_fraction", flaws.readNoise.tailFraction);
+      json.Member("tail_spread", flaws.readNoise.tailSpread);
+    });
+    json.ObjectMember("response", [&] {
+      json.Member("shape", NameOf(flaws.response.shape)).Member("size", flaws.response.size);
+      json.Member("full_scale_electrons", flaws.response.fullScaleElectrons);
+    });
+    json.ObjectMember("line_noise", [&] {
+      json.Member("row_noise_sd", flaws.lineNoise.rowNoiseSdDn);
+      json.Member("column_noise_sd", flaws.lineNoise.columnNoiseSdDn);
+      json.Member("banding_amplitude", flaws.lineNoise.bandingAmplitudeDn);
+      json.Member("banding_period", flaws.lineNoise.bandingPeriodRows);
+    });
+    json.Member("defect_threshold_sd", flaws.defectCorrection.thresholdSd);
+    json.Member("temporal_filter_weight", flaws.temporalFilter.weight);
+    json.Member("median_radius", flaws.median.radiusPixels);
+    json.Member("smoothing_sd", flaws.smoothing.sdPixels);
+    json.ObjectMember("binning", [&] {
+      json.Member("factor", flaws.binning.factor).Member("interpolation", NameOf(flaws.binning.interpolation));
+    });
+    json.Member("resampling_shift",
+                std::array<double, 2>{ flaws.resampling.shiftXPixels, flaws.resampling.shiftYPixels });
+    json.Member("resampling_interpolation", NameOf(flaws.resampling.interpolation));
+    json.Member("block_quality", flaws.blocks.quality);
+    json.Member("companding_bits", flaws.companding.bits);
+    json.Member("repeat_count", flaws.repetition.count).Member("repeat_period", flaws.repetition.period);
+  });
+}
+
+std::string
+ToJson(const SimulationTruth & truth, std::size_t width, std::size_t height)
+{
+  const SimulationSettings & settings = truth.settings;
+  const CameraModel &        camera = settings.camera;
+  const SceneConditions &    conditions = settings.conditions;
+  const double intercept = camera.readNoiseDn * camera.readNoiseDn - camera.gainDnPerElectron * camera.offsetDn;
+  std::optional<std::vector<double>> phase;
+  if (settings.rollingShutterPeriodRows > 0.0)
+  {
+    phase = truth.series.phase;
+  }
+  std::string text;
+  JsonWriter  json(text);
+  json.Object([&] {
+    json.Member("schema", "itk-sensornoise-truth/1");
+    json.Member("frames", settings.frames).Member("width", width).Member("height", height);
+    json.Member("bit_depth", settings.bitDepth).Member("seed", static_cast<std::size_t>(settings.seed));
+    json.Member("electrons", camera.electrons).Member("gain", camera.gainDnPerElectron);
+    json.Member("offset", camera.offsetDn).Member("read_noise", camera.readNoiseDn);
+    json.Member("intercept", intercept);
+    json.Member("total_intercept", intercept + 1.0 / 12.0); // with quantization noise
+    json.Member("clip_low", settings.clipLowDn).Member("clip_high", settings.clipHighDn);
+    json.Member("optical_blur", settings.opticalBlurPixels);
+    json.Member("rolling_shutter_period", settings.rollingShutterPeriodRows);
+    json.Member("prnu_sd", settings.prnuSd).Member("dsnu_sd", settings.dsnuSdDn);
+    json.Member("hot_pixel_fraction", settings.hotPixelFraction);
+    json.Member("hot_pixel_noise_factor", settings.hotPixelNoiseFactor);
+    json.Member("illumination", TextOf(settings.illumination));
+    json.Member("flicker_sd", conditions.flickerSd);
+    json.Member("vibration_sd", std::array<double, 2>{ conditions.vibrationSdXPixels, conditions.vibrationSdYPixels });
+    json.Member("realised_flicker_sd", truth.realisedFlickerSd);
+    json.Member("realised_vibration_sd",
+                std::array<double, 2>{ truth.realisedVibrationSdXPixels, truth.realisedVibrationSdYPixels });
+    json.Member("realised_read_noise", truth.realisedReadNoiseRmsDn);
+    json.Member("realised_read_noise_median", truth.realisedReadNoiseMedianDn);
+    json.Member("dark", settings.isDark).Member("flaws", settings.flaws);
+    json.Member("flicker", truth.normalisedFlicker);
+    json.Member("gamma", truth.series.gamma).Member("alpha", truth.series.alpha).Member("beta", truth.series.beta);
+    json.Member("phase", phase);
+  });
+  text += '\n';
+  return text;
 }
 
 } // namespace sensornoise

@@ -4,14 +4,12 @@
 
 #include "sensornoise/FrameGeometry.h"
 #include "base/Text.h"
-#include "simulation/Companding.h"
 #include "simulation/DoubleFrame.h"
 #include "simulation/FrameProcessing.h"
+#include "simulation/LossyCompression.h"
 #include "simulation/Random.h"
-#include "simulation/RandomStreams.h"
 #include "simulation/ReadOut.h"
 #include "simulation/ExpectedSignal.h"
-#include "simulation/TemporalFilter.h"
 
 #include <algorithm>
 #include <cmath>

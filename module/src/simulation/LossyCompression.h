@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#ifndef sensornoise_simulation_BlockQuantisation_h
-#define sensornoise_simulation_BlockQuantisation_h
+#ifndef sensornoise_simulation_LossyCompression_h
+#define sensornoise_simulation_LossyCompression_h
 
-#include "sensornoise/SensorFlaws.h"
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
+#include "sensornoise/SensorFlaws.h"
 #include "simulation/DoubleFrame.h"
 
 #include <array>
@@ -31,6 +31,15 @@ StepsOfQuality(const BlockSettings & settings, unsigned int bitDepth);
  * that the edge of the frame cuts is filled with copies of its last column and row. */
 SensorNoise_EXPORT DoubleFrame
 QuantiseBlocks(const DoubleFrame & codesDn, const BlockStepsDn & stepsDn, const ParallelFor & parallelFor);
+
+/** \throws std::invalid_argument if the setting cannot be used with a converter of \a bitDepth bits. */
+SensorNoise_EXPORT void
+CheckSettings(const CompandingSettings & settings, unsigned int bitDepth);
+
+/** Compands the codes and expands them again, in place [DN].
+ * \param codesDn codes, which are clamped to 0 and 2^bitDepth - 1 first */
+SensorNoise_EXPORT void
+Compand(double * codesDn, std::size_t count, const CompandingSettings & settings, unsigned int bitDepth);
 
 } // namespace sensornoise
 
