@@ -4,8 +4,8 @@
 #define sensornoise_files_DataFile_h
 
 #include "sensornoise/FrameFile.h"
+#include "files/FrameReader.h"
 #include "files/Inflate.h"
-#include "files/SamplePacking.h"
 
 #include <cstdint>
 #include <optional>

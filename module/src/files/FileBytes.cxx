@@ -2,14 +2,120 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/FileBytes.h"
 
-#include "sensornoise/FrameFile.h"
-#include "files/FileIdentity.h"
-
 #include <algorithm>
+#include <chrono>
+#include <filesystem>
 #include <ios>
+#include <system_error>
+#if defined(__unix__) || defined(__APPLE__)
+#  include <sys/stat.h>
+#endif
 
 namespace sensornoise
 {
+namespace
+{
+namespace fs = std::filesystem;
+
+void
+RequireRegularFile(const std::string & name)
+{
+  std::error_code       error;
+  const fs::file_status status = fs::status(name, error);
+  switch (status.type())
+  {
+    case fs::file_type::regular:
+      return;
+    case fs::file_type::not_found:
+      throw FileError(name, "does not exist; expected an image file");
+    case fs::file_type::directory:
+      throw FileError(name, "is a folder; expected an image file");
+    case fs::file_type::fifo:
+    case fs::file_type::socket:
+    case fs::file_type::block:
+    case fs::file_type::character:
+      throw FileError(name, "is a pipe, a socket or a device; expected an image file");
+    default:
+      throw FileError(name, "cannot be looked up (" + error.message() + "); expected an image file");
+  }
+}
+} // namespace
+
+bool
+operator==(const FileIdentity & a, const FileIdentity & b)
+{
+  return AreSameFile(a, b) && a.size == b.size && a.modified == b.modified && a.statusChange == b.statusChange;
+}
+
+#if defined(__unix__) || defined(__APPLE__)
+
+bool
+AreSameFile(const FileIdentity & a, const FileIdentity & b)
+{
+  return a.device == b.device && a.inode == b.inode;
+}
+
+FileIdentity
+IdentityOf(const std::string & name)
+{
+  RequireRegularFile(name);
+  struct stat found = {};
+  if (stat(name.c_str(), &found) != 0)
+  {
+    throw FileError(name, "does not exist; expected an image file");
+  }
+#  if defined(__APPLE__)
+  const timespec modified = found.st_mtimespec;
+  const timespec changed = found.st_ctimespec;
+#  else
+  const timespec modified = found.st_mtim;
+  const timespec changed = found.st_ctim;
+#  endif
+  const auto nanoseconds = [](const timespec & time) {
+    return std::int64_t{ time.tv_sec } * 1000000000 + time.tv_nsec;
+  };
+  return { name,
+           static_cast<std::uint64_t>(found.st_dev),
+           static_cast<std::uint64_t>(found.st_ino),
+           static_cast<std::uint64_t>(found.st_size),
+           nanoseconds(modified),
+           nanoseconds(changed) };
+}
+
+#else
+
+bool
+AreSameFile(const FileIdentity & a, const FileIdentity & b)
+{
+  std::error_code error;
+  return fs::equivalent(a.name, b.name, error);
+}
+
+FileIdentity
+IdentityOf(const std::string & name)
+{
+  RequireRegularFile(name);
+  using std::chrono::duration_cast;
+  using std::chrono::nanoseconds;
+  const auto modified = fs::last_write_time(name).time_since_epoch();
+  return { name, 0, 0, fs::file_size(name), duration_cast<nanoseconds>(modified).count(), 0 };
+}
+
+#endif
+
+FileIdentity
+IdentityOfDataFile(const std::string & file, const std::string & dataFile)
+{
+  try
+  {
+    return IdentityOf(dataFile);
+  }
+  catch (const FileError & error)
+  {
+    throw FileError(file, "its data file " + std::string(error.what()));
+  }
+}
+
 namespace
 {
 /** In front of what is wrong with a data file. */
@@ -76,6 +182,114 @@ ByteReader::Fill()
   m_Used = 0;
   m_Offset += m_Held;
   return m_Held > 0;
+}
+
+namespace
+{
+/** Whether what begins at `offset` follows what ends at `end`. Writers fill strips up to words of four bytes, which
+ * leaves no room for a table between; between tables there may be a strip of a byte. */
+bool
+Follows(std::uint64_t end, std::uint64_t offset, bool areTables)
+{
+  return offset >= end && offset - end <= (areTables ? 0 : 3);
+}
+} // namespace
+
+void
+ByteRanges::Join(std::vector<Range> & ranges, bool mayShare)
+{
+  std::sort(ranges.begin(), ranges.end());
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < ranges.size(); ++i)
+  {
+    if (Follows(ranges[last].second, ranges[i].first, mayShare) || (mayShare && ranges[i].first < ranges[last].second))
+    {
+      ranges[last].second = std::max(ranges[last].second, ranges[i].second);
+    }
+    else
+    {
+      ranges[++last] = ranges[i];
+    }
+  }
+  ranges.resize(std::min(ranges.size(), last + 1));
+}
+
+bool
+ByteRanges::Add(std::vector<Range> & ranges, std::uint64_t offset, std::uint64_t count, bool mayShare)
+{
+  if (count == 0)
+  {
+    return true;
+  }
+  if (!ranges.empty() && Follows(ranges.back().second, offset, mayShare))
+  {
+    ranges.back().second = offset + count;
+    return true;
+  }
+  if (ranges.size() == MaximumRanges)
+  {
+    Join(ranges, mayShare);
+    if (ranges.size() > MaximumRanges / 2)
+    {
+      return false; // else it would soon be due again, and again
+    }
+  }
+  ranges.emplace_back(offset, offset + count);
+  return true;
+}
+
+std::optional<std::uint64_t>
+ByteRanges::FirstConflict()
+{
+  Join(m_Pixels, false);
+  Join(m_Tables, true);
+  std::size_t   table = 0;
+  std::uint64_t tablesEnd = 0; // of those that begin before the pixels' range
+  for (std::size_t i = 0; i < m_Pixels.size(); ++i)
+  {
+    const Range & pixels = m_Pixels[i];
+    if (i > 0 && pixels.first < m_Pixels[i - 1].second)
+    {
+      return pixels.first;
+    }
+    for (; table < m_Tables.size() && m_Tables[table].first <= pixels.first; ++table)
+    {
+      tablesEnd = std::max(tablesEnd, m_Tables[table].second);
+    }
+    if (tablesEnd > pixels.first)
+    {
+      return pixels.first;
+    }
+    if (table < m_Tables.size() && m_Tables[table].first < pixels.second)
+    {
+      return m_Tables[table].first;
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<ByteRanges::Range>
+ByteRanges::Gaps(std::uint64_t size)
+{
+  Join(m_Pixels, false);
+  Join(m_Tables, true);
+  std::vector<Range> gaps;
+  std::uint64_t      end = 0;
+  const auto         add = [&gaps, &end](std::uint64_t next) {
+    if (next > end)
+    {
+      gaps.emplace_back(end, next);
+    }
+  };
+  for (std::size_t i = 0, k = 0; i < m_Pixels.size() || k < m_Tables.size();)
+  {
+    const bool    isTable = i == m_Pixels.size() || (k < m_Tables.size() && m_Tables[k] < m_Pixels[i]);
+    const Range & range = isTable ? m_Tables[k++] : m_Pixels[i++];
+    add(range.first);
+    end = std::max(end, range.second);
+  }
+  add(size);
+  return gaps;
 }
 
 } // namespace sensornoise

@@ -2,23 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/FrameFormats.h"
 
-#include "files/FitsFile.h"
-#include "files/MetaImageFile.h"
-#include "files/MrawFile.h"
-#include "files/NpyFile.h"
-#include "files/NrrdFile.h"
-#include "files/PngFile.h"
-#include "files/PnmFile.h"
-#include "files/RawCameraFile.h"
-#include "files/SerFile.h"
-#include "files/TiffFile.h"
-
 #include <algorithm>
 #include <cstddef>
 
 namespace sensornoise
 {
-
 const std::vector<FrameFormat> &
 FrameFormats()
 {

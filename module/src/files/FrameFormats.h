@@ -3,9 +3,9 @@
 #ifndef sensornoise_files_FrameFormats_h
 #define sensornoise_files_FrameFormats_h
 
+#include "sensornoise/FrameFile.h"
 #include "SensorNoiseExport.h"
 #include "files/FileBytes.h"
-#include "sensornoise/FrameFile.h"
 
 #include <initializer_list>
 #include <string>
@@ -14,7 +14,8 @@
 namespace sensornoise
 {
 
-/** A format that is read: a line of the table in FrameFormats.cxx, which is all that knows of it but its own files. */
+/** A format that is read: a line of the table in FrameFormats.cxx, which with its functions below is all that knows of
+ * it but its own files. */
 struct FrameFormat
 {
   const char * name{ nullptr };       ///< as sentences call it
@@ -55,6 +56,137 @@ HasEnding(const std::string & name, std::initializer_list<const char *> endings)
 /** What is expected of a file: "TIFF, PNG, MetaImage or NRRD". */
 SensorNoise_EXPORT std::string
 NamesOfFrameFormats();
+
+// The functions of each format, in the order of the table; their bodies are in <Name>File.cxx.
+
+/** Whether a file is a raw file of a camera: DNG, CR2, CR3, NEF, ARW, RAF, ORF, RW2 and others. Most of them begin as a
+ * TIFF does: then its first directory and those below are read for the version of DNG or for the colours of a mosaic,
+ * and where these are not to be found the ending of the name tells. */
+bool
+IsHeadOfRawCamera(const std::string & head, const std::string & name);
+
+/** Whether this build reads raw files of cameras: SensorNoise_USE_LibRaw. */
+SensorNoise_EXPORT bool
+ReadsRawCameraFiles();
+
+/** Fills in what the raw file of a camera says of itself, by LibRaw, and all of `FrameFile::camera`. \a file has its
+ * name and identity. A frame has the codes of the visible area as they are in the file, without black level, white
+ * balance or colours: unsigned short, one a pixel. All of them are decoded for the check, and not kept.
+ *
+ * Throws FileError without LibRaw, for a file that LibRaw cannot read, which ends before its pixels do or whose decoder
+ * meets an error, for several colours a pixel, several frames, and what is known to be compressed with loss. Of a DNG
+ * it is also checked that its directory, its strips or tiles, and LibRaw say the same (RequireWholeRawTiff()). */
+void
+InspectRawCamera(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
+
+/** Whether a file begins as a TIFF, or a BigTIFF, of either byte order. */
+bool
+IsHeadOfTiff(const std::string & head, const std::string & name);
+
+/** Fills in what a TIFF, or a BigTIFF, says of itself. \a file has its name and identity. Throws FileError unless its
+ * pages are all there, of one size and kind, and TiffStrips has nothing against them. */
+void
+InspectTiff(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
+
+/** Whether a file begins as a PNG. */
+bool
+IsHeadOfPng(const std::string & head, const std::string & name);
+
+/** Fills in what a PNG file says of itself. \a file has its name and identity. Throws FileError unless all of its
+ * chunks are there, in the right order and with the right checksums, and its pixels are grey values of 8 or 16 bits
+ * that inflate to exactly as many as it declares. */
+void
+InspectPng(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
+
+/** Whether a file may be a MetaImage, which has no mark of its own: its name ends as one, and fields begin. */
+bool
+IsHeadOfMetaImage(const std::string & head, const std::string & name);
+
+/** Fills in what a MetaImage says of itself. \a file has its name and identity. Throws FileError unless all of its
+ * pixels are there, in the file or in data files. */
+void
+InspectMetaImage(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
+
+/** The paths of the files that hold its pixels. Throws FileError where the header cannot be read. */
+std::vector<std::string>
+DataFilesOfMetaImage(FileBytes & bytes, const std::string & name);
+
+/** Whether a file begins as a NRRD file, whatever its name. */
+bool
+IsHeadOfNrrd(const std::string & head, const std::string & name);
+
+/** Fills in what a NRRD file says of itself. \a file has its name and identity. Throws FileError unless all of its
+ * pixels are there, raw or in a stream of gzip that is whole, in the file or in data files. */
+void
+InspectNrrd(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
+
+/** The paths of the files that hold its pixels. Throws FileError where the header cannot be read. */
+std::vector<std::string>
+DataFilesOfNrrd(FileBytes & bytes, const std::string & name);
+
+/** Whether a file begins as a SER, the format of astronomers' recordings. */
+bool
+IsHeadOfSer(const std::string & head, const std::string & name);
+
+/** Fills in what a SER says of itself: "SER format description version 3" of G. Hahn, 2014. \a file has its name and
+ * identity. Throws FileError unless it holds exactly the frames that it declares, with or without a time for each, and
+ * of one value a pixel. Of a file that says 0 frames, because the program that wrote it did not close it, all whole
+ * frames are read, and FrameFile::warning says so.
+ *
+ * Of the order of the bytes the description says one thing, and the first programs wrote the other, so that today
+ * either is found. It is taken to be as the programs have it (LittleEndian 0: lowest byte first), unless the first
+ * frame says otherwise: in the wrong order neighbours differ much more. */
+void
+InspectSer(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
+
+/** Whether a file is one of the two of a recording of a Photron camera, which have no mark of their own: by its name,
+ * .mraw, or .cihx or .cih. */
+bool
+IsHeadOfMraw(const std::string & head, const std::string & name);
+
+/** Fills in what a recording of a Photron camera says of itself: the pixels in a .mraw file, their size and number in a
+ * .cihx or .cih file of the same name beside it. \a file is either and has its name and identity. Throws FileError
+ * unless both are there, and the pixels are exactly those of the header. */
+void
+InspectMraw(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
+
+/** The path of the other file of a recording. Throws FileError where it is missing. */
+std::vector<std::string>
+DataFilesOfMraw(FileBytes & bytes, const std::string & name);
+
+/** Whether a file begins as FITS does. */
+SensorNoise_EXPORT bool
+IsHeadOfFits(const std::string & head, const std::string & name);
+
+/** Reads the headers of all units of a FITS file. Exactly one of them must be an image: a frame has two axes, a stack
+ * three.
+ *
+ * Integers with the BZERO of unsigned ones are read as these. Where BSCALE, BZERO or BLANK say something else, values
+ * are read as double: BZERO + BSCALE times the number, NaN for BLANK. Rows are read in the order of the file. Throws
+ * FileError for compressed images, for several images, for integers of 64 bits, and where DATASUM does not fit the
+ * data. FITS standard, version 4. */
+SensorNoise_EXPORT void
+InspectFits(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
+
+/** Whether a file begins as those of numpy.save() do. */
+SensorNoise_EXPORT bool
+IsHeadOfNpy(const std::string & head, const std::string & name);
+
+/** Reads the header of a NPY file, versions 1 to 3: an array of two axes (rows, columns) is a frame, one of three
+ * (frames, rows, columns) a stack. Throws FileError unless its bytes are exactly the pixels that it declares, in C
+ * order and of a type that StoredNumber or FramePixel has. numpy.lib.format describes the format. */
+SensorNoise_EXPORT void
+InspectNpy(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
+
+/** Whether a file begins as Netpbm's formats do: PBM, PGM, PPM. */
+SensorNoise_EXPORT bool
+IsHeadOfPnm(const std::string & head, const std::string & name);
+
+/** Reads the headers of a binary PGM file (P5, 8 or 16 bits). It may have several images, one after the other: frames.
+ * Throws FileError unless all are whole and alike, and for colours, text and bitmaps. A maximum of 2^n -
+ * 1 is taken for n bits of the camera. */
+SensorNoise_EXPORT void
+InspectPnm(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
 } // namespace sensornoise
 

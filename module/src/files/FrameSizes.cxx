@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/FrameSizes.h"
 
-#include "sensornoise/FrameFile.h"
-
-#include <cstddef>
+#include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace sensornoise
 {
-
 std::size_t
 SizeOf(FramePixel pixel)
 {
@@ -89,6 +87,98 @@ std::string
 SeveralComponents(std::uint64_t components)
 {
   return std::to_string(components) + " components a pixel; expected 1 grey value";
+}
+
+namespace
+{
+/** From the last number to the first: a pixel is longer than a number, and covers no number before its own. */
+template <typename TStored>
+void
+WidenInPlace(std::size_t count, void * numbers)
+{
+  static_assert(sizeof(TStored) <= sizeof(double), "a pixel has room for its number");
+  auto * const bytes = static_cast<char *>(numbers);
+  for (std::size_t i = count; i-- > 0;)
+  {
+    TStored number;
+    std::memcpy(&number, bytes + i * sizeof(TStored), sizeof(TStored));
+    const auto pixel = static_cast<double>(number);
+    std::memcpy(bytes + i * sizeof(double), &pixel, sizeof(double));
+  }
+}
+} // namespace
+
+std::size_t
+SizeOf(FramePixel pixel, StoredNumber stored)
+{
+  return stored == StoredNumber::SameAsPixel ? SizeOf(pixel) : sizeof(std::uint32_t);
+}
+
+std::string
+NameOf(FramePixel pixel, StoredNumber stored)
+{
+  return stored == StoredNumber::SameAsPixel ? NameOf(pixel) : stored == StoredNumber::Int ? "int" : "unsigned int";
+}
+
+std::uint64_t
+StoredBytesOf(const FrameFile & file)
+{
+  return file.bytes / SizeOf(file.pixel) * SizeOf(file.pixel, file.stored);
+}
+
+void
+ConvertStored(StoredNumber stored, std::size_t count, void * numbers)
+{
+  switch (stored)
+  {
+    case StoredNumber::SameAsPixel:
+      return;
+    case StoredNumber::UnsignedInt:
+      WidenInPlace<std::uint32_t>(count, numbers);
+      return;
+    case StoredNumber::Int:
+      WidenInPlace<std::int32_t>(count, numbers);
+      return;
+  }
+}
+
+namespace
+{
+double
+DeterminantOf(const std::array<std::array<double, 3>, 3> & m)
+{
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+} // namespace
+
+StackGeometry
+UsableGeometry(const StackGeometry & given)
+{
+  StackGeometry geometry;
+  StackGeometry turned = given;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double spacing = given.spacing[axis];
+    if (std::isfinite(spacing) && spacing != 0.0)
+    {
+      geometry.spacing[axis] = std::abs(spacing);
+    }
+    if (std::isfinite(given.origin[axis]))
+    {
+      geometry.origin[axis] = given.origin[axis];
+    }
+    for (std::size_t row = 0; row < 3; ++row)
+    {
+      turned.direction[row][axis] = (spacing < 0.0 ? -1.0 : 1.0) * given.direction[row][axis];
+    }
+  }
+  const double determinant = DeterminantOf(turned.direction);
+  if (std::isfinite(determinant) && determinant != 0.0)
+  {
+    geometry.direction = turned.direction;
+  }
+  return geometry;
 }
 
 } // namespace sensornoise

@@ -4,7 +4,9 @@
 #define sensornoise_files_FrameSizes_h
 
 #include "sensornoise/FrameFile.h"
+#include "SensorNoiseExport.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -33,6 +35,28 @@ UnsupportedPixel(const std::string & name);
 /** The words that refuse pixels of more than a value. */
 std::string
 SeveralComponents(std::uint64_t components);
+
+/** The size in bytes of a pixel in the file. */
+SensorNoise_EXPORT std::size_t
+SizeOf(FramePixel pixel, StoredNumber stored);
+
+/** The type of a pixel in the file, as C++ calls it. */
+SensorNoise_EXPORT std::string
+NameOf(FramePixel pixel, StoredNumber stored);
+
+/** The bytes of all pixels in the file, uncompressed. */
+SensorNoise_EXPORT std::uint64_t
+StoredBytesOf(const FrameFile & file);
+
+/** Converts \a count numbers, which lie at the beginning of \a numbers in this machine's byte order, to pixels in
+ * place. The buffer has room for as many pixels. */
+SensorNoise_EXPORT void
+ConvertStored(StoredNumber stored, std::size_t count, void * numbers);
+
+/** Returns a geometry as a header gives it with the default in place of what an image cannot have. A spacing below 0 is
+ * a direction turned around. */
+StackGeometry
+UsableGeometry(const StackGeometry & given);
 
 } // namespace sensornoise
 

@@ -5,19 +5,103 @@
 
 #  include "base/FreeMemory.h"
 #  include "sensornoise/FrameFile.h"
+#  include "files/FileBytes.h"
 #  include "files/LibRawSettings.h"
-#  include "files/LibRawStream.h"
 
 #  include <libraw/libraw.h>
 
 #  include <algorithm>
+#  include <atomic>
+#  include <cstdio>
+#  include <cstring>
 #  include <exception>
-#  include <string>
 
 namespace sensornoise
 {
 namespace
 {
+/** A file as LibRaw reads it, which tells whether it was asked for bytes behind its end: many of LibRaw's decoders take
+ * these for zeros, and say nothing. */
+class LibRawStream : public LibRaw_bigfile_datastream
+{
+public:
+  explicit LibRawStream(const std::string & file);
+
+  /** From here on; what reads a header may look too far. */
+  void
+  WatchForEnd()
+  {
+    m_Watches = true;
+  }
+
+  bool
+  HasEnded() const
+  {
+    return m_HasEnded;
+  }
+
+  int
+  read(void * buffer, size_t size, size_t count) override;
+  int
+  get_char() override;
+
+private:
+  /** What a decoder gets at the end: an exception, unless it may run in several threads, which no exception leaves. */
+  void
+  OnEnd();
+
+  bool              m_Watches{ false };
+  bool              m_ReadsBlocks{ false }; // of a fixed size, also the last
+  bool              m_MayThrow{ false };
+  std::atomic<bool> m_HasEnded{ false };
+};
+
+LibRawStream::LibRawStream(const std::string & file)
+  : LibRaw_bigfile_datastream(file.c_str())
+{
+  if (!valid())
+  {
+    throw FileError(file, "cannot be read");
+  }
+  char      head[4] = {};
+  FileBytes bytes(file);
+  bytes.ReadSome(0, head, sizeof(head));
+  m_MayThrow = std::memcmp(head, "II", 2) == 0 || std::memcmp(head, "MM", 2) == 0;
+  m_ReadsBlocks = std::memcmp(head, "IIU", 3) == 0; // Panasonic's
+}
+
+int
+LibRawStream::read(void * buffer, size_t size, size_t count)
+{
+  const int found = LibRaw_bigfile_datastream::read(buffer, size, count);
+  if (m_Watches && size != 0 && found < static_cast<int>(count) && (found <= 0 || !m_ReadsBlocks))
+  {
+    OnEnd();
+  }
+  return found;
+}
+
+int
+LibRawStream::get_char()
+{
+  const int found = LibRaw_bigfile_datastream::get_char();
+  if (m_Watches && found == EOF)
+  {
+    OnEnd();
+  }
+  return found;
+}
+
+void
+LibRawStream::OnEnd()
+{
+  m_HasEnded = true;
+  if (m_MayThrow)
+  {
+    throw LIBRAW_EXCEPTION_IO_EOF;
+  }
+}
+
 /** Calls LibRaw, whose errors come as numbers, and some as exceptions. Returns the words for an error, or nothing. */
 template <typename TCall>
 std::string

@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/NpyFile.h"
+#include "files/FrameFormats.h"
 
 #include "files/ByteOrder.h"
-#include "sensornoise/FrameFile.h"
+#include "files/FrameReader.h"
 #include "files/FrameSizes.h"
-#include "files/PackedFrames.h"
-#include "files/StoredNumber.h"
 #include "files/TextHeader.h"
 
 #include <algorithm>
@@ -14,7 +12,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 namespace sensornoise
 {

@@ -1,14 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/PngFile.h"
+#include "files/FrameFormats.h"
 
-#include "sensornoise/FrameFile.h"
 #include "files/FrameReader.h"
 #include "files/FrameSizes.h"
 #include "files/Inflate.h"
 #include "files/PngChunks.h"
-#include "files/PngRows.h"
-#include "files/SamplePacking.h"
 #include "files/TextHeader.h"
 
 #include <algorithm>
@@ -17,7 +14,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 
 namespace sensornoise
 {

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/PnmFile.h"
+#include "files/FrameFormats.h"
 
-#include "sensornoise/FrameFile.h"
+#include "files/FrameReader.h"
 #include "files/FrameSizes.h"
-#include "files/PackedFrames.h"
 
 #include <array>
 #include <cstddef>

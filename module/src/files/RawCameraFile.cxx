@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/RawCameraFile.h"
-
-#include "sensornoise/FrameFile.h"
 #include "files/FrameFormats.h"
+
+#include "files/FrameReader.h"
 #include "files/FrameSizes.h"
 #include "files/LibRawFrame.h"
 #include "files/RawTiff.h"
 #include "files/TiffDirectory.h"
-#include "files/FrameReader.h"
 
 #include <algorithm>
 #include <cctype>

@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/RawLayout.h"
 
-#include "files/ByteOrders.h"
+#include "files/ByteOrder.h"
 #include "files/FileBytes.h"
 #include "files/FrameFormats.h"
 #include "files/FrameSizes.h"
-#include "files/PackedFrames.h"
-#include "files/StoredNumber.h"
+#include "files/FrameReader.h"
 #include "files/TextHeader.h"
-#include "files/FileIdentity.h"
 
 #include <algorithm>
 #include <array>

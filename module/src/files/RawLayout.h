@@ -6,7 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/CameraSettings.h"
 #include "sensornoise/FrameFile.h"
-#include "files/SamplePacking.h"
+#include "files/FrameReader.h"
 
 #include <cstdint>
 #include <string>

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/RawTiff.h"
 
-#include "files/ByteRanges.h"
+#include "files/FileBytes.h"
 #include "sensornoise/FrameFile.h"
-#include "files/LosslessJpeg.h"
+#include "files/CompressedStrips.h"
 #include "files/TiffDirectory.h"
-#include "files/TiffTags.h"
 
 #include <algorithm>
 #include <optional>

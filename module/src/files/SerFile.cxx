@@ -1,17 +1,15 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/SerFile.h"
+#include "files/FrameFormats.h"
 
-#include "files/ByteOrders.h"
-#include "sensornoise/FrameFile.h"
+#include "files/ByteOrder.h"
+#include "files/FrameReader.h"
 #include "files/FrameSizes.h"
-#include "files/PackedFrames.h"
 #include "files/TextHeader.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <vector>
 
 namespace sensornoise
 {

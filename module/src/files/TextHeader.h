@@ -57,6 +57,10 @@ private:
 std::string
 WithoutBlanks(const std::string & text);
 
+/** With small letters, of ASCII. */
+std::string
+InSmallLetters(std::string text);
+
 /** The characters of ASCII that are no control characters, without blanks around them, at most 100. */
 std::string
 PrintableText(const std::string & text);

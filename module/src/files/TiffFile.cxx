@@ -1,12 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/TiffFile.h"
+#include "files/FrameFormats.h"
 
-#include "sensornoise/FrameFile.h"
+#include "files/FrameReader.h"
 #include "files/FrameSizes.h"
-#include "files/PackedFrames.h"
-#include "files/StoredNumber.h"
-#include "files/TiffDescription.h"
 #include "files/TiffDirectory.h"
 #include "files/TiffFrames.h"
 #include "files/TiffPage.h"
@@ -17,10 +14,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 #include <unordered_set>
 #include <utility>
-#include <vector>
 
 namespace sensornoise
 {

@@ -5,10 +5,10 @@
 #include "files/FileBytes.h"
 #include "sensornoise/FrameFile.h"
 #include "files/Inflate.h"
-#include "files/SamplePacking.h"
-#include "files/StoredNumber.h"
+#include "files/FrameReader.h"
+#include "files/FrameSizes.h"
 #include "files/TiffDirectory.h"
-#include "files/TiffLzw.h"
+#include "files/CompressedStrips.h"
 #include "files/TiffPage.h"
 
 #include <algorithm>

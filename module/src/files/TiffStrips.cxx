@@ -4,8 +4,8 @@
 
 #include "sensornoise/FrameFile.h"
 #include "files/Inflate.h"
-#include "files/StoredNumber.h"
-#include "files/TiffLzw.h"
+#include "files/FrameSizes.h"
+#include "files/CompressedStrips.h"
 
 #include <algorithm>
 

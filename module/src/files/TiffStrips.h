@@ -3,7 +3,7 @@
 #ifndef sensornoise_files_TiffStrips_h
 #define sensornoise_files_TiffStrips_h
 
-#include "files/ByteRanges.h"
+#include "files/FileBytes.h"
 #include "files/TiffDirectory.h"
 #include "files/TiffPage.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#ifndef sensornoise_files_TiffLzw_h
-#define sensornoise_files_TiffLzw_h
+#ifndef sensornoise_files_CompressedStrips_h
+#define sensornoise_files_CompressedStrips_h
 
 #include "files/FileBytes.h"
 
@@ -29,6 +29,12 @@ LengthOfLzw(FileBytes &     bytes,
             std::uint64_t   expected,
             std::uint64_t   whole,
             unsigned char * out = nullptr);
+
+/** How many samples the JPEG without loss (ITU-T T.81, Annex H: SOF3) in these bytes declares. Throws FileError, of
+ * which \a piece begins the sentence, where it is another JPEG, which loses something, or none, or where its only scan
+ * does not go on to the end of the image within these bytes. */
+std::uint64_t
+SamplesOfLosslessJpeg(const std::string & piece, FileBytes & bytes, std::uint64_t offset, std::uint64_t count);
 
 } // namespace sensornoise
 
