@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/NoiseExport.h"
 
-#include "exports/AndroidExport.h"
-#include "exports/CareamicsExport.h"
-#include "exports/LibcameraExport.h"
+#include "exports/BinaryExports.h"
+#include "exports/FittedExports.h"
 #include "exports/LineExports.h"
-#include "exports/MapExport.h"
-#include "exports/RecordExports.h"
 #include "exports/SensorExports.h"
 #include "report/JsonWriter.h"
 

@@ -1,0 +1,290 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "exports/FittedExports.h"
+
+#include "base/Text.h"
+#include "exports/ExportInput.h"
+#include "report/JsonWriter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+namespace
+{
+/** One equation: first x + second y = wanted. */
+struct TwoTerms
+{
+  double first{ 0.0 };
+  double second{ 0.0 };
+  double wanted{ 0.0 };
+};
+
+/** The least value that errors are relative to [variance of levels from 0 to 1, or DN of 16 bits]: far below one
+ * electron of any sensor, and above 0. */
+constexpr double leastWanted = 1e-30;
+
+/** Solves equations for (x, y) by least squares of relative errors. Where \a isPositive, neither is below 0. */
+std::array<double, 2>
+SolveRelative(const std::vector<TwoTerms> & equations, bool isPositive)
+{
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+  double xw = 0.0;
+  double yw = 0.0;
+  for (const TwoTerms & each : equations)
+  {
+    const double weight = std::pow(std::max(each.wanted, leastWanted), -2.0);
+    xx += weight * each.first * each.first;
+    xy += weight * each.first * each.second;
+    yy += weight * each.second * each.second;
+    xw += weight * each.first * each.wanted;
+    yw += weight * each.second * each.wanted;
+  }
+  const double          determinant = xx * yy - xy * xy;
+  std::array<double, 2> solved{ (xw * yy - yw * xy) / determinant, (yw * xx - xw * xy) / determinant };
+  if (isPositive && solved[0] < 0.0)
+  {
+    solved = { 0.0, yw / yy };
+  }
+  else if (isPositive && solved[1] < 0.0)
+  {
+    solved = { xw / xx, 0.0 };
+  }
+  return solved;
+}
+
+/** The model of one channel. */
+struct AndroidChannel
+{
+  std::array<double, 2> scale{};  // A, B
+  std::array<double, 2> offset{}; // C, D
+  double                misfit{ 0.0 };
+};
+
+double
+DigitalGainOf(const CameraNoise & noise)
+{
+  return noise.maxAnalogueIso ? std::max(1.0, *noise.isoSpeed / *noise.maxAnalogueIso) : 1.0;
+}
+
+AndroidChannel
+FitAndroidChannel(const std::vector<CameraNoise> & settings, std::size_t channel)
+{
+  std::vector<TwoTerms> scales;
+  std::vector<TwoTerms> offsets;
+  for (const CameraNoise & noise : settings)
+  {
+    const NormalisedLine line = NormalisedLineOf(noise, noise.channels[channel]);
+    const double         iso = *noise.isoSpeed;
+    const double         digital = DigitalGainOf(noise);
+    scales.push_back({ iso, 1.0, line.scale });
+    offsets.push_back({ iso * iso, digital * digital, line.offset });
+  }
+  AndroidChannel model{ SolveRelative(scales, false), SolveRelative(offsets, true) };
+  for (std::size_t i = 0; i < settings.size(); ++i)
+  {
+    for (const double level : { 0.0, 0.1, 1.0 }) // of the range: dark, dim and bright
+    {
+      const double fitted = (scales[i].first * model.scale[0] + model.scale[1]) * level +
+                            offsets[i].first * model.offset[0] + offsets[i].second * model.offset[1];
+      const double measured = scales[i].wanted * level + offsets[i].wanted;
+      model.misfit = measured > 0.0 ? std::max(model.misfit, std::abs(fitted / measured - 1.0)) : model.misfit;
+    }
+  }
+  return model;
+}
+
+void
+RequireAlike(const std::vector<CameraNoise> & settings)
+{
+  std::set<double> speeds;
+  for (const CameraNoise & noise : settings)
+  {
+    if (!noise.isoSpeed || !(*noise.isoSpeed > 0.0))
+    {
+      throw ExportError("the report " + noise.name +
+                        " has no ISO speed, as its files do not have one; android needs the ISO speed of each report");
+    }
+    if (noise.channels.size() != settings.front().channels.size())
+    {
+      throw ExportError("the reports " + settings.front().name + " and " + noise.name + " have " +
+                        std::to_string(settings.front().channels.size()) + " and " +
+                        std::to_string(noise.channels.size()) + " channels; expected the reports of one camera");
+    }
+    speeds.insert(*noise.isoSpeed);
+  }
+  if (speeds.size() < 2)
+  {
+    throw ExportError("all reports have the ISO speed " + Text(*speeds.begin()) +
+                      "; expected 2 or more different ISO speeds. Measure a burst at another one.");
+  }
+}
+} // namespace
+
+NoiseExport
+ExportAndroid(const std::vector<CameraNoise> & settings)
+{
+  RequireAlike(settings);
+  std::vector<std::string>           names;
+  std::array<std::vector<double>, 4> coefficients;
+  double                             misfit = 0.0;
+  for (std::size_t channel = 0; channel < settings.front().channels.size(); ++channel)
+  {
+    const std::string    name = settings.front().channels[channel].channel;
+    const AndroidChannel model = FitAndroidChannel(settings, channel);
+    names.push_back(name == "G1" ? "Gr" : name == "G2" ? "Gb" : name);
+    coefficients[0].push_back(model.scale[0]);
+    coefficients[1].push_back(model.scale[1]);
+    coefficients[2].push_back(model.offset[0]);
+    coefficients[3].push_back(model.offset[1]);
+    misfit = std::max(misfit, model.misfit);
+  }
+  std::string text;
+  JsonWriter  json(text);
+  json.Object([&] {
+    json.Member("channels", names);
+    json.Member("noise_model_A", coefficients[0]).Member("noise_model_B", coefficients[1]);
+    json.Member("noise_model_C", coefficients[2]).Member("noise_model_D", coefficients[3]);
+    json.Member("max_analog_iso", settings.front().maxAnalogueIso);
+  });
+  return OneFile("android_noise_model.json",
+                 text + '\n',
+                 "The fitted variance differs from the measured variance by " + Percent(misfit) + " at most.");
+}
+
+namespace
+{
+constexpr double       slopeFactor = 1.4; // rpi-ctt 1.4.0 multiplies its slope by it
+constexpr int          levels = 4096;     // of the fit, at even distances of the root of the signal
+constexpr unsigned int scaleBits = 16;    // libcamera's levels
+
+/** The standard deviation c + s r at the root r of the signal, on libcamera's scale. */
+struct RootLine
+{
+  double constant{ 0.0 };
+  double slope{ 0.0 };
+};
+
+/** The variance slope m + dark of the signal m, on libcamera's scale, up to the white level. */
+struct ScaledVariance
+{
+  double slope{ 0.0 };
+  double dark{ 0.0 };
+  double highestRoot{ 0.0 };
+
+  double
+  RootOfLevel(int level) const
+  {
+    return highestRoot * level / (levels - 1);
+  }
+  double
+  DeviationAt(double root) const
+  {
+    return std::sqrt(slope * root * root + dark);
+  }
+};
+
+/** Libcamera's levels per DN. */
+double
+DnScaleOf(const CameraNoise & noise)
+{
+  return std::exp2(scaleBits - *noise.bitDepth) / noise.analogueGain;
+}
+
+ScaledVariance
+ScaleVariance(const CameraNoise & noise)
+{
+  if (!noise.bitDepth || *noise.bitDepth < 1 || *noise.bitDepth > scaleBits)
+  {
+    throw ExportError(
+      "the report " + noise.name +
+      " has no bit depth from 1 to 16, which libcamera's scale needs. Estimate the noise of frames with "
+      "integer values.");
+  }
+  const double   range = WhiteLevelOf(noise) - BlackLevelOf(noise);
+  NormalisedLine mean;
+  for (const ChannelNoise & channel : noise.channels)
+  {
+    const NormalisedLine line = NormalisedLineOf(noise, channel);
+    mean.scale += line.scale / static_cast<double>(noise.channels.size());
+    mean.offset += line.offset / static_cast<double>(noise.channels.size());
+  }
+  const double scaledRange = range * DnScaleOf(noise);
+  return { mean.scale * scaledRange, mean.offset * scaledRange * scaledRange, std::sqrt(scaledRange) };
+}
+
+/** Least squares of the relative error; with a constant of 0 where it would be negative. */
+RootLine
+FitRootLine(const ScaledVariance & variance)
+{
+  std::vector<TwoTerms> equations;
+  for (int level = variance.dark > 0.0 ? 0 : 1; level < levels; ++level)
+  {
+    const double root = variance.RootOfLevel(level);
+    equations.push_back({ 1.0, root, variance.DeviationAt(root) });
+  }
+  const auto [constant, slope] = SolveRelative(equations, true);
+  return { constant, slope };
+}
+
+/** Relative errors of the standard deviation that is stored. */
+struct Misfit
+{
+  double rms{ 0.0 };
+  double largest{ 0.0 };
+  double signal{ 0.0 }; ///< of the largest, on libcamera's scale
+};
+
+Misfit
+MisfitOf(const RootLine & line, const ScaledVariance & variance)
+{
+  Misfit    misfit;
+  const int first = variance.dark > 0.0 ? 0 : 1;
+  for (int level = first; level < levels; ++level)
+  {
+    const double root = variance.RootOfLevel(level);
+    const double error = std::abs((line.constant + line.slope * root) / variance.DeviationAt(root) - 1.0);
+    misfit.rms += error * error / (levels - first);
+    if (error > misfit.largest)
+    {
+      misfit.largest = error;
+      misfit.signal = root * root;
+    }
+  }
+  misfit.rms = std::sqrt(misfit.rms);
+  return misfit;
+}
+} // namespace
+
+NoiseExport
+ExportLibcamera(const CameraNoise & noise)
+{
+  const ScaledVariance variance = ScaleVariance(noise);
+  const RootLine       line = FitRootLine(variance);
+  const double         constant = std::floor(line.constant);
+  const double         slope = std::round(1000.0 * slopeFactor * line.slope) / 1000.0;
+  std::string          text;
+  JsonWriter           json(text);
+  json.Object([&] {
+    json.ObjectMember("rpi.noise",
+                      [&] { json.Member("reference_constant", constant).Member("reference_slope", slope); });
+  });
+  const Misfit misfit = MisfitOf({ constant, slope / slopeFactor }, variance);
+  const double level = BlackLevelOf(noise) + misfit.signal / DnScaleOf(noise);
+  return OneFile("libcamera_noise.json",
+                 text + '\n',
+                 "The fitted standard deviation differs from the measured one by " + Percent(misfit.rms) +
+                   " (rms), and by " + Percent(misfit.largest) + " at most, at " + Rounded(level) +
+                   " DN. The slope is multiplied by 1.4, as by rpi-ctt. The analogue gain of the burst is taken as " +
+                   Text(noise.analogueGain) + '.');
+}
+
+} // namespace sensornoise
