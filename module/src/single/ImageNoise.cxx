@@ -10,7 +10,6 @@
 #include "single/BandTile.h"
 #include "single/Constants.h"
 #include "single/LevelSums.h"
-#include "single/StartingLine.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,6 @@
 #include "report/ExcessNoise.h"
 #include "report/StackSettings.h"
 #include "single/ImageNoise.h"
-#include "single/MeasuredPlane.h"
 #include "single/SingleImageReport.h"
 
 #include <algorithm>
