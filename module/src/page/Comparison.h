@@ -4,8 +4,8 @@
 #define sensornoise_page_Comparison_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/ReportText.h"
 #include "sensornoise/Report.h"
+#include "sensornoise/ReportText.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -99,6 +99,19 @@ struct Comparison
 /** Compares each row with the first of its channel. The variance's slope is left out where it is the gain. */
 SensorNoise_EXPORT Comparison
 MakeComparison(std::vector<ComparedReport> rows);
+
+/** Reports side by side as one HTML page that needs nothing else: what changed by more than its errors, in a sentence,
+ * and of each quantity a figure and a table of values and differences. */
+SensorNoise_EXPORT std::string
+ToHtml(const Comparison & comparison);
+
+/** The figures of the page as one SVG file. */
+SensorNoise_EXPORT std::string
+ToSvg(const Comparison & comparison);
+
+/** The same in letters of ASCII, a line a report and quantity. */
+SensorNoise_EXPORT std::string
+MakeText(const Comparison & comparison);
 
 } // namespace sensornoise
 

@@ -1,27 +1,270 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "page/ComparisonPage.h"
+#include "page/Comparison.h"
 
-#include "page/ComparisonFigure.h"
 #include "page/ComparisonWords.h"
 #include "page/HtmlText.h"
 #include "page/PageSections.h"
+#include "page/SvgPanel.h"
 #include "report/ReportJson.h"
 #include "sensornoise/Version.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace sensornoise
 {
 namespace
 {
+constexpr double      RowHeight = 26.0;
+constexpr double      RowsLeft = 184.0;
+constexpr double      RowsWidth = FigureWidth - RowsLeft - 12.0;
+constexpr double      BelowRows = 46.0; ///< ticks and the name of the axis
+constexpr std::size_t LongestName = 19; ///< letters that fit beside the rows
+
+/** Parts of UTF-8, by letters. */
+std::size_t
+LettersOf(const std::string & text)
+{
+  return static_cast<std::size_t>(
+    std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
 std::string
-NameOfRow(const Comparison & comparison, std::size_t row)
+Letters(const std::string & text, std::size_t first, std::size_t count)
+{
+  std::string part;
+  std::size_t letter = 0;
+  for (const char c : text)
+  {
+    letter += (static_cast<unsigned char>(c) & 0xC0U) != 0x80U ? 1 : 0;
+    part += letter > first && letter <= first + count ? std::string(1, c) : "";
+  }
+  return part;
+}
+
+/** Its beginning and its end, which tell names apart. */
+std::string
+Shortened(const std::string & text, std::size_t longest)
+{
+  const std::size_t letters = LettersOf(text);
+  if (letters <= longest)
+  {
+    return text;
+  }
+  const std::size_t ending = (longest - 1) / 2;
+  return Letters(text, 0, longest - 1 - ending) + "\u2026" + Letters(text, letters - ending, ending);
+}
+
+/** Whether all rows are compared with the same one: the reports are of one channel. */
+bool
+HasOneFirst(const ComparedQuantity & quantity)
+{
+  return std::all_of(
+    quantity.changes.begin(), quantity.changes.end(), [](const Change & change) { return change.first == 0; });
+}
+
+/** Name of a row for a figure: its number, its label, shortened to fit, and the channel of a mosaic. */
+std::string
+RowName(const Comparison & comparison, std::size_t row)
 {
   const ComparedReport & compared = comparison.rows[row];
-  return std::to_string(row + 1) + " " + compared.label +
-         (compared.report.channel == "mono" ? "" : " " + compared.report.channel);
+  const std::string      number = std::to_string(row + 1) + " ";
+  const std::string      channel = compared.report.channel == "mono" ? "" : " " + compared.report.channel;
+  const std::size_t      used = number.size() + LettersOf(channel);
+  return number + Shortened(compared.label, std::max<std::size_t>(LongestName, used + 4) - used) + channel;
+}
+
+/** The interval to draw: the 95 % one, else the errors'. */
+std::optional<Interval>
+DrawnInterval(const Quantity & quantity)
+{
+  if (quantity.interval95)
+  {
+    return quantity.interval95;
+  }
+  if (quantity.value && quantity.standardError)
+  {
+    return Interval{ *quantity.value - 1.96 * *quantity.standardError,
+                     *quantity.value + 1.96 * *quantity.standardError };
+  }
+  return std::nullopt;
+}
+
+bool
+IsDrawn(const std::optional<double> & number)
+{
+  return number && std::abs(*number) <= ExtremeValue; // no NaN
+}
+
+FiniteRange
+RangeOf(const Comparison & comparison, const ComparedQuantity & compared)
+{
+  FiniteRange range;
+  for (const ComparedReport & row : comparison.rows)
+  {
+    const Quantity & quantity = compared.Of(row);
+    if (!IsDrawn(quantity.value))
+    {
+      continue;
+    }
+    range.Add(*quantity.value);
+    if (const auto interval = DrawnInterval(quantity))
+    {
+      range.Add(IsDrawn(interval->low) ? *interval->low : *quantity.value);
+      range.Add(IsDrawn(interval->high) ? *interval->high : *quantity.value);
+    }
+  }
+  return range;
+}
+
+/** What stands where a point would. */
+std::string
+WordsWithout(const Quantity & quantity)
+{
+  if (quantity.status == EstimateStatus::UpperLimit)
+  {
+    return ValueText(quantity) + " (upper limit)";
+  }
+  if (quantity.value)
+  {
+    return ValueText(quantity); // of no use on an axis
+  }
+  const std::string range = RangeText(quantity);
+  return std::string(quantity.status == EstimateStatus::NotIdentifiable ? "not identifiable"
+                                                                        : NameOf(quantity.status)) +
+         (range.empty() ? "" : ": " + range);
+}
+
+std::string
+HorizontalBar(const SvgPanel & panel, double low, double high, double y)
+{
+  // ends far outside are cut off anyway
+  const double left = std::clamp(panel.X(low), -RowsWidth, 2.0 * RowsWidth);
+  const double right = std::clamp(panel.X(high), -RowsWidth, 2.0 * RowsWidth);
+  std::string  path = "M" + SvgNumber(left) + " " + SvgNumber(y) + "H" + SvgNumber(right);
+  for (const double end : { left, right })
+  {
+    path += "M" + SvgNumber(end) + " " + SvgNumber(y - 4.0) + "v8";
+  }
+  return "<path class=\"error\" d=\"" + path + "\"/>\n";
+}
+
+/** Value and interval of one row, or words. */
+void
+DrawRow(std::string & svg, SvgPanel & panel, const Quantity & quantity, double y, double height)
+{
+  if (!IsDrawn(quantity.value))
+  {
+    svg += "<text class=\"instead\" x=\"8\" y=\"" + SvgNumber(y + 5.0) + "\">" + Escaped(WordsWithout(quantity)) +
+           "</text>\n";
+    return;
+  }
+  const auto interval = DrawnInterval(quantity);
+  if (interval && IsDrawn(interval->low) && IsDrawn(interval->high))
+  {
+    svg += HorizontalBar(panel, *interval->low, *interval->high, y);
+  }
+  panel.Points(
+    { *quantity.value }, { height - y }, interval ? "after" : "before", interval ? PlotMarker::Disc : PlotMarker::Ring);
+}
+
+/** The first report's interval, where all are compared with it. */
+void
+DrawFirst(SvgPanel & panel, const Comparison & comparison, const ComparedQuantity & compared, double height)
+{
+  const auto interval = DrawnInterval(compared.Of(comparison.rows.front()));
+  if (HasOneFirst(compared) && interval && IsDrawn(compared.Of(comparison.rows.front()).value) &&
+      IsDrawn(interval->low) && IsDrawn(interval->high))
+  {
+    panel.Band({ *interval->low, *interval->high }, { 0.0, 0.0 }, { height, height }, "third");
+  }
+}
+
+double
+HeightOf(const Comparison & comparison)
+{
+  return RowHeight * static_cast<double>(comparison.rows.size());
+}
+
+/** Appends the rows of one quantity to a figure, from \a top on. */
+void
+DrawRows(std::string & svg, const Comparison & comparison, const ComparedQuantity & compared, double top)
+{
+  const double height = HeightOf(comparison);
+  for (std::size_t row = 0; row < comparison.rows.size(); ++row)
+  {
+    svg += "<text x=\"" + SvgNumber(RowsLeft - 8.0) + "\" y=\"" +
+           SvgNumber(top + RowHeight * (static_cast<double>(row) + 0.5) + 5.0) + "\" text-anchor=\"end\">" +
+           Escaped(RowName(comparison, row)) + "</text>\n";
+  }
+  PlotAxis rows;
+  rows.low = 0.0;
+  rows.high = height;
+  const std::string unit = UnitText(compared.entry->unit);
+  SvgPanel          panel(svg,
+                          { RowsLeft, top, RowsWidth, height },
+                 RangeOf(comparison, compared).Axis(4),
+                 rows,
+                 Escaped(LabelText(compared.entry->label)) + " [" + (unit.empty() ? "1" : unit) + "]",
+                 "");
+  DrawFirst(panel, comparison, compared, height);
+  for (std::size_t row = 0; row < comparison.rows.size(); ++row)
+  {
+    DrawRow(svg, panel, compared.Of(comparison.rows[row]), RowHeight * (static_cast<double>(row) + 0.5), height);
+  }
+}
+
+/** Whether any row has a value that can be drawn. */
+bool
+HasFigure(const Comparison & comparison, const ComparedQuantity & quantity)
+{
+  return std::any_of(comparison.rows.begin(), comparison.rows.end(), [&](const ComparedReport & row) {
+    return IsDrawn(quantity.Of(row).value);
+  });
+}
+
+/** One quantity: of each report the value and its 95 % interval, a line each, on one axis; words where there is no
+ * value. The band is the interval of the first report, if all are compared with it. An SVG element for a page that has
+ * FigureStyle. */
+std::string
+ComparisonFigure(const Comparison & comparison, const ComparedQuantity & quantity)
+{
+  std::string svg = OpenSvg(8.0 + HeightOf(comparison) + BelowRows,
+                            LabelText(quantity.entry->label) + " of every report with its 95 % interval");
+  DrawRows(svg, comparison, quantity, 8.0);
+  return svg + "</svg>\n";
+}
+
+/** All quantities, one below the other, as an SVG file of its own. */
+std::string
+ComparisonAsSvgFile(const Comparison & comparison, const std::string & title)
+{
+  std::string drawn;
+  double      top = 12.0;
+  for (const ComparedQuantity & quantity : comparison.quantities)
+  {
+    if (HasFigure(comparison, quantity))
+    {
+      DrawRows(drawn, comparison, quantity, top);
+      top += HeightOf(comparison) + BelowRows + 14.0;
+    }
+  }
+  if (!drawn.empty())
+  {
+    drawn += "<text x=\"12\" y=\"" + SvgNumber(top + 4.0) +
+             "\">bars: 95 % intervals; band: the first report's; rings: no error</text>\n";
+    top += 20.0;
+  }
+  else
+  {
+    drawn = "<text x=\"12\" y=\"34\">No report has a value.</text>";
+    top = 60.0;
+  }
+  return AsSvgFile(OpenSvg(top, "every quantity of every report with its 95 % interval") + drawn + "</svg>\n", title);
 }
 
 std::string
@@ -127,18 +370,6 @@ QuantitySection(const Comparison & comparison, const ComparedQuantity & quantity
   }
   return text;
 }
-
-/** Lines of text are not broken by a browser. */
-std::string
-WithPlainBlanks(std::string text)
-{
-  const std::string blank = "\u00A0";
-  for (std::size_t at = text.find(blank); at != std::string::npos; at = text.find(blank, at))
-  {
-    text.replace(at, blank.size(), " ");
-  }
-  return text;
-}
 } // namespace
 
 std::string
@@ -159,34 +390,6 @@ std::string
 ToSvg(const Comparison & comparison)
 {
   return ComparisonAsSvgFile(comparison, VerdictOf(comparison).sentence);
-}
-
-std::string
-MakeText(const Comparison & comparison)
-{
-  std::string text;
-  for (std::size_t row = 0; row < comparison.rows.size(); ++row)
-  {
-    text += NameOfRow(comparison, row) + ": " + StackText(comparison.rows[row]) + '\n';
-  }
-  for (const ComparedQuantity & quantity : comparison.quantities)
-  {
-    const std::string unit = UnitText(quantity.entry->unit);
-    text += '\n' + LabelText(quantity.entry->label) + (unit.empty() ? "" : " [" + unit + "]") + '\n';
-    for (std::size_t row = 0; row < comparison.rows.size(); ++row)
-    {
-      const std::string share = ShareText(quantity, row);
-      const std::string difference = DifferenceText(quantity, row);
-      text += "  " + NameOfRow(comparison, row) + ": " + ValueText(quantity.Of(comparison.rows[row])) +
-              (difference.empty() ? "" : "; " + difference) + (share.empty() ? "" : ", " + share) + "; " +
-              JudgementText(comparison, quantity, row) + '\n';
-    }
-    for (const CommonMean & common : quantity.means)
-    {
-      text += "  " + MeanSentence(quantity, common) + '\n';
-    }
-  }
-  return WithPlainBlanks(text + '\n' + VerdictOf(comparison).sentence + '\n');
 }
 
 } // namespace sensornoise

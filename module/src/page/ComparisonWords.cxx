@@ -3,7 +3,6 @@
 #include "page/ComparisonWords.h"
 
 #include "base/Text.h"
-#include "page/ComparisonFigure.h"
 #include "page/HtmlText.h"
 #include "report/ReportJson.h"
 
@@ -117,7 +116,27 @@ IsOfSameFrames(const Comparison & comparison, const Change & change, std::size_t
   const auto & now = comparison.rows[row].report.input;
   return first && now && !now->frames.sha256.empty() && now->frames.sha256 == first->frames.sha256;
 }
+
+/** Lines of text are not broken by a browser. */
+std::string
+WithPlainBlanks(std::string text)
+{
+  const std::string blank = "\u00A0";
+  for (std::size_t at = text.find(blank); at != std::string::npos; at = text.find(blank, at))
+  {
+    text.replace(at, blank.size(), " ");
+  }
+  return text;
+}
 } // namespace
+
+std::string
+NameOfRow(const Comparison & comparison, std::size_t row)
+{
+  const ComparedReport & compared = comparison.rows[row];
+  return std::to_string(row + 1) + " " + compared.label +
+         (compared.report.channel == "mono" ? "" : " " + compared.report.channel);
+}
 
 Verdict
 VerdictOf(const Comparison & comparison)
@@ -256,6 +275,34 @@ RuleText(const Comparison & comparison)
          std::to_string(judged) +
          ". How large a change is stands beside it, whatever the number of pixels: small is less than " +
          PercentText(SmallShare) + ", of the offset less than " + PercentText(SmallOffsetShare) + " of the read noise.";
+}
+
+std::string
+MakeText(const Comparison & comparison)
+{
+  std::string text;
+  for (std::size_t row = 0; row < comparison.rows.size(); ++row)
+  {
+    text += NameOfRow(comparison, row) + ": " + StackText(comparison.rows[row]) + '\n';
+  }
+  for (const ComparedQuantity & quantity : comparison.quantities)
+  {
+    const std::string unit = UnitText(quantity.entry->unit);
+    text += '\n' + LabelText(quantity.entry->label) + (unit.empty() ? "" : " [" + unit + "]") + '\n';
+    for (std::size_t row = 0; row < comparison.rows.size(); ++row)
+    {
+      const std::string share = ShareText(quantity, row);
+      const std::string difference = DifferenceText(quantity, row);
+      text += "  " + NameOfRow(comparison, row) + ": " + ValueText(quantity.Of(comparison.rows[row])) +
+              (difference.empty() ? "" : "; " + difference) + (share.empty() ? "" : ", " + share) + "; " +
+              JudgementText(comparison, quantity, row) + '\n';
+    }
+    for (const CommonMean & common : quantity.means)
+    {
+      text += "  " + MeanSentence(quantity, common) + '\n';
+    }
+  }
+  return WithPlainBlanks(text + '\n' + VerdictOf(comparison).sentence + '\n');
 }
 
 } // namespace sensornoise

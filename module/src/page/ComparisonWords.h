@@ -12,6 +12,10 @@
 namespace sensornoise
 {
 
+/** Name of a row in words: its number, its label and the channel of a mosaic. */
+std::string
+NameOfRow(const Comparison & comparison, std::size_t row);
+
 /** What changed, in a sentence: a warning where something did, an error where no two reports have a value of the same
  * quantity. */
 Verdict

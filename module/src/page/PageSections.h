@@ -40,9 +40,6 @@ PixelWords(const Report & report);
 std::string
 TitleLine(const std::string & words, const std::string & date);
 
-std::string
-EmvaTable(const Report & report);
-
 /** The levels by exposure and their deviations from the line; "" where no exposures were given. */
 std::string
 LinearityTable(const Report & report);

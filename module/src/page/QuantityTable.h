@@ -24,6 +24,9 @@ KeyNumbers(const Report & report);
 std::string
 QuantityTable(const Report & report);
 
+std::string
+EmvaTable(const Report & report);
+
 } // namespace sensornoise
 
 #endif

@@ -3,14 +3,12 @@
 #include "sensornoise/ReportPage.h"
 
 #include "base/Text.h"
-#include "page/FigureData.h"
 #include "page/Figures.h"
 #include "page/HtmlText.h"
 #include "page/MapPicture.h"
 #include "page/PageSections.h"
 #include "page/QuantityTable.h"
 #include "page/Verdict.h"
-#include "page/WarningBoxes.h"
 #include "sensornoise/ReportText.h"
 #include "report/ReportTable.h"
 

@@ -3,8 +3,11 @@
 #include "page/Verdict.h"
 
 #include "page/HtmlText.h"
+#include "sensornoise/ReportText.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -58,6 +61,222 @@ SeverityOf(const ChannelReports & reports)
     worst = std::max(worst, VerdictOf(report).severity);
   }
   return worst;
+}
+
+namespace
+{
+/** First words of the actions in WarningTable and in the messages of both methods. */
+constexpr std::array<const char *, 22> Commands{ "Change ", "Check ",   "Choose ", "Correct ", "Expose ",   "Fit ",
+                                                 "Give ",   "Include ", "Leave ",  "Let ",     "Look ",     "Measure ",
+                                                 "Open ",   "Read ",    "Record ", "Reduce ",  "Register ", "Set ",
+                                                 "Switch ", "Try ",     "Use ",    "Wait " };
+
+bool
+IsCommand(const std::string & sentence)
+{
+  return std::any_of(
+    Commands.begin(), Commands.end(), [&](const char * command) { return sentence.rfind(command, 0) == 0; });
+}
+
+/** Begin of the last sentence that ends before \a end; 0 of the first. */
+std::size_t
+BeginOfSentence(const std::string & text, std::size_t end)
+{
+  for (std::size_t at = end; at-- > 2;)
+  {
+    const bool isEnd = text[at - 1] == ' ' && (text[at - 2] == '.' || text[at - 2] == '?' || text[at - 2] == ';');
+    if (isEnd && text[at] >= 'A' && text[at] <= 'Z')
+    {
+      return at;
+    }
+  }
+  return 0;
+}
+
+/** Begin of a command behind the last colon: "the flicker is not known: give the offset". */
+std::size_t
+BeginOfClause(const std::string & message)
+{
+  const std::size_t colon = message.rfind(": ");
+  if (colon == std::string::npos)
+  {
+    return message.size();
+  }
+  return IsCommand(SentenceText(message.substr(colon + 2))) ? colon + 2 : message.size();
+}
+
+/** Begin of the action at the end of a message; its length where there is none. */
+std::size_t
+BeginOfAction(const std::string & message)
+{
+  std::size_t action = message.size();
+  for (std::size_t end = message.size(); end > 0;)
+  {
+    const std::size_t begin = BeginOfSentence(message, end);
+    if (!IsCommand(message.substr(begin)))
+    {
+      break;
+    }
+    action = end = begin;
+  }
+  return action < message.size() ? action : BeginOfClause(message);
+}
+
+/** Warnings of one code: of the channels of a mosaic, or of several partitions. */
+using WarningGroup = std::vector<Warning>;
+
+/** Errors first, else in the order of the report. */
+std::vector<WarningGroup>
+GroupByCode(const std::vector<Warning> & warnings)
+{
+  std::vector<WarningGroup> groups;
+  for (const Warning & warning : warnings)
+  {
+    const auto same = std::find_if(
+      groups.begin(), groups.end(), [&](const WarningGroup & group) { return group.front().code == warning.code; });
+    if (same == groups.end())
+    {
+      groups.push_back({ warning });
+    }
+    else
+    {
+      same->push_back(warning);
+    }
+  }
+  std::stable_sort(groups.begin(), groups.end(), [](const WarningGroup & a, const WarningGroup & b) {
+    return KindOf(a.front().code).severity > KindOf(b.front().code).severity;
+  });
+  return groups;
+}
+
+/** The name of a warning as words: "few frames". */
+std::string
+WordsOf(const WarningKind & kind)
+{
+  std::string words = kind.name;
+  std::replace(words.begin(), words.end(), '-', ' ');
+  return words;
+}
+
+std::string
+Title(const WarningKind & kind)
+{
+  std::string title = WordsOf(kind);
+  title.front() = static_cast<char>(title.front() - 'a' + 'A');
+  return title;
+}
+
+/** Links to the boxes of the warnings of a severity. */
+std::vector<std::string>
+LinksTo(const std::vector<Warning> & warnings, Severity severity)
+{
+  std::vector<std::string> links;
+  for (const WarningGroup & group : GroupByCode(warnings))
+  {
+    const WarningKind & kind = KindOf(group.front().code);
+    if (kind.severity == severity)
+    {
+      links.push_back("<a href=\"#" + std::string(kind.name) + "\">" + WordsOf(kind) + "</a>");
+    }
+  }
+  return links;
+}
+
+/** \a word: with the links behind it, the sentence. */
+std::string
+Box(Severity severity, const std::string & word, const std::vector<std::string> & links)
+{
+  std::string list;
+  for (const std::string & link : links)
+  {
+    list += (list.empty() ? ": " : ", ") + link;
+  }
+  return "<p class=\"verdict is-" + std::string(NameOf(severity)) + "\"><span class=\"word\">" + word + "</span>" +
+         list + ".</p>\n";
+}
+
+std::string
+BoxOf(Severity severity, const std::vector<Warning> & warnings, const std::string & notMeasured)
+{
+  const std::vector<std::string> links = LinksTo(warnings, severity);
+  switch (severity)
+  {
+    case Severity::Error:
+      return Box(severity, notMeasured, links);
+    case Severity::Warning:
+      return Box(severity,
+                 "Measured, with " + std::to_string(links.size()) + (links.size() == 1 ? " warning" : " warnings"),
+                 links);
+    case Severity::Note:
+      break;
+  }
+  return Box(severity, links.empty() ? "Measured, without warnings" : "Measured; these effects are allowed for", links);
+}
+
+/** The findings of a group, and its actions, each once. */
+std::string
+Paragraphs(const WarningGroup & group)
+{
+  std::string findings;
+  std::string actions;
+  for (const Warning & warning : group)
+  {
+    const WarningParts parts = SplitWarning(warning);
+    findings += "<p>" + Unbroken(WithCode(parts.finding)) + "</p>";
+    const std::string action = "<p><span class=\"word\">Do:</span> " + WithCode(parts.action) + "</p>";
+    actions += parts.action.empty() || actions.find(action) != std::string::npos ? "" : action;
+  }
+  return findings + actions;
+}
+} // namespace
+
+WarningParts
+SplitWarning(const Warning & warning)
+{
+  const WarningKind & kind = KindOf(warning.code);
+  const std::size_t   begin = BeginOfAction(warning.message);
+  if (begin > 0 && begin < warning.message.size())
+  {
+    const std::string finding = warning.message.substr(0, begin - 1);
+    return { SentenceText(finding.back() == ':' ? finding.substr(0, finding.size() - 1) : finding),
+             SentenceText(warning.message.substr(begin)) };
+  }
+  const std::string sentence = kind.sentence;
+  return { SentenceText(warning.message),
+           kind.severity == Severity::Note ? "" : SentenceText(sentence.substr(BeginOfAction(sentence))) };
+}
+
+std::string
+WarningBoxes(const std::vector<Warning> & warnings)
+{
+  std::string items;
+  for (const WarningGroup & group : GroupByCode(warnings))
+  {
+    const WarningKind & kind = KindOf(group.front().code);
+    const std::string   severity = NameOf(kind.severity);
+    const std::string   name = kind.name;
+    items += "<li class=\"warning is-" + severity + "\" id=\"" + name + "\"><h3>" + Title(kind) +
+             " <span class=\"word\">" + severity + "</span></h3>" + Paragraphs(group) + "<p class=\"soft\"><code>" +
+             name + "</code></p></li>\n";
+  }
+  return items.empty() ? "" : "<ul class=\"warnings\">\n" + items + "</ul>\n";
+}
+
+std::string
+VerdictBox(const Report & report)
+{
+  return BoxOf(VerdictOf(report).severity, report.warnings, "Not measured");
+}
+
+std::string
+VerdictBox(const ChannelReports & reports)
+{
+  std::string without;
+  for (const Report & report : reports.channels)
+  {
+    without += report.gain.value ? "" : (without.empty() ? "" : ", ") + report.channel;
+  }
+  return BoxOf(SeverityOf(reports), WarningsOf(reports), "Not measured in " + Escaped(without));
 }
 
 } // namespace sensornoise

@@ -7,6 +7,7 @@
 #include "sensornoise/Report.h"
 
 #include <string>
+#include <vector>
 
 namespace sensornoise
 {
@@ -25,6 +26,29 @@ VerdictOf(const Report & report);
 /** Returns the worst severity of the channels of a mosaic; an error where a channel has no gain. */
 Severity
 SeverityOf(const ChannelReports & reports);
+
+/** The message of a warning in its two parts, as sentences of plain text. */
+struct WarningParts
+{
+  std::string finding; ///< what was found, and why it matters
+  std::string action;  ///< what to do; "" of a note that needs nothing
+};
+
+/** Divides the message of a warning. The action is its last sentences that begin with a command. A message of a warning
+ * or error without one gets the action of WarningTable. */
+WarningParts
+SplitWarning(const Warning & warning);
+
+/** One box for each code, errors first: its name, what was found, and the action. The code is the address of the box:
+ * "#few-frames". "" where there are no \a warnings. */
+std::string
+WarningBoxes(const std::vector<Warning> & warnings);
+
+/** The verdict in one sentence, with links to the warnings that limit it. */
+std::string
+VerdictBox(const Report & report);
+std::string
+VerdictBox(const ChannelReports & reports);
 
 } // namespace sensornoise
 
