@@ -3,17 +3,16 @@
 #ifndef sensornoise_base_BinaryStream_h
 #define sensornoise_base_BinaryStream_h
 
-#include "base/MixBits.h"
 #include "SensorNoiseExport.h"
+#include "base/BytesFingerprint.h"
 
-#include <cmath>
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <istream>
-#include <limits>
 #include <ostream>
 #include <stdexcept>
+#include <streambuf>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -131,36 +130,70 @@ PixelName()
   return (std::is_unsigned_v<TPixel> ? "uint" : "int") + std::to_string(8 * sizeof(TPixel));
 }
 
-/** \class Fingerprint
- * \brief Number from which it is decided whether two processes continue from the same data, bit by bit; all NaN are
- * equal. */
-class Fingerprint
+/** \file
+ * Compression of bytes with long runs of zeros. Sums that are kept frame by frame are 0 where a frame was not added: a
+ * process that has read few of many frames sends only a small part of them. */
+
+/** \class ZeroRunWriter
+ * \brief Packs bytes: blocks of 64 bytes that are all 0 are counted, the others kept.
+ *
+ * The packed data are a list of runs. Each run has two counts of 8 bytes, of the zero blocks and of the kept blocks
+ * that follow, and then the kept blocks. The rate is about 5 GB/s. */
+class SensorNoise_EXPORT ZeroRunWriter : public std::streambuf
 {
 public:
-  template <typename TNumber>
-  void
-  Add(const TNumber * numbers, std::size_t count)
-  {
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      TNumber number = numbers[i];
-      if constexpr (std::is_floating_point_v<TNumber>)
-      {
-        number = std::isnan(number) ? std::numeric_limits<TNumber>::quiet_NaN() : number;
-      }
-      std::uint64_t bits = 0;
-      std::memcpy(&bits, &number, sizeof(number));
-      m_Value = MixBits((m_Value ^ bits) + 0x9e3779b97f4a7c15ULL); // the golden ratio, so that zeros change the value
-    }
-  }
-  std::uint64_t
-  GetValue() const
-  {
-    return m_Value;
-  }
+  static constexpr std::size_t BlockBytes = 64;
+
+  /** Returns the packed bytes that were written; the last block is filled up with zeros. The writer is then empty. */
+  std::vector<unsigned char>
+  Take();
+
+protected:
+  std::streamsize
+  xsputn(const char * bytes, std::streamsize count) override;
+  int_type
+  overflow(int_type character) override;
 
 private:
-  std::uint64_t m_Value{ 0 };
+  void
+  TakeBlock(const unsigned char * block);
+  /** Writes the counts of the current run to their place. */
+  void
+  EndRun();
+
+  std::vector<unsigned char>            m_Packed;
+  std::array<unsigned char, BlockBytes> m_Block{}; // block that is not full
+  std::size_t                           m_InBlock{ 0 };
+  std::size_t                           m_Place{ 0 }; // place of the counts of the current run
+  std::uint64_t                         m_Zeros{ 0 };
+  std::uint64_t                         m_Kept{ 0 };
+};
+
+/** \class ZeroRunReader
+ * \brief Unpacks the bytes of a ZeroRunWriter. Invalid packed bytes end early, without a memory error. */
+class SensorNoise_EXPORT ZeroRunReader : public std::streambuf
+{
+public:
+  /** \a packed must outlive the reader. */
+  ZeroRunReader(const unsigned char * packed, std::size_t bytes);
+
+protected:
+  std::streamsize
+  xsgetn(char * bytes, std::streamsize count) override;
+  int_type
+  underflow() override;
+  int_type
+  uflow() override;
+
+private:
+  /** Moves to the next run that is not empty. Returns false at the end. */
+  bool
+  FindRun();
+
+  const unsigned char * m_Packed;
+  const unsigned char * m_End;
+  std::uint64_t         m_Zeros{ 0 }; // bytes that are left of the run
+  std::uint64_t         m_Kept{ 0 };
 };
 
 } // namespace sensornoise

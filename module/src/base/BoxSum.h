@@ -4,7 +4,7 @@
 #define sensornoise_base_BoxSum_h
 
 #include "sensornoise/Parallel.h"
-#include "base/Avx2.h"
+#include "base/Simd.h"
 #include "SensorNoiseExport.h"
 
 #include <algorithm>

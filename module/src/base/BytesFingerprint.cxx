@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/BytesFingerprint.h"
 
-#include "base/BinaryStream.h"
-
 #include <algorithm>
 #include <cstring>
 

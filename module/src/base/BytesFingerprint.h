@@ -6,11 +6,57 @@
 #include "SensorNoiseExport.h"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
 
 namespace sensornoise
 {
+
+/** Scrambles 64 bits one to one (finaliser of SplitMix64: Steele, Lea and Flood, OOPSLA 2014,
+ * DOI 10.1145/2660193.2660195). */
+inline std::uint64_t
+MixBits(std::uint64_t bits)
+{
+  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebULL;
+  return bits ^ (bits >> 31);
+}
+
+/** \class Fingerprint
+ * \brief Number from which it is decided whether two processes continue from the same data, bit by bit; all NaN are
+ * equal. */
+class Fingerprint
+{
+public:
+  template <typename TNumber>
+  void
+  Add(const TNumber * numbers, std::size_t count)
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      TNumber number = numbers[i];
+      if constexpr (std::is_floating_point_v<TNumber>)
+      {
+        number = std::isnan(number) ? std::numeric_limits<TNumber>::quiet_NaN() : number;
+      }
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &number, sizeof(number));
+      m_Value = MixBits((m_Value ^ bits) + 0x9e3779b97f4a7c15ULL); // the golden ratio, so that zeros change the value
+    }
+  }
+  std::uint64_t
+  GetValue() const
+  {
+    return m_Value;
+  }
+
+private:
+  std::uint64_t m_Value{ 0 };
+};
 
 /** Fingerprint of some bytes, 128 bits. Two of a million different runs of bytes have the same one with a probability
  * of 1e-27, or of 3e-8 if they differ in every fourth word of 64 bits only. */

@@ -3,10 +3,38 @@
 #ifndef sensornoise_base_Constants_h
 #define sensornoise_base_Constants_h
 
-#include "base/Constant.h"
+/** \def SENSORNOISE_CONSTANT
+ * Precedes a struct of the numbers of the methods, which is a constant. With SENSORNOISE_VARY_CONSTANTS it is a
+ * variable, which a program may change before a measurement, to study what a number does (measure-varied-cases). */
+#ifdef SENSORNOISE_VARY_CONSTANTS
+#  define SENSORNOISE_CONSTANT inline
+#else
+#  define SENSORNOISE_CONSTANT inline constexpr
+#endif
 
 namespace sensornoise
 {
+
+/** Levels of significance, as standard errors of a normal number [1].
+ *
+ * There is one rule: an effect counts if its size exceeds a separate threshold, and if chance exceeds it in fewer than
+ * one burst in a hundred. The number of standard errors for the latter depends on the number of tests per burst. Half
+ * and twice: Estimator.md, 3.13. */
+struct SignificanceLevels
+{
+  /** 5 % two-sided: nothing is reported, but a number gets a larger error or another one is preferred. */
+  double hint{ 2.0 };
+  /** 0.3 %: one test per burst. */
+  double oneTest{ 3.0 };
+  /** 6e-5: up to some hundred tests per burst, as of lags, series or bins. */
+  double severalTests{ 4.0 };
+  /** 6e-7: up to 10^4 tests per burst, as of levels, tiles or neighbourhoods. */
+  double manyTests{ 5.0 };
+  /** 2e-9: a test of every pixel; or of frames, whose noise has longer tails than the normal distribution. */
+  double everyPixel{ 6.0 };
+};
+
+SENSORNOISE_CONSTANT SignificanceLevels Significance;
 
 /** Numbers that several components use. Numbers of one component are in its own Constants.h. */
 struct CommonConstants

@@ -4,14 +4,30 @@
 #define sensornoise_base_PixelLayout_h
 
 #include "sensornoise/FrameGeometry.h"
-#include "base/Prefetch.h"
-#include "base/Avx2.h"
+#include "base/Simd.h"
 
 #include <algorithm>
 #include <cstddef>
 
 namespace sensornoise
 {
+
+/** Prefetches memory that will be needed soon. */
+template <typename TValue>
+void
+PrefetchValues(const TValue * values, std::size_t count)
+{
+#if defined(__GNUC__)
+  constexpr std::size_t lineBytes = 64;
+  for (std::size_t i = 0; i < count; i += lineBytes / sizeof(TValue))
+  {
+    __builtin_prefetch(values + i);
+  }
+#else
+  static_cast<void>(values);
+  static_cast<void>(count);
+#endif
+}
 
 /** Layout of the pixels of frames in memory: contiguous, or every second one, as in a plane of a mosaic. All distances
  * are in pixels. */

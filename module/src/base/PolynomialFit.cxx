@@ -3,9 +3,8 @@
 #include "base/PolynomialFit.h"
 
 #include "base/Eigen.h"
-#include "base/PixelRuns.h"
-#include "base/ValueRange.h"
-#include "base/Avx2.h"
+#include "base/Simd.h"
+#include "base/Quantiles.h"
 
 #include <algorithm>
 #include <array>

@@ -4,6 +4,7 @@
 #define sensornoise_base_Text_h
 
 #include "SensorNoiseExport.h"
+#include "base/Constants.h"
 
 #include <string>
 
@@ -34,6 +35,17 @@ PercentApart(double share, double bound);
 /** Returns "0.1660 +- 0.0038": both to two digits of the error. */
 SensorNoise_EXPORT std::string
 Measured(double value, double standardError);
+
+/** Returns a clause that says why the flicker does not determine the offset. \a flickerZ is the excess of the variance
+ * of the flicker over its noise, in standard deviations [1]. */
+inline std::string
+DescribeInsignificantFlicker(double flickerZ)
+{
+  return flickerZ > 0.0
+           ? "the flicker is only " + RoundedApart(flickerZ, Significance.everyPixel) +
+               " standard errors above its noise (more than " + Rounded(Significance.everyPixel) + " needed)"
+           : "the flicker is below its noise";
+}
 
 } // namespace sensornoise
 
