@@ -5,7 +5,7 @@
 
 #include "sensornoise/FrameGeometry.h"
 #include "base/PixelLayout.h"
-#include "base/Avx2.h"
+#include "base/Simd.h"
 #include "series/FrameSums.h"
 #include "series/RegressorBand.h"
 

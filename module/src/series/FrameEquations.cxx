@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "series/FrameEquations.h"
 
-#include "base/Significance.h"
+#include "base/Constants.h"
 #include "base/Stencils.h"
 #include "series/Constants.h"
 

@@ -5,7 +5,6 @@
 
 #include "SensorNoiseExport.h"
 #include "base/Eigen.h"
-#include "series/FrameProducts.h"
 #include "series/FrameSums.h"
 
 #include <array>

@@ -2,16 +2,192 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "series/FrameRegressors.h"
 
+#include "base/BoxSum.h"
+#include "base/ParallelWork.h"
 #include "base/Quantiles.h"
-#include "base/Stencils.h"
 #include "scene/InnerBlocks.h"
+#include "scene/OutlierPixels.h"
+#include "scene/StaticScene.h"
 #include "series/Constants.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace sensornoise
 {
+
+namespace
+{
+/** \class DerivativeRows
+ * \brief Returns the derivative of the mean by a stencil, divided by the numbers of pixels of two boxes, row by row; 0
+ * where it exceeds the border. */
+class DerivativeRows
+{
+public:
+  DerivativeRows(const ReferenceFrame & frame, StencilIndex k)
+    : m_Frame(frame)
+    , m_Taps(MotionStencils()[k].taps)
+    , m_Row(frame.geometry.width)
+    , m_Zeros(frame.geometry.width)
+  {}
+
+  const double *
+  operator()(std::size_t y)
+  {
+    const std::size_t width = m_Frame.geometry.width;
+    if (y < StencilMargin || y + StencilMargin >= m_Frame.geometry.height || width <= 2 * StencilMargin)
+    {
+      return m_Zeros.data();
+    }
+    constexpr double     side = 2.0 * static_cast<double>(InSeries.instrumentRadius) + 1.0;
+    const double * const mean = m_Frame.mean.data() + y * width + StencilMargin;
+    double * const       row = m_Row.data() + StencilMargin;
+    const std::size_t    count = width - 2 * StencilMargin;
+    for (const StencilTap * tap = m_Taps.begin(); tap != m_Taps.end(); ++tap)
+    {
+      const double         weight = tap->weight / (side * side * side * side);
+      const bool           isFirst = tap == m_Taps.begin();
+      const double * const from = mean + tap->Offset(width);
+      for (std::size_t x = 0; x < count; ++x)
+      {
+        row[x] = (isFirst ? 0.0 : row[x]) + weight * from[x];
+      }
+    }
+    return m_Row.data();
+  }
+
+private:
+  const ReferenceFrame & m_Frame;
+  const StencilTaps &    m_Taps;
+  std::vector<double>    m_Row;
+  std::vector<double>    m_Zeros;
+};
+
+/** \class BoxedRows
+ * \brief The box sums of a source, as the source of the rows [first, last) of another BoxRows of the same radius. That
+ * one reads each row twice: the rows between are kept. */
+template <typename TSource>
+class BoxedRows
+{
+public:
+  BoxedRows(TSource source, const FrameGeometry & geometry, std::size_t radius, std::size_t first, std::size_t last)
+    : m_Width(geometry.width)
+    , m_Next(first - std::min(first, radius))
+    , m_Kept(2 * radius + 2)
+    , m_Sums(std::move(source),
+             geometry.width,
+             geometry.height,
+             radius,
+             m_Next,
+             std::min(geometry.height, last + radius))
+    , m_Rows(m_Kept * m_Width)
+  {}
+
+  const double *
+  operator()(std::size_t y)
+  {
+    double * const row = m_Rows.data() + y % m_Kept * m_Width;
+    if (y == m_Next)
+    {
+      std::copy_n(m_Sums.Next(), m_Width, row);
+      ++m_Next;
+    }
+    return row;
+  }
+
+private:
+  std::size_t         m_Width;
+  std::size_t         m_Next;
+  std::size_t         m_Kept;
+  BoxRows<TSource>    m_Sums;
+  std::vector<double> m_Rows;
+};
+} // namespace
+
+std::vector<double>
+SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelFor & parallelFor)
+{
+  const std::size_t width = frame.geometry.width;
+  const std::size_t height = frame.geometry.height;
+  const std::size_t radius = InSeries.instrumentRadius;
+  auto              smoothed = MakeMap<double>(frame.mean.size(), parallelFor);
+  ForBoxBands(height, parallelFor, [&](std::size_t first, std::size_t last) {
+    BoxedRows once(DerivativeRows(frame, k), frame.geometry, radius, first, last);
+    BoxRows   twice(std::move(once), width, height, radius, first, last);
+    for (std::size_t y = first; y < last; ++y)
+    {
+      std::copy_n(twice.Next(), width, smoothed.data() + y * width);
+    }
+  });
+  return smoothed;
+}
+
+std::vector<double>
+InstrumentWeight(const ReferenceFrame &            frame,
+                 const InitialNoiseModel &         model,
+                 const std::vector<std::uint8_t> & mask,
+                 const ParallelFor &               parallelFor)
+{
+  const std::size_t reach = InSeries.missingRadius;
+  const std::size_t radius = InSeries.noiseRadius;
+  const std::size_t width = frame.geometry.width;
+  const std::size_t height = frame.geometry.height;
+  const auto        missingRows = [&] {
+    return [&, row = std::vector<std::uint8_t>(width)](std::size_t y) mutable {
+      const bool                 isInner = y >= StencilMargin && y + StencilMargin < height;
+      const std::uint8_t * const own = mask.data() + y * width;
+      for (std::size_t x = StencilMargin; x + StencilMargin < width; ++x)
+      {
+        row[x] = isInner && own[x] == 0 ? 1 : 0;
+      }
+      return row.data();
+    };
+  };
+  const auto noiseRows = [&] {
+    return [&, row = std::vector<double>(width)](std::size_t y) mutable {
+      const InitialNoiseModel own = model; // a copy: it cannot alias the row, so that the loop is vectorized
+      const double * const    level = frame.neighbourMean.data() + y * width;
+      std::transform(level, level + width, row.begin(), [&own](double mean) { return own.NoiseVariance(mean); });
+      return row.data();
+    };
+  };
+  std::vector<std::uint8_t> complete(mask.size());
+  ForBoxRows(missingRows, width, height, reach, parallelFor, [&](std::size_t y, const double * near) {
+    std::transform(near, near + width, complete.data() + y * width, [](double missing) {
+      return static_cast<std::uint8_t>(missing < 0.5);
+    });
+  });
+  const double side = 2.0 * static_cast<double>(radius) + 1.0;
+  const double reachSide = 2.0 * static_cast<double>(reach) + 1.0;
+  auto         weight = MakeMap<double>(mask.size(), parallelFor);
+  ForBoxBands(height, parallelFor, [&](std::size_t first, std::size_t last) {
+    BoxRows completes(RowsOf(complete, width), width, height, reach, first, last);
+    BoxRows noises(noiseRows(), width, height, radius, first, last);
+    for (std::size_t y = first; y < last; ++y)
+    {
+      const double * const near = completes.Next();
+      std::transform(near, near + width, noises.Next(), weight.data() + y * width, [=](double whole, double smooth) {
+        return whole * (side * side / (reachSide * reachSide * smooth));
+      });
+    }
+  });
+  return weight;
+}
+
+ShiftInstruments
+MakeShiftInstruments(const ReferenceFrame &            frame,
+                     const InitialNoiseModel &         model,
+                     const std::vector<std::uint8_t> & mask,
+                     const ParallelFor &               parallelFor)
+{
+  ShiftInstruments instruments{ SmoothedDerivative(frame, StencilX, parallelFor),
+                                SmoothedDerivative(frame, StencilY, parallelFor),
+                                InstrumentWeight(frame, model, mask, parallelFor) };
+  return instruments;
+}
 
 namespace
 {
@@ -87,6 +263,27 @@ FrameRegressors::ClassifyPixels(const std::vector<std::uint8_t> & take, const Pa
           std::count(m_ClassOf.data() + begin, m_ClassOf.data() + end, static_cast<std::uint8_t>(c)));
       }
     });
+}
+
+FrameRegressors
+MakeSceneRegressors(const StaticScene & scene, const ParallelFor & parallelFor)
+{
+  const std::vector<std::uint8_t> unexplained = FindOutlierPixels(scene.frame, scene.model, parallelFor);
+  const std::size_t               pixels = unexplained.size();
+  std::vector<std::uint8_t>       take(pixels);
+  std::vector<std::uint8_t>       whole(pixels); // missing single pixels would roughen the instruments
+  ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
+    const std::uint8_t * const why = unexplained.data();
+    const std::uint8_t * const usable = scene.frame.usable.data() + begin;
+    std::transform(why + begin, why + end, usable, take.data() + begin, [](std::uint8_t own, std::uint8_t use) {
+      return own == 0 ? use : std::uint8_t{ 0 };
+    });
+    std::transform(why + begin, why + end, usable, whole.data() + begin, [](std::uint8_t own, std::uint8_t use) {
+      return own == 2 ? std::uint8_t{ 0 } : use;
+    });
+  });
+  ShiftInstruments instruments = MakeShiftInstruments(scene.frame, scene.model, whole, parallelFor);
+  return FrameRegressors(scene.frame, scene.model, take, std::move(instruments), parallelFor);
 }
 
 } // namespace sensornoise

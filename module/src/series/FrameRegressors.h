@@ -5,10 +5,9 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
+#include "base/Stencils.h"
 #include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
-#include "series/FrameProducts.h"
-#include "series/ShiftInstruments.h"
 
 #include <array>
 #include <cstddef>
@@ -18,6 +17,43 @@
 
 namespace sensornoise
 {
+
+struct StaticScene;
+
+/** Number of columns on which the frames are regressed: 1, the mean, and its derivatives (MotionStencils). */
+inline constexpr std::size_t FrameColumns = 2 + NumberOfStencils;
+
+/** Number of classes of the roughness of the surroundings of a pixel, from flat to rough. The regressions include the
+ * classes one after the other. */
+inline constexpr std::size_t GradientClasses = 6;
+
+/** Returns the derivative of the mean by stencil \a k, smoothed, for all pixels [DN/pixel for the first derivatives].
+ */
+SensorNoise_EXPORT std::vector<double>
+SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelFor & parallelFor);
+
+/** Returns the weights of the instruments: the inverse noise, smoothed, and falling smoothly to 0 where pixels are
+ * missing from \a mask. Rough weights, or an edge that is half missing, would add short wavelengths. */
+SensorNoise_EXPORT std::vector<double>
+InstrumentWeight(const ReferenceFrame &            frame,
+                 const InitialNoiseModel &         model,
+                 const std::vector<std::uint8_t> & mask,
+                 const ParallelFor &               parallelFor);
+
+/** Instruments for the shifts along x and y: derivatives of long wavelengths, and their weights (see SolveShifts()). */
+struct ShiftInstruments
+{
+  std::vector<double> x;      ///< smoothed derivative along x [DN/pixel]
+  std::vector<double> y;      ///< smoothed derivative along y [DN/pixel]
+  std::vector<double> weight; ///< see InstrumentWeight() [1/DN^2]
+};
+
+/** Makes the instruments over the pixels of \a mask. */
+SensorNoise_EXPORT ShiftInstruments
+MakeShiftInstruments(const ReferenceFrame &            frame,
+                     const InitialNoiseModel &         model,
+                     const std::vector<std::uint8_t> & mask,
+                     const ParallelFor &               parallelFor);
 
 /** \class FrameRegressors
  * \brief The weighted columns of every pixel, with which the frames are multiplied in the second pass.
@@ -95,6 +131,11 @@ private:
   std::array<double, GradientClasses> m_PixelsOfClass{};
   ShiftInstruments                    m_Instruments;
 };
+
+/** Makes the regressors of the second pass, over all usable pixels except outlier pixels, see FindOutlierPixels(). They
+ * hold the address of the frame of \a scene, which must outlive them without being moved. */
+SensorNoise_EXPORT FrameRegressors
+MakeSceneRegressors(const StaticScene & scene, const ParallelFor & parallelFor);
 
 } // namespace sensornoise
 

@@ -3,16 +3,109 @@
 #include "series/FrameSums.h"
 
 #include "sensornoise/FrameGeometry.h"
-#include "base/Avx2.h"
+#include "base/BinaryStream.h"
+#include "base/Simd.h"
 #include "series/FrameBatch.h"
-#include "series/InstrumentRun.h"
 #include "series/RegressorBand.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
 #include <utility>
 
 namespace sensornoise
 {
+
+namespace
+{
+constexpr const char * StreamName = "FrameSums";
+}
+
+FrameProducts::FrameProducts(std::size_t pixels, std::size_t frames, std::size_t cells)
+  : m_Pixels(pixels)
+  , m_Frames(frames)
+  , m_Cells(cells)
+  , m_ClassSums(frames * GradientClasses, ColumnVector::Zero())
+  , m_InstrumentSums(frames, { 0.0, 0.0 })
+  , m_CellSums(frames * cells, { 0.0, 0.0 })
+{}
+
+void
+FrameProducts::Merge(const FrameProducts & other)
+{
+  if (other.m_Pixels != m_Pixels || other.m_Frames != m_Frames || other.m_Cells != m_Cells)
+  {
+    throw std::invalid_argument("sums of " + other.Sizes() + " cannot be merged into those of " + this->Sizes());
+  }
+  for (std::size_t i = 0; i < m_ClassSums.size(); ++i)
+  {
+    m_ClassSums[i] += other.m_ClassSums[i];
+  }
+  for (std::size_t t = 0; t < m_InstrumentSums.size(); ++t)
+  {
+    m_InstrumentSums[t][0] += other.m_InstrumentSums[t][0];
+    m_InstrumentSums[t][1] += other.m_InstrumentSums[t][1];
+  }
+  for (std::size_t i = 0; i < m_CellSums.size(); ++i)
+  {
+    m_CellSums[i][0] += other.m_CellSums[i][0];
+    m_CellSums[i][1] += other.m_CellSums[i][1];
+  }
+}
+
+void
+FrameProducts::Forget()
+{
+  *this = FrameProducts(m_Pixels, m_Frames, m_Cells);
+}
+
+void
+FrameProducts::Save(std::ostream & out) const
+{
+  WriteSumsHeader(out, StreamName, m_Pixels, m_Frames);
+  WriteCount(out, m_Cells);
+  for (const ColumnVector & sums : m_ClassSums)
+  {
+    WriteNumbers(out, sums.data(), FrameColumns);
+  }
+  for (const auto * sums : { &m_InstrumentSums, &m_CellSums })
+  {
+    for (const std::array<double, 2> & pair : *sums)
+    {
+      WriteNumbers(out, pair.data(), pair.size());
+    }
+  }
+}
+
+void
+FrameProducts::Restore(std::istream & in)
+{
+  FrameProducts       read(m_Pixels, m_Frames, m_Cells);
+  const std::uint64_t frames = ReadSumsHeader(in, StreamName, m_Pixels);
+  RequireCount("frames", frames, m_Frames);
+  RequireCount("cells", ReadCount(in), m_Cells);
+  for (ColumnVector & sums : read.m_ClassSums)
+  {
+    ReadNumbers(in, sums.data(), FrameColumns);
+  }
+  for (auto * sums : { &read.m_InstrumentSums, &read.m_CellSums })
+  {
+    for (std::array<double, 2> & pair : *sums)
+    {
+      ReadNumbers(in, pair.data(), pair.size());
+    }
+  }
+  *this = std::move(read);
+}
+
+std::string
+FrameProducts::Sizes() const
+{
+  return std::to_string(m_Pixels) + " pixels, " + std::to_string(m_Frames) + " frames and " + std::to_string(m_Cells) +
+         " cells";
+}
 
 namespace
 {
@@ -21,6 +114,56 @@ namespace
  * Chosen empirically: half makes two batches of 100 frames; twice as much makes one batch of 200 and takes 4 MiB more.
  */
 constexpr std::size_t BytesOfBatch = std::size_t{ 4 } << 20;
+
+/** \class InstrumentRun
+ * \brief The terms of the noise of the instruments for some pixels, stored for SIMD. */
+class InstrumentRun
+{
+public:
+  static constexpr std::size_t Pixels = 256;
+  static constexpr std::size_t Terms = 4; ///< w, and the products of the instruments times their weights w: xx, xy, yy
+
+  /** Computes the terms of the pixels [first, last); pixels that are not used have 0. */
+  void
+  Fill(const FrameRegressors & regressors, std::size_t first, std::size_t last)
+  {
+    const ShiftInstruments & instruments = regressors.GetInstruments();
+    const double * const     weights = instruments.weight.data() + first;
+    const double * const     xs = instruments.x.data() + first;
+    const double * const     ys = instruments.y.data() + first;
+    for (std::size_t i = 0; i < last - first; ++i)
+    {
+      const bool   serves = regressors.ClassOf(first + i) != FrameRegressors::Unused;
+      const double weight = serves ? weights[i] : 0.0;
+      const double x = serves ? xs[i] * weight : 0.0;
+      const double y = serves ? ys[i] * weight : 0.0;
+      m_Terms[0][i] = weight;
+      m_Terms[1][i] = x * x;
+      m_Terms[2][i] = x * y;
+      m_Terms[3][i] = y * y;
+    }
+    const double * const level = regressors.GetFrame().neighbourMean.data();
+    std::copy(level + first, level + last, m_Level.begin());
+    m_Pixels = last - first;
+  }
+  /** Adds the sums of the terms, and of the terms times the level. */
+  void
+  AddTo(std::array<double, 2 * Terms> & total) const
+  {
+    for (std::size_t k = 0; k < Terms; ++k)
+    {
+      const double * const terms = m_Terms[k].data();
+      const double * const level = m_Level.data();
+      total[k] += SumOfRun(m_Pixels, [=](std::size_t i) { return terms[i]; });
+      total[Terms + k] += SumOfRun(m_Pixels, [=](std::size_t i) { return terms[i] * level[i]; });
+    }
+  }
+
+private:
+  std::array<std::array<double, Pixels>, Terms> m_Terms{};
+  std::array<double, Pixels>                    m_Level{};
+  std::size_t                                   m_Pixels{ 0 };
+};
 } // namespace
 
 FrameSums::FrameSums(FrameRegressors regressors, const ParallelFor & parallelFor)

@@ -4,8 +4,8 @@
 
 #include "base/Stencils.h"
 #include "series/Constants.h"
-#include "series/FrameProducts.h"
-#include "series/ShiftInstruments.h"
+#include "series/FrameSums.h"
+#include "series/FrameRegressors.h"
 
 #include <algorithm>
 #include <cmath>

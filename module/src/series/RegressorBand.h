@@ -4,9 +4,10 @@
 #define sensornoise_series_RegressorBand_h
 
 #include "SensorNoiseExport.h"
-#include "base/FramesTogether.h"
+#include "base/Simd.h"
 #include "series/FrameRegressors.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

@@ -3,19 +3,135 @@
 #include "series/SceneSeries.h"
 
 #include "base/Constants.h"
-#include "base/Eigen.h"
 #include "base/NothingToMeasure.h"
+#include "base/Simd.h"
+#include "base/Stencils.h"
 #include "scene/InitialNoiseModel.h"
 #include "series/Constants.h"
-#include "series/FrameProducts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 namespace sensornoise
 {
+
+Eigen::MatrixXd
+MotionColumns(const MotionSeries & motion, const std::vector<double> & gamma)
+{
+  const auto                                                   frames = static_cast<Eigen::Index>(gamma.size());
+  constexpr std::array<std::pair<std::size_t, std::size_t>, 4> products{
+    { { StencilX, StencilY }, { StencilX, StencilYY }, { StencilXX, StencilY }, { StencilXX, StencilYY } }
+  };
+  std::vector<Eigen::VectorXd> columns;
+  for (Eigen::Index k = 0; k < motion.coefficients.cols(); ++k)
+  {
+    columns.emplace_back(motion.coefficients.col(k));
+  }
+  const auto has = [&motion](std::size_t stencil) {
+    return std::find(motion.stencils.begin(), motion.stencils.end(), stencil) != motion.stencils.end();
+  };
+  for (const auto & [a, b] : products)
+  {
+    if (has(a) && has(b))
+    {
+      Eigen::VectorXd product(frames);
+      for (Eigen::Index t = 0; t < frames; ++t)
+      {
+        const auto   i = static_cast<std::size_t>(t);
+        const double illumination = 1.0 + gamma[i];
+        const double both = motion.Get(i, a) * motion.Get(i, b); // only noise in a dark frame
+        product(t) = illumination < InSeries.leastIlluminationOfShift ? 0.0 : both / illumination;
+      }
+      columns.push_back(product);
+    }
+  }
+  Eigen::MatrixXd result(frames, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k)
+  {
+    result.col(static_cast<Eigen::Index>(k)) = columns[k];
+  }
+  return result;
+}
+
+namespace
+{
+Eigen::Index
+MostSeries(Eigen::Index frames)
+{
+  return static_cast<Eigen::Index>(InSeries.mostSeriesOfFrames * static_cast<double>(frames - 2));
+}
+} // namespace
+
+TemporalBasis::TemporalBasis(const std::vector<double> & gamma,
+                             const Eigen::MatrixXd &     local,
+                             const Eigen::MatrixXd &     motion)
+{
+  const auto      frames = static_cast<Eigen::Index>(gamma.size());
+  Eigen::MatrixXd light(frames, 1 + local.cols());
+  light.col(0) = Eigen::Map<const Eigen::VectorXd>(gamma.data(), frames);
+  light.rightCols(local.cols()) = local;
+  Eigen::MatrixXd all(frames, light.cols() + motion.cols());
+  all << light, motion;
+  const Eigen::MatrixXd basis = Orthonormalise(all, std::max(light.cols(), MostSeries(frames)));
+  m_IlluminationFactors = static_cast<std::size_t>(std::min(basis.cols(), Orthonormalise(light, frames).cols()));
+  m_Rounded = (basis * Unit).array().round();
+  m_Series = m_Rounded / Unit;
+  const Eigen::MatrixXd             centred = m_Series.rowwise() - m_Series.colwise().mean();
+  const Eigen::LLT<Eigen::MatrixXd> factor(centred.transpose() * centred);
+  m_Inverse = factor.matrixL().solve(Eigen::MatrixXd::Identity(centred.cols(), centred.cols()));
+  m_Basis = centred * m_Inverse.transpose();
+  m_Means = m_Series.colwise().mean();
+}
+
+TemporalBasis
+TemporalBasis::OfLight() const
+{
+  const auto    light = static_cast<Eigen::Index>(m_IlluminationFactors);
+  TemporalBasis basis;
+  basis.m_IlluminationFactors = m_IlluminationFactors;
+  basis.m_Rounded = m_Rounded.leftCols(light);
+  basis.m_Series = m_Series.leftCols(light);
+  basis.m_Basis = m_Basis.leftCols(light);
+  basis.m_Inverse = m_Inverse.topLeftCorner(light, light);
+  basis.m_Means = m_Means.leftCols(light);
+  return basis;
+}
+
+void
+TemporalBasis::ToCoordinates(double * sums, std::size_t stride, const double * means, std::size_t pixels) const
+{
+  const auto frames = static_cast<double>(m_Basis.rows());
+  CallWithAvx2([&] {
+    for (std::size_t j = 0; j < this->Size(); ++j)
+    {
+      const double taken = m_Means(static_cast<Eigen::Index>(j)) * frames;
+      for (std::size_t i = 0; i < pixels; ++i)
+      {
+        sums[j * stride + i] = sums[j * stride + i] / Unit - taken * means[i];
+      }
+    }
+    for (std::size_t j = this->Size(); j-- > 0;)
+    {
+      const auto row = static_cast<Eigen::Index>(j);
+      for (std::size_t i = 0; i < pixels; ++i)
+      {
+        sums[j * stride + i] *= m_Inverse(row, row);
+      }
+      for (std::size_t k = 0; k < j; ++k)
+      {
+        const double factor = m_Inverse(row, static_cast<Eigen::Index>(k));
+        for (std::size_t i = 0; i < pixels; ++i)
+        {
+          sums[j * stride + i] += factor * sums[k * stride + i];
+        }
+      }
+    }
+  });
+}
 
 namespace
 {
