@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studies/InfluenceConstants.h"
 
-#include "base/Significance.h"
+#include "base/Constants.h"
 #include "correlation/Constants.h"
 #include "moments/Constants.h"
 #include "pixels/Constants.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/Quantiles.h"
 #include "moments/DarkFrames.h"
-#include "moments/PixelCalibration.h"
+#include "moments/DarkMaps.h"
 #include "moments/StackMoments.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Settings.h"

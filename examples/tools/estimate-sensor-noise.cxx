@@ -4,7 +4,7 @@
 
 #include "sensornoise/ReportText.h"
 #include "sensornoise/Report.h"
-#include "page/ComparisonPage.h"
+#include "page/Comparison.h"
 #include "tools/ErrorSentence.h"
 #include "tools/CompanionFiles.h"
 #include "tools/ComparedFiles.h"

@@ -21,7 +21,7 @@
 #include "itkSensorNoiseErrors.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Settings.h"
-#include "base/Significance.h"
+#include "base/Constants.h"
 #include "published/FlickerEstimate.h"
 #include "published/FlickerSums.h"
 #include "published/IsoIntensitySet.h"

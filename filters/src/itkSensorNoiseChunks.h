@@ -19,7 +19,7 @@
 #define itkSensorNoiseChunks_h
 
 #include "itkIntTypes.h"
-#include "base/FramesTogether.h"
+#include "base/Simd.h"
 
 #include <algorithm>
 

@@ -19,11 +19,10 @@
 #define itkSensorNoiseDarkSink_h
 
 #include "itkSensorNoiseStackSink.h"
-#include "base/FramesTogether.h"
+#include "base/Simd.h"
 #include "sensornoise/Parallel.h"
 #include "mosaic/PlaneFrames.h"
 #include "sensornoise/Settings.h"
-#include "moments/DarkDrift.h"
 #include "moments/DarkFrames.h"
 #include "moments/TemporalMoments.h"
 

@@ -23,7 +23,6 @@
 #include "sensornoise/Parallel.h"
 #include "moments/DarkMaps.h"
 #include "sensornoise/Settings.h"
-#include "moments/PixelCalibration.h"
 #include "mosaic/MosaicPasses.h"
 #include "published/PublishedPasses.h"
 #include "refined/MemoryNeed.h"

@@ -19,7 +19,7 @@
 
 #include "itkSensorNoiseFileErrors.h"
 #include "itkSensorNoiseMetaData.h"
-#include "base/ForAll.h"
+#include "base/ParallelWork.h"
 #include "files/FrameReader.h"
 #include "sensornoise/Parallel.h"
 

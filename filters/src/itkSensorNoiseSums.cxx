@@ -20,7 +20,6 @@
 #include "itkSensorNoiseErrors.h"
 #include "itkSensorNoiseEstimation.h"
 #include "base/BinaryStream.h"
-#include "base/ZeroRuns.h"
 #include "moments/MosaicLevels.h"
 #include "sensornoise/Version.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "base/Avx2.h"
+#include "base/Simd.h"
 #include "simulation/Random.h"
 
 #include <cmath>

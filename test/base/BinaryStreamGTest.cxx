@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "base/BinaryStream.h"
-#include "moments/FloatingMoments.h"
-#include "moments/IntegerMoments.h"
+#include "moments/TemporalMoments.h"
 #include "pixels/ProjectionSums.h"
-#include "series/FrameProducts.h"
+#include "series/FrameSums.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "base/BytesFingerprint.h"
-#include "base/MixBits.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "base/ForAll.h"
+#include "base/ParallelWork.h"
 #include "helpers/StackTestHelper.h"
 
 #include <cstddef>

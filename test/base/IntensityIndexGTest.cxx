@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "base/IntensityIndex.h"
 #include "base/Quantiles.h"
 
 #include <algorithm>

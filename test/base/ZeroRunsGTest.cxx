@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "base/ZeroRuns.h"
+#include "base/BinaryStream.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "correlation/CovarianceShapes.h"
+#include "correlation/CorrelationSums.h"
 
 #include <array>
 #include <cstddef>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "correlation/NoiseKurtosis.h"
-#include "correlation/MixtureKurtosis.h"
 #include "simulation/Random.h"
 #include "helpers/CorrelationTestHelper.h"
 #include "helpers/StackTestHelper.h"

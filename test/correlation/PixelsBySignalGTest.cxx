@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "correlation/PixelsBySignal.h"
+#include "correlation/NoiseResiduals.h"
 
 #include <algorithm>
 #include <cmath>

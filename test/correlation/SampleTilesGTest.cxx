@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "correlation/SampleTiles.h"
+#include "correlation/FrameSample.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "correlation/TemporalMixing.h"
+#include "correlation/TotalCovariance.h"
 #include "base/Eigen.h"
 #include "simulation/Random.h"
 

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "correlation/UnequalFrames.h"
+#include "correlation/NoiseResiduals.h"
 #include "base/Eigen.h"
-#include "correlation/MixtureKurtosis.h"
-#include "correlation/NoiseCorrelation.h"
 #include "correlation/NoiseKurtosis.h"
+#include "correlation/NoiseCorrelation.h"
 #include "simulation/Random.h"
 #include "helpers/CorrelationTestHelper.h"
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "exports/AndroidExport.h"
-#include "exports/LibcameraExport.h"
+#include "exports/FittedExports.h"
 #include "helpers/ExportTestHelper.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/ByteOrders.h"
+#include "files/ByteOrder.h"
 #include "files/RawLayout.h"
 #include "helpers/FrameFileTestHelper.h"
 

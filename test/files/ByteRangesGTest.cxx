@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/ByteRanges.h"
+#include "files/FileBytes.h"
 
 #include <cstdint>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "helpers/FrameFileTestHelper.h"
-#include "files/FileIdentity.h"
+#include "files/FileBytes.h"
 #include "helpers/PngTestHelper.h"
 #include "helpers/TiffTestHelper.h"
 

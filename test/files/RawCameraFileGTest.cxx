@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/RawCameraFile.h"
+#include "files/FrameFormats.h"
 #include "files/FrameReader.h"
 
 #include "helpers/DngTestHelper.h"

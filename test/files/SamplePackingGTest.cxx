@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/SamplePacking.h"
+#include "files/FrameReader.h"
 #include "helpers/BurstFilesTestHelper.h"
 
 #include <cstddef>

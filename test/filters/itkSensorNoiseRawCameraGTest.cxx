@@ -19,7 +19,7 @@
 #include "itkSensorNoiseImageIO.h"
 #include "itkSensorNoiseImageIOFactory.h"
 #include "itkSensorNoiseMetaData.h"
-#include "files/RawCameraFile.h"
+#include "files/FrameFormats.h"
 #include "helpers/DngTestHelper.h"
 #include "helpers/FrameFileTestHelper.h"
 #include "itkImageFileReader.h"

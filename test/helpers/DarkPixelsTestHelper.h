@@ -5,7 +5,6 @@
 
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Settings.h"
-#include "moments/DarkDrift.h"
 #include "moments/DarkFrames.h"
 #include "moments/TemporalMoments.h"
 #include "simulation/Random.h"

@@ -8,10 +8,8 @@
 #include "base/Stencils.h"
 #include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
-#include "series/FrameProducts.h"
-#include "series/FrameRegressors.h"
 #include "series/FrameSums.h"
-#include "series/ShiftInstruments.h"
+#include "series/FrameRegressors.h"
 
 #include <array>
 #include <cmath>

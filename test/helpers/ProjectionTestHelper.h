@@ -5,14 +5,12 @@
 
 #include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
-#include "pixels/PixelCoordinates.h"
-#include "pixels/ResidualSquares.h"
-#include "pixels/ProjectedVariance.h"
 #include "pixels/ProjectionSums.h"
+#include "pixels/ProjectedVariance.h"
 #include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
 #include "series/MotionSeries.h"
-#include "series/TemporalBasis.h"
+#include "series/SceneSeries.h"
 #include "helpers/FrameTestHelper.h"
 
 #include <cmath>

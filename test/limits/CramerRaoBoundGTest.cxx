@@ -3,7 +3,6 @@
 #include "limits/CramerRaoBound.h"
 #include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
-#include "limits/CramerRaoInput.h"
 #include "limits/PrecisionLimit.h"
 #include "sensornoise/Simulator.h"
 #include "sensornoise/SimulationSettings.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/CountsFromZero.h"
-#include "moments/TemporalMaps.h"
+#include "moments/StackMaps.h"
+#include "moments/TemporalMoments.h"
 
 #include <cstddef>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/DarkDrift.h"
+#include "moments/DarkFrames.h"
 #include "moments/DarkMaps.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Settings.h"

@@ -3,7 +3,6 @@
 #include "base/ChiSquare.h"
 #include "moments/DarkFrames.h"
 #include "moments/DarkMaps.h"
-#include "moments/DefectivePixels.h"
 #include "sensornoise/Settings.h"
 #include "helpers/DarkPixelsTestHelper.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/DistinctFrames.h"
+#include "moments/StackFrames.h"
 #include "helpers/StackTestHelper.h"
 
 #include <algorithm>

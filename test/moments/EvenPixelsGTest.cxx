@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/EvenPixels.h"
+#include "moments/Exposures.h"
 #include "sensornoise/Parallel.h"
 #include "moments/FrameThumbnails.h"
 #include "moments/StackMaps.h"

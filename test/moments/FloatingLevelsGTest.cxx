@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/FloatingLevels.h"
+#include "moments/Codes.h"
 #include "sensornoise/StepResults.h"
 #include "sensornoise/Settings.h"
-#include "moments/Codes.h"
-#include "moments/OutermostLevels.h"
+#include "moments/ExtremeLevels.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/FloatingMoments.h"
+#include "moments/TemporalMoments.h"
 #include "helpers/StackTestHelper.h"
 #include "sensornoise/Parallel.h"
 

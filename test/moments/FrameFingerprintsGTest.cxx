@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/FrameFingerprints.h"
+#include "moments/StackMoments.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/IlluminationChange.h"
+#include "moments/FrameFit.h"
 #include "moments/Constants.h"
 #include "moments/FrameThumbnails.h"
 #include "helpers/ThumbnailTestHelper.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/OutermostLevels.h"
+#include "moments/ExtremeLevels.h"
 
 #include <algorithm>
 #include <cmath>

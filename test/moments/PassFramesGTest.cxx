@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/PassFrames.h"
+#include "moments/StackFrames.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/PixelCalibration.h"
-#include "base/ChiSquare.h"
 #include "moments/DarkMaps.h"
+#include "base/ChiSquare.h"
 #include "sensornoise/Settings.h"
 #include "helpers/DarkPixelsTestHelper.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/StackRequirements.h"
+#include "moments/StackFrames.h"
 #include "sensornoise/FrameGeometry.h"
 
 #include <gtest/gtest.h>

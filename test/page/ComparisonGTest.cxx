@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page/Comparison.h"
 #include "helpers/PageTestHelper.h"
-#include "page/ComparisonPage.h"
 
 #include <algorithm>
 #include <cmath>

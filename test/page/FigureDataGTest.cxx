@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "page/FigureData.h"
+#include "page/Figures.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

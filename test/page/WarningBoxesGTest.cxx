@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "page/WarningBoxes.h"
+#include "page/Verdict.h"
 #include "helpers/PageTestHelper.h"
 #include "sensornoise/ChannelReports.h"
 #include "sensornoise/ReportText.h"

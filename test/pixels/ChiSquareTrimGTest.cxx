@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/ChiSquareTrim.h"
+#include "pixels/VarianceFit.h"
 
 #include "pixels/Constants.h"
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/FrameDof.h"
+#include "pixels/UnequalIllumination.h"
 #include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/ProjectedVariance.h"
 #include "series/LocalIllumination.h"
-#include "series/TemporalBasis.h"
+#include "series/SceneSeries.h"
 #include "simulation/Random.h"
 #include "helpers/ProjectionTestHelper.h"
 

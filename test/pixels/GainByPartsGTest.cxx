@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/GainByParts.h"
-#include "pixels/Partition.h"
+#include "pixels/PartTiles.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,18 +1,17 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/GainFeedback.h"
+#include "pixels/UnequalIllumination.h"
 #include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
 #include "base/PixelLayout.h"
 #include "pixels/ProjectedFrames.h"
 #include "pixels/ProjectedVariance.h"
 #include "pixels/ProjectionSums.h"
-#include "pixels/ResidualSquares.h"
 #include "pixels/StaticVariance.h"
 #include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
 #include "series/MotionSeries.h"
-#include "series/TemporalBasis.h"
+#include "series/SceneSeries.h"
 #include "simulation/Random.h"
 #include "helpers/FrameTestHelper.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/InstrumentalFit.h"
+#include "pixels/FixedPatternEstimate.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/VarianceFit.h"
 #include "pixels/VarianceLine.h"

@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/LocalOffset.h"
-#include "base/Eigen.h"
-#include "pixels/OffsetDrift.h"
 #include "pixels/IlluminationResponses.h"
+#include "base/Eigen.h"
 #include "pixels/ProjectedVariance.h"
 #include "pixels/VarianceLine.h"
 #include "helpers/ProjectionTestHelper.h"

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/MeanGain.h"
 #include "pixels/VarianceCurve.h"
 #include "pixels/VarianceLine.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/PairProducts.h"
+#include "pixels/ProjectedFrames.h"
 #include "simulation/Random.h"
 
 #include <algorithm>

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/ProjectionSums.h"
 #include "base/Eigen.h"
-#include "moments/IntegerMoments.h"
 #include "moments/TemporalMoments.h"
-#include "pixels/ResidualSquares.h"
 #include "scene/ReferenceFrame.h"
-#include "series/TemporalBasis.h"
+#include "series/SceneSeries.h"
 
 #include <algorithm>
 #include <cmath>

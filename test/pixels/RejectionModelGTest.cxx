@@ -6,11 +6,10 @@
 #include "pixels/Constants.h"
 #include "pixels/ProjectedVariance.h"
 #include "pixels/ProjectionSums.h"
-#include "pixels/StaticPixels.h"
 #include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
 #include "series/MotionSeries.h"
-#include "series/TemporalBasis.h"
+#include "series/SceneSeries.h"
 #include "helpers/StackTestHelper.h"
 
 #include <algorithm>

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/SampledVariance.h"
-#include "sensornoise/Parallel.h"
 #include "pixels/VarianceFit.h"
+#include "sensornoise/Parallel.h"
 #include "pixels/VarianceLine.h"
 #include "helpers/StackTestHelper.h"
 

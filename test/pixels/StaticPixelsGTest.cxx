@@ -1,13 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/StaticPixels.h"
+#include "pixels/RejectionModel.h"
 #include "base/ChiSquare.h"
 #include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
-#include "base/PixelRuns.h"
-#include "pixels/FarVariance.h"
-#include "pixels/TestedRun.h"
-#include "pixels/RejectionModel.h"
+#include "base/Simd.h"
 #include "pixels/ProjectedVariance.h"
 #include "helpers/ProjectionTestHelper.h"
 

@@ -3,7 +3,6 @@
 #include "pixels/VarianceFit.h"
 #include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
-#include "pixels/ChiSquareTrim.h"
 #include "pixels/VarianceLine.h"
 #include "helpers/StackTestHelper.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/VarianceStep.h"
+#include "pixels/VarianceCurve.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "base/Significance.h"
+#include "base/Constants.h"
 #include "published/FlickerEstimate.h"
 #include "sensornoise/Settings.h"
 #include "published/FlickerSums.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "correlation/CorrelationRecord.h"
+#include "correlation/CorrelationEstimate.h"
 #include "refined/CorrelationReport.h"
 #include "report/Quantities.h"
 #include "helpers/ReportTestHelper.h"

@@ -3,7 +3,6 @@
 #include "refined/GainEstimate.h"
 #include "base/Eigen.h"
 #include "sensornoise/Settings.h"
-#include "pixels/MeanGain.h"
 #include "pixels/VarianceCurve.h"
 #include "pixels/VarianceLine.h"
 #include "refined/RefinedResults.h"

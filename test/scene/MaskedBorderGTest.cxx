@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/MaskedBorder.h"
+#include "scene/StaticScene.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/OutlierPixels.h"
+#include "scene/UsablePixels.h"
 #include "sensornoise/Parallel.h"
 #include "helpers/FrameTestHelper.h"
 

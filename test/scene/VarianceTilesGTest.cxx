@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/VarianceTiles.h"
+#include "scene/TransientRegion.h"
 #include "base/ChiSquare.h"
-#include "scene/VarianceSample.h"
+#include "scene/InitialNoiseModel.h"
 
 #include <cstddef>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "series/FrameOffsets.h"
+#include "series/OffsetLine.h"
 
 #include <cstddef>
 #include <gtest/gtest.h>

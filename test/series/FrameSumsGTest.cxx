@@ -3,7 +3,6 @@
 #include "series/FrameSums.h"
 #include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
-#include "series/FrameProducts.h"
 #include "series/FrameRegressors.h"
 #include "helpers/FrameTestHelper.h"
 #include "helpers/StackTestHelper.h"

@@ -3,7 +3,6 @@
 #include "series/LocalIllumination.h"
 #include "base/Eigen.h"
 #include "series/FrameEquations.h"
-#include "series/FrameProducts.h"
 #include "series/FrameSums.h"
 #include "series/MotionSeries.h"
 #include "helpers/FrameTestHelper.h"

@@ -6,10 +6,9 @@
 #include "base/Stencils.h"
 #include "scene/ReferenceFrame.h"
 #include "series/FrameEquations.h"
-#include "series/FrameProducts.h"
 #include "series/FrameSums.h"
 #include "series/OffsetLine.h"
-#include "series/ShiftInstruments.h"
+#include "series/FrameRegressors.h"
 #include "helpers/FrameTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

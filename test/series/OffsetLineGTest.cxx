@@ -4,7 +4,6 @@
 #include "base/ChiSquare.h"
 #include "base/Eigen.h"
 #include "series/FrameEquations.h"
-#include "series/FrameProducts.h"
 #include "series/FrameSums.h"
 #include "helpers/FrameTestHelper.h"
 

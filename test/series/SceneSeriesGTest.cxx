@@ -5,9 +5,8 @@
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Settings.h"
 #include "series/FrameEquations.h"
-#include "series/FrameProducts.h"
-#include "series/FrameRegressors.h"
 #include "series/FrameSums.h"
+#include "series/FrameRegressors.h"
 #include "helpers/FrameTestHelper.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "series/TemporalBasis.h"
+#include "series/SceneSeries.h"
 #include "base/Eigen.h"
 #include "series/MotionSeries.h"
 

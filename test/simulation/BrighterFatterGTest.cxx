@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/BrighterFatter.h"
+#include "simulation/ChargeExchange.h"
 #include "helpers/FrameNoiseTestHelper.h"
 
 #include <cmath>

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/Companding.h"
-#include "simulation/DefectCorrection.h"
+#include "simulation/LossyCompression.h"
+#include "simulation/FrameProcessing.h"
 #include "simulation/FrameResampling.h"
-#include "simulation/FrameSmoothing.h"
 #include "helpers/FrameNoiseTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/GainPattern.h"
+#include "simulation/FixedPattern.h"
 #include "helpers/SimulatorTestHelper.h"
 
 #include <cmath>

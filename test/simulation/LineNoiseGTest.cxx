@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/LineNoise.h"
+#include "simulation/ReadOut.h"
 #include "helpers/SimulatorTestHelper.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/ReadNoisePattern.h"
+#include "simulation/FixedPattern.h"
 #include "base/Quantiles.h"
 #include "helpers/SimulatorTestHelper.h"
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulation/ReadOut.h"
 #include "simulation/FixedPattern.h"
-#include "simulation/GainPattern.h"
 #include "helpers/SimulatorTestHelper.h"
 
 #include <algorithm>

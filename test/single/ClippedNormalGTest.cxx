@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "single/ClippedNormal.h"
+#include "single/NoiseLine.h"
 
 #include <algorithm>
 #include <cmath>

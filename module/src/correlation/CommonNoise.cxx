@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "correlation/CommonNoise.h"
 
-#include "base/Avx2.h"
+#include "base/Simd.h"
 #include "correlation/Constants.h"
 
 #include <algorithm>

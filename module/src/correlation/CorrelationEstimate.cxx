@@ -11,7 +11,6 @@
 #include "report/Quantities.h"
 #include "report/ReportJson.h"
 #include "sensornoise/Version.h"
-#include "base/Significance.h"
 #include "correlation/NoiseResiduals.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "correlation/NoiseCorrelation.h"
 
 #include "base/Eigen.h"
-#include "base/Significance.h"
+#include "base/Constants.h"
 #include "correlation/Constants.h"
 #include "correlation/CorrelationSums.h"
 #include "correlation/TotalCovariance.h"

@@ -3,7 +3,7 @@
 #include "correlation/NoiseResiduals.h"
 
 #include "base/Constants.h"
-#include "base/Avx2.h"
+#include "base/Simd.h"
 #include "correlation/Constants.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "correlation/PositionDependence.h"
 
 #include "base/Eigen.h"
-#include "base/Significance.h"
+#include "base/Constants.h"
 #include "base/Quantiles.h"
 #include "correlation/Jackknife.h"
 #include "correlation/LagSums.h"

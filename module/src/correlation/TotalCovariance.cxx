@@ -3,7 +3,6 @@
 #include "correlation/TotalCovariance.h"
 
 #include "base/Constants.h"
-#include "base/Significance.h"
 #include "correlation/PositionDependence.h"
 #include "correlation/Constants.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "moments/StackMaps.h"
 
-#include "base/ForAll.h"
+#include "base/ParallelWork.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/FrameGeometry.h"
 #include "base/Quantiles.h"

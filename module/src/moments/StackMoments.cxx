@@ -6,7 +6,7 @@
 #include "base/BytesFingerprint.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/FrameGeometry.h"
-#include "base/Avx2.h"
+#include "base/Simd.h"
 #include "moments/StackFrames.h"
 #include "moments/TemporalMoments.h"
 

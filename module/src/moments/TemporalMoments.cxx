@@ -3,8 +3,8 @@
 #include "moments/TemporalMoments.h"
 
 #include "base/BinaryStream.h"
-#include "base/FirstTouch.h"
-#include "base/Avx2.h"
+#include "base/ParallelWork.h"
+#include "base/Simd.h"
 
 #include <algorithm>
 #include <cstddef>

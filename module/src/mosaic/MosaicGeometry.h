@@ -4,7 +4,7 @@
 #define sensornoise_mosaic_MosaicGeometry_h
 
 #include "sensornoise/FrameGeometry.h"
-#include "base/FirstTouch.h"
+#include "base/ParallelWork.h"
 #include "sensornoise/Parallel.h"
 #include "base/PixelLayout.h"
 

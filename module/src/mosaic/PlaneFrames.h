@@ -4,7 +4,7 @@
 #define sensornoise_mosaic_PlaneFrames_h
 
 #include "base/Eigen.h"
-#include "base/FramesTogether.h"
+#include "base/Simd.h"
 #include "sensornoise/Parallel.h"
 #include "mosaic/MosaicGeometry.h"
 

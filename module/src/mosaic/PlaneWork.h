@@ -3,7 +3,7 @@
 #ifndef sensornoise_mosaic_PlaneWork_h
 #define sensornoise_mosaic_PlaneWork_h
 
-#include "base/ForAll.h"
+#include "base/ParallelWork.h"
 #include "sensornoise/Parallel.h"
 
 #include <atomic>

@@ -3,7 +3,7 @@
 #ifndef sensornoise_pixels_Constants_h
 #define sensornoise_pixels_Constants_h
 
-#include "base/Constant.h"
+#include "base/Constants.h"
 
 #include <cstddef>
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/FixedPatternEstimate.h"
 
-#include "base/Avx2.h"
+#include "base/Simd.h"
 #include "base/Eigen.h"
-#include "base/Significance.h"
+#include "base/Constants.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/Constants.h"
 #include "pixels/VarianceFit.h"

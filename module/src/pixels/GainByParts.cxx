@@ -4,7 +4,6 @@
 
 #include "base/Constants.h"
 #include "base/Quantiles.h"
-#include "base/Significance.h"
 #include "pixels/Constants.h"
 #include "pixels/PartRegression.h"
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/ProjectedFrames.h"
 
-#include "base/Avx2.h"
-#include "base/Prefetch.h"
+#include "base/Simd.h"
+#include "base/PixelLayout.h"
 #include "sensornoise/FrameGeometry.h"
-#include "series/TemporalBasis.h"
+#include "series/SceneSeries.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/ProjectedVariance.h"
 
-#include "base/Avx2.h"
+#include "base/Simd.h"
 #include "base/BoxSum.h"
-#include "base/FirstTouch.h"
+#include "base/ParallelWork.h"
 #include "base/Stencils.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/Constants.h"
@@ -12,7 +12,7 @@
 #include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
 #include "series/MotionSeries.h"
-#include "series/TemporalBasis.h"
+#include "series/SceneSeries.h"
 
 #include <algorithm>
 #include <array>

@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/ProjectionSums.h"
 
-#include "base/Avx2.h"
+#include "base/Simd.h"
 #include "base/BinaryStream.h"
 #include "base/Eigen.h"
-#include "base/FirstTouch.h"
+#include "base/ParallelWork.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/ProjectedFrames.h"
 #include "scene/ReferenceFrame.h"
-#include "series/TemporalBasis.h"
+#include "series/SceneSeries.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -4,8 +4,8 @@
 #define sensornoise_pixels_RejectionModel_h
 
 #include "SensorNoiseExport.h"
-#include "base/PixelRuns.h"
-#include "base/Significance.h"
+#include "base/Simd.h"
+#include "base/Constants.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/ProjectedVariance.h"
 #include "pixels/VarianceLine.h"

@@ -3,9 +3,9 @@
 #include "pixels/RoughnessClasses.h"
 
 #include "base/BoxSum.h"
-#include "base/FirstTouch.h"
+#include "base/ParallelWork.h"
 #include "base/Quantiles.h"
-#include "base/Significance.h"
+#include "base/Constants.h"
 #include "base/Stencils.h"
 #include "pixels/Constants.h"
 #include "pixels/ProjectedVariance.h"

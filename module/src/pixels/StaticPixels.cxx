@@ -2,17 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/RejectionModel.h"
 
-#include "base/Avx2.h"
+#include "base/Simd.h"
 #include "base/BoxSum.h"
 #include "base/Constants.h"
-#include "base/FirstTouch.h"
+#include "base/ParallelWork.h"
 #include "base/Quantiles.h"
-#include "base/Significance.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/Constants.h"
 #include "pixels/ProjectedVariance.h"
 #include "scene/ReferenceFrame.h"
-#include "series/TemporalBasis.h"
+#include "series/SceneSeries.h"
 
 #include <algorithm>
 #include <array>

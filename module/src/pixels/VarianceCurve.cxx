@@ -3,7 +3,7 @@
 #include "pixels/VarianceCurve.h"
 
 #include "base/Eigen.h"
-#include "base/Significance.h"
+#include "base/Constants.h"
 #include "pixels/NormalEquations.h"
 
 #include <algorithm>

@@ -4,10 +4,9 @@
 #define sensornoise_pixels_VarianceFit_h
 
 #include "SensorNoiseExport.h"
-#include "base/Avx2.h"
+#include "base/Simd.h"
 #include "base/Eigen.h"
-#include "base/PixelRuns.h"
-#include "base/ValueRange.h"
+#include "base/Quantiles.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/Constants.h"
 #include "pixels/VarianceCurve.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/VarianceCurve.h"
 
-#include "base/Significance.h"
+#include "base/Constants.h"
 #include "pixels/Constants.h"
 #include "pixels/NormalEquations.h"
 

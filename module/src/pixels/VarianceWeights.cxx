@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/VarianceFit.h"
 
-#include "base/Avx2.h"
+#include "base/Simd.h"
 #include "base/ChiSquare.h"
 #include "base/Quantiles.h"
 #include "sensornoise/Parallel.h"
 #include "moments/Constants.h"
-#include "moments/DefectivePixels.h"
+#include "moments/DarkMaps.h"
 #include "pixels/Constants.h"
 #include "pixels/VarianceLine.h"
 

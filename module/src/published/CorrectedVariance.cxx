@@ -3,9 +3,9 @@
 #include "published/CorrectedVariance.h"
 
 #include "base/BinaryStream.h"
-#include "base/FirstTouch.h"
+#include "base/ParallelWork.h"
 #include "sensornoise/FrameGeometry.h"
-#include "base/Avx2.h"
+#include "base/Simd.h"
 
 #include <algorithm>
 #include <cmath>

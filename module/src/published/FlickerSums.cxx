@@ -3,10 +3,9 @@
 #include "published/FlickerSums.h"
 
 #include "base/BinaryStream.h"
-#include "base/PixelRuns.h"
+#include "base/Simd.h"
 #include "sensornoise/FrameGeometry.h"
-#include "base/Prefetch.h"
-#include "base/Avx2.h"
+#include "base/PixelLayout.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 
 #include "sensornoise/StepResults.h"
 #include "SensorNoiseExport.h"
-#include "base/IntensityIndex.h"
+#include "base/Quantiles.h"
 #include "sensornoise/Parallel.h"
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 #include "published/PublishedPasses.h"
 
 #include "base/BinaryStream.h"
-#include "base/FirstTouch.h"
+#include "base/ParallelWork.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Report.h"
 #include "moments/StackMaps.h"

@@ -5,7 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/FrameGeometry.h"
-#include "base/FramesTogether.h"
+#include "base/Simd.h"
 #include "sensornoise/Parallel.h"
 #include "base/PixelLayout.h"
 #include "moments/StackPasses.h"

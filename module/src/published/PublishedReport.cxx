@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "published/PublishedReport.h"
 
-#include "base/FaintFlicker.h"
+#include "base/Text.h"
 #include "sensornoise/FrameGeometry.h"
-#include "base/IntensityIndex.h"
+#include "base/Quantiles.h"
 #include "base/PolynomialFit.h"
 #include "sensornoise/Settings.h"
-#include "base/Significance.h"
-#include "base/Text.h"
+#include "base/Constants.h"
 #include "published/FlickerEstimate.h"
 #include "published/IsoIntensitySet.h"
 #include "published/NoiseParameters.h"

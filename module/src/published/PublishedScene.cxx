@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "published/PublishedScene.h"
 
-#include "base/ForAll.h"
+#include "base/ParallelWork.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/Settings.h"
-#include "moments/StackRequirements.h"
+#include "moments/StackFrames.h"
 #include "published/VibrationMask.h"
 
 #include <cmath>

@@ -3,8 +3,7 @@
 #include "published/VibrationCovariance.h"
 
 #include "base/Eigen.h"
-#include "base/PixelRuns.h"
-#include "base/Avx2.h"
+#include "base/Simd.h"
 #include "published/VibrationMask.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #ifndef sensornoise_refined_BeyondChance_h
 #define sensornoise_refined_BeyondChance_h
 
-#include "base/Significance.h"
+#include "base/Constants.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/CorrelationReport.h"
 
-#include "base/Significance.h"
+#include "base/Constants.h"
 #include "base/Text.h"
 #include "correlation/Constants.h"
 #include "refined/Constants.h"

@@ -5,7 +5,6 @@
 #include "base/Constants.h"
 #include "base/Eigen.h"
 #include "sensornoise/Report.h"
-#include "base/Significance.h"
 #include "moments/DarkMaps.h"
 #include "sensornoise/Settings.h"
 #include "pixels/VarianceCurve.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/FrameParts.h"
 
-#include "pixels/Partition.h"
+#include "pixels/PartTiles.h"
 #include "refined/Constants.h"
 
 #include <algorithm>

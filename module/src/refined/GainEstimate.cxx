@@ -3,12 +3,10 @@
 #include "refined/GainEstimate.h"
 
 #include "base/Constants.h"
-#include "base/Significance.h"
 #include "sensornoise/Settings.h"
 #include "pixels/FixedPatternEstimate.h"
-#include "pixels/MeanGain.h"
-#include "pixels/ProjectedVariance.h"
 #include "pixels/VarianceCurve.h"
+#include "pixels/ProjectedVariance.h"
 #include "refined/BeyondChance.h"
 #include "refined/Constants.h"
 #include "refined/DarkPoint.h"

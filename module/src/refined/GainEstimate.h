@@ -8,7 +8,6 @@
 #include "sensornoise/Settings.h"
 #include "pixels/VarianceLine.h"
 #include "pixels/VarianceCurve.h"
-#include "pixels/VarianceStep.h"
 #include "refined/RefinedResults.h"
 #include "refined/SensorLines.h"
 

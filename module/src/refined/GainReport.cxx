@@ -6,7 +6,7 @@
 #include "base/Text.h"
 #include "pixels/Constants.h"
 #include "pixels/FixedPatternEstimate.h"
-#include "pixels/VarianceStep.h"
+#include "pixels/VarianceCurve.h"
 #include "refined/Constants.h"
 
 #include <algorithm>

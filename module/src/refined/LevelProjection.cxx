@@ -6,10 +6,10 @@
 #include "base/NothingToMeasure.h"
 #include "base/Quantiles.h"
 #include "correlation/FrameSample.h"
-#include "moments/StackRequirements.h"
+#include "moments/StackFrames.h"
 #include "refined/Constants.h"
 #include "scene/InitialNoiseModel.h"
-#include "series/TemporalBasis.h"
+#include "series/SceneSeries.h"
 
 #include <algorithm>
 #include <cmath>

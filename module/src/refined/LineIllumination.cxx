@@ -4,7 +4,7 @@
 
 #include "base/Eigen.h"
 #include "sensornoise/Report.h"
-#include "base/Significance.h"
+#include "base/Constants.h"
 #include "correlation/Jackknife.h"
 #include "refined/Constants.h"
 #include "scene/ReferenceFrame.h"

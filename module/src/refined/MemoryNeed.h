@@ -5,7 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/FrameGeometry.h"
-#include "correlation/SampleTiles.h"
+#include "correlation/FrameSample.h"
 
 #include <algorithm>
 #include <cstddef>

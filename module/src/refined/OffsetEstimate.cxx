@@ -3,7 +3,7 @@
 #include "refined/OffsetEstimate.h"
 
 #include "base/ChiSquare.h"
-#include "base/Significance.h"
+#include "base/Constants.h"
 #include "sensornoise/Settings.h"
 #include "pixels/Constants.h"
 #include "refined/Constants.h"

@@ -6,7 +6,6 @@
 #include "base/Constants.h"
 #include "base/Eigen.h"
 #include "base/Quantiles.h"
-#include "base/Significance.h"
 #include "refined/GainEstimate.h"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 #include "refined/OffsetReport.h"
 
 #include "base/Constants.h"
-#include "base/FaintFlicker.h"
 #include "base/Text.h"
 #include "refined/Constants.h"
 

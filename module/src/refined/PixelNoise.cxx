@@ -4,10 +4,9 @@
 
 #include "sensornoise/Settings.h"
 #include "correlation/FrameEnergies.h"
-#include "correlation/LocalMotion.h"
+#include "correlation/RemainingSceneChange.h"
 #include "correlation/NoiseResiduals.h"
-#include "correlation/LineIlluminationChange.h"
-#include "pixels/FlatPixels.h"
+#include "pixels/RoughnessClasses.h"
 #include "refined/BeyondChance.h"
 #include "refined/Constants.h"
 #include "refined/FrameParts.h"

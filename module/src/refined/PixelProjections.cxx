@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/PixelProjections.h"
 
-#include "base/FirstTouch.h"
+#include "base/ParallelWork.h"
 #include "base/FreeMemory.h"
 #include "sensornoise/FrameGeometry.h"
 #include "pixels/ProjectedFrames.h"

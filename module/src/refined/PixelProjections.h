@@ -8,10 +8,8 @@
 #include "sensornoise/Parallel.h"
 #include "base/PixelLayout.h"
 #include "correlation/FrameSample.h"
-#include "pixels/PixelCoordinates.h"
 #include "pixels/ProjectionSums.h"
-#include "pixels/ResidualSquares.h"
-#include "series/TemporalBasis.h"
+#include "series/SceneSeries.h"
 
 #include <cstddef>
 #include <istream>

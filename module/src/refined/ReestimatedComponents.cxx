@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/ReestimatedComponents.h"
 
-#include "pixels/OffsetDrift.h"
 #include "pixels/IlluminationResponses.h"
 #include "series/FrameEquations.h"
 

@@ -5,9 +5,8 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
-#include "pixels/LocalFlicker.h"
-#include "pixels/LocalOffset.h"
-#include "pixels/PixelCoordinates.h"
+#include "pixels/IlluminationResponses.h"
+#include "pixels/ProjectionSums.h"
 #include "pixels/StaticVariance.h"
 #include "series/FrameSums.h"
 #include "series/MotionSeries.h"

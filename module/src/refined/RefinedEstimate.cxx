@@ -3,7 +3,6 @@
 #include "refined/RefinedEstimate.h"
 
 #include "base/Constants.h"
-#include "base/Significance.h"
 #include "pixels/VarianceCurve.h"
 #include "refined/Constants.h"
 #include "refined/SensorLines.h"

@@ -20,8 +20,8 @@
 #include "report/SceneChangeReport.h"
 #include "report/StackReport.h"
 #include "report/StackSettings.h"
-#include "series/FrameProducts.h"
-#include "series/SceneRegressors.h"
+#include "series/FrameSums.h"
+#include "series/FrameRegressors.h"
 
 #include <algorithm>
 #include <cmath>

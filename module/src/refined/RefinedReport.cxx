@@ -5,7 +5,7 @@
 #include "sensornoise/Settings.h"
 #include "base/Text.h"
 #include "pixels/VarianceLine.h"
-#include "correlation/CorrelationRecord.h"
+#include "correlation/CorrelationEstimate.h"
 #include "refined/Constants.h"
 #include "refined/CorrelationReport.h"
 #include "refined/GainReport.h"

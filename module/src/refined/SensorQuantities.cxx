@@ -4,7 +4,7 @@
 
 #include "base/ChiSquare.h"
 #include "base/Eigen.h"
-#include "base/Significance.h"
+#include "base/Constants.h"
 #include "pixels/CodeNoise.h"
 #include "pixels/GainByParts.h"
 #include "report/Quantities.h"

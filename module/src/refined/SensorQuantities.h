@@ -4,7 +4,7 @@
 #define sensornoise_refined_SensorQuantities_h
 
 #include "SensorNoiseExport.h"
-#include "pixels/Partition.h"
+#include "pixels/PartTiles.h"
 #include "refined/GainEstimate.h"
 #include "refined/GainVerdict.h"
 #include "refined/OffsetEstimate.h"

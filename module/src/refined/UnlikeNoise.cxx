@@ -3,7 +3,7 @@
 #include "refined/UnlikeNoise.h"
 
 #include "base/Quantiles.h"
-#include "base/Significance.h"
+#include "base/Constants.h"
 #include "base/Text.h"
 #include "refined/Constants.h"
 

@@ -4,7 +4,7 @@
 #define sensornoise_report_AllFrames_h
 
 #include "SensorNoiseExport.h"
-#include "moments/DistinctFrames.h"
+#include "moments/StackFrames.h"
 #include "moments/UnlikeFrames.h"
 #include "sensornoise/Report.h"
 

@@ -3,7 +3,7 @@
 #include "sensornoise/ChannelReports.h"
 
 #include "base/ChiSquare.h"
-#include "base/Significance.h"
+#include "base/Constants.h"
 #include "base/Text.h"
 #include "report/Constants.h"
 #include "report/JointMotion.h"

@@ -3,7 +3,7 @@
 #ifndef sensornoise_report_Constants_h
 #define sensornoise_report_Constants_h
 
-#include "base/Constant.h"
+#include "base/Constants.h"
 
 namespace sensornoise
 {

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/StackReport.h"
 
-#include "base/IntensityIndex.h"
+#include "base/Quantiles.h"
 #include "sensornoise/Report.h"
 #include "base/Text.h"
 #include "sensornoise/StepResults.h"
 #include "moments/MosaicLevels.h"
-#include "moments/StackRequirements.h"
+#include "moments/StackFrames.h"
 
 #include <algorithm>
 #include <string>

@@ -5,7 +5,6 @@
 #include "base/Constants.h"
 #include "base/NothingToMeasure.h"
 #include "base/Quantiles.h"
-#include "base/Significance.h"
 #include "base/Stencils.h"
 #include "scene/Constants.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/ReferenceFrame.h"
 
-#include "base/FirstTouch.h"
+#include "base/ParallelWork.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
 #include "base/Stencils.h"
-#include "base/Avx2.h"
+#include "base/Simd.h"
 
 #include <cstddef>
 #include <cstdint>

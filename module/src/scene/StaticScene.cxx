@@ -3,10 +3,10 @@
 #include "scene/StaticScene.h"
 
 #include "base/Quantiles.h"
-#include "base/Significance.h"
+#include "base/Constants.h"
 #include "sensornoise/Report.h"
 #include "base/Stencils.h"
-#include "moments/StackRequirements.h"
+#include "moments/StackFrames.h"
 #include "scene/Constants.h"
 #include "scene/TransientRegion.h"
 #include "scene/UsablePixels.h"

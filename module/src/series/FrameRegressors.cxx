@@ -5,8 +5,8 @@
 #include "base/BoxSum.h"
 #include "base/ParallelWork.h"
 #include "base/Quantiles.h"
-#include "scene/InnerBlocks.h"
-#include "scene/OutlierPixels.h"
+#include "scene/ReferenceFrame.h"
+#include "scene/UsablePixels.h"
 #include "scene/StaticScene.h"
 #include "series/Constants.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulation/Random.h"
 
-#include "base/MixBits.h"
+#include "base/BytesFingerprint.h"
 
 #include <cmath>
 #include <initializer_list>

@@ -3,7 +3,7 @@
 #include "sensornoise/Simulator.h"
 
 #include "base/FreeMemory.h"
-#include "base/MixBits.h"
+#include "base/BytesFingerprint.h"
 #include "simulation/Random.h"
 
 #include <algorithm>

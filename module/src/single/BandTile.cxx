@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "single/BandTile.h"
 
-#include "base/Avx2.h"
+#include "base/Simd.h"
 #include "sensornoise/FrameGeometry.h"
 
 #include <array>

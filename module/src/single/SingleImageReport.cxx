@@ -4,7 +4,6 @@
 
 #include "base/ChiSquare.h"
 #include "base/Constants.h"
-#include "base/Significance.h"
 #include "base/Text.h"
 #include "report/ExcessNoise.h"
 #include "report/Quantities.h"
