@@ -12,23 +12,24 @@
 namespace sensornoise::tools
 {
 
-/** Reads a mask: 1 where the file, of any type but of the size of the frames, is not 0. Throws std::runtime_error. */
+/** Reads a mask of the size of the frames from a file of any pixel type. Returns 1 where the file is not 0. Throws
+ * std::runtime_error. */
 itk::Image<unsigned char, 2>::Pointer
 ReadMask(const std::string & file, const FrameList & frames);
 
-/** Warns on standard error where a file is a frame and a dark frame. */
+/** Warns on standard error if a file is both a frame and a dark frame. */
 void
 TellOfSharedDarkFrames(const std::vector<std::string> & dark, const std::vector<std::string> & frames);
 
-/** Opens the headers of dark frames, which must have the size and type of the others; \a rawLayout and \a choice as
- * OpenFrames() takes them. Throws std::runtime_error. */
+/** Opens the headers of dark frames, which must have the size and type of the bright frames. \a rawLayout and \a
+ * choice are as for OpenFrames(). Throws std::runtime_error. */
 FrameList
 OpenDark(const std::vector<std::string> & files,
          const FrameList &                frames,
          const std::string &              rawLayout,
          const FrameChoice &              choice);
 
-/** Says on standard error what is odd about the files and no error. */
+/** Prints a warning about the files, if there is one, on standard error. */
 void
 TellWarningOf(const FrameList & frames);
 

@@ -30,7 +30,7 @@ WordIn(const json & record, const char * name)
   return record.contains(name) && record[name].is_string() ? record[name].get<std::string>() : "";
 }
 
-/** 0 where there is no such number. */
+/** Returns a member as a count; 0 if it is missing, negative or not a number. */
 std::size_t
 CountIn(const json & record, const char * name)
 {
@@ -159,7 +159,7 @@ ReportIn(const json & record, const std::string & file)
   return report;
 }
 
-/** The last \a parts of a path without its ending. */
+/** Returns the last \a parts parts of a path, without the file name extension. */
 std::string
 EndOfPath(const std::filesystem::path & file, std::size_t parts)
 {
@@ -176,7 +176,7 @@ std::vector<std::string>
 LabelsOf(const std::vector<std::string> & files)
 {
   std::vector<std::string> labels;
-  constexpr std::size_t    mostFolders = 8; // the same file may be there twice
+  constexpr std::size_t    mostFolders = 8; // a file that is listed twice cannot be distinguished
   for (std::size_t parts = 1; parts <= mostFolders; ++parts)
   {
     labels.clear();

@@ -11,9 +11,9 @@
 namespace sensornoise::tools
 {
 
-/** What stored reports say of camera, frames and noise: one a file, of a mosaic one a channel. They are called by the
- * names of their files, with as many folders as tell them apart. Throws std::runtime_error if a file cannot be read, is
- * no report, or lacks a quantity. */
+/** Reads stored reports: camera, frames and noise. Returns one entry per file, or one per channel of a mosaic. The
+ * labels are the file names, with as many folders as needed to distinguish them. Throws std::runtime_error if a file
+ * cannot be read, is not a report, or lacks a quantity. */
 std::vector<ComparedReport>
 ReadComparedReports(const std::vector<std::string> & files);
 

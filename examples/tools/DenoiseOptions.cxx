@@ -29,8 +29,8 @@ RequireImageName(const std::string & file)
   }
 }
 
-/** The name of an input in the folder; headers whose pixels stand in another file become one file, and so
- * do formats that are not written. */
+/** Returns the name of an output in the folder. A header with pixels in a separate file becomes a single file.
+ * Formats that are not written become .mha. */
 std::string
 NameInFolder(const std::string & folder, const std::string & input, const std::string & pixelType)
 {
@@ -47,7 +47,7 @@ NameInFolder(const std::string & folder, const std::string & input, const std::s
   }
   else if (ending == ".png" && pixelType == "float")
   {
-    name.replace_extension(".tif"); // PNG holds no real numbers
+    name.replace_extension(".tif"); // PNG has no floating-point pixels
   }
   return (fs::path(folder) / name).string();
 }

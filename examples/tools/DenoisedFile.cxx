@@ -24,7 +24,8 @@ namespace sensornoise::tools
 {
 namespace
 {
-/** What the formats cannot hold, before any work. */
+/** Throws std::runtime_error if the format of the output cannot hold the pixels. It is called before the work
+ * begins. */
 template <typename TOutput>
 void
 RequireFormat(const std::string & output, bool isStack)
@@ -48,7 +49,7 @@ RequireFormat(const std::string & output, bool isStack)
   }
 }
 
-/** An image of the list's size and place. */
+/** Returns an image with the size, spacing, origin and direction of the frame list. */
 template <typename TImage>
 typename TImage::Pointer
 MakeLike(const FrameList & list)
@@ -108,7 +109,7 @@ WriteAs(const FrameList & list, const NoiseModelFile & report, const Denoiser & 
 {
   using ImageType = itk::Image<TOutput, VDimension>;
   RequireFormat<TOutput>(name, list.isStack);
-  PendingFile  file(name); // whether it can be written is found before the work begins
+  PendingFile  file(name); // throws before the work begins if the file cannot be written
   const double pixels =
     static_cast<double>(list.width) * static_cast<double>(list.height) * static_cast<double>(list.frames);
   file.RequireRoom(LowerCaseEnding(name) == ".png" ? 0.0 : pixels * sizeof(TOutput));
@@ -119,7 +120,7 @@ WriteAs(const FrameList & list, const NoiseModelFile & report, const Denoiser & 
   writer->SetInput(image);
   writer->SetFileName(file.Temporary().string());
   WriteNamed(file, [&] { writer->Update(); });
-  if (LowerCaseEnding(name) != ".png") // the others do not compress
+  if (LowerCaseEnding(name) != ".png") // the other formats are not compressed
   {
     file.RequireBytes(static_cast<std::uintmax_t>(pixels) * sizeof(TOutput));
   }

@@ -11,14 +11,15 @@
 namespace sensornoise::tools
 {
 
-/** Makes \a output of \a input, an image or a stack frame by frame: generalized Anscombe transform with the model of \a
- * report, \a denoise, exact unbiased inverse. Pixels are of the input's type, rounded and kept in its range, or float.
+/** Denoises \a input, an image or a stack frame by frame, and writes \a output. Each frame passes the generalized
+ * Anscombe transform with the model of \a report, \a denoise, and the exact unbiased inverse. The output pixels are
+ * float, or have the type of the input and are rounded and clamped to its range.
  *
- * \a rawLayout as OpenFrames() takes it.
+ * \a rawLayout is as for OpenFrames().
  *
- * The output takes its name when it is complete. All of it is held in memory, and of the input one frame. What is odd
- * about the scale of the levels is said on standard error. Throws std::exception, one sentence, for what cannot be read
- * or written, or is on another scale than the report. */
+ * The output gets its name when it is complete. The whole output and one frame of the input are held in memory. A
+ * doubtful scale of the grey values is reported on standard error. Throws std::exception if a file cannot be read or
+ * written, or if its scale differs from the scale of the report. The message is one sentence. */
 void
 WriteDenoised(const std::string &    input,
               const std::string &    output,

@@ -11,39 +11,42 @@
 namespace sensornoise::tools
 {
 
-/** A frame of real numbers, row by row. */
+/** Frame of floating-point pixels, row by row. */
 struct RealFrame
 {
-  std::size_t        width{ 0 };  ///< pixels
-  std::size_t        height{ 0 }; ///< pixels
+  std::size_t        width{ 0 };  ///< [pixel]
+  std::size_t        height{ 0 }; ///< [pixel]
   std::vector<float> pixels;
 };
 
-/** Removes white Gaussian noise of variance 1 from a frame, in place. */
+/** Function that removes white Gaussian noise of variance 1 from a frame, in place. */
 using Denoiser = std::function<void(RealFrame &)>;
 
-/** The denoisers of this build, the default first: "nlm" and "bm3d" where there is OpenCV, and "itk". */
+/** Returns the names of the denoisers of this build, the default first: "nlm" and "bm3d" with OpenCV, and always
+ * "itk". */
 std::vector<std::string>
 DenoiserNames();
 
-/** A denoiser by name; \a strength multiplies the noise that it is told of, 1: as measured. \a threads are at most
- * those, 0: all. Throws std::runtime_error, one sentence, where this build has none of that name, or it does not work
- * here: "bm3d" is tried. */
+/** Returns a denoiser by name. \a strength multiplies the standard deviation of the noise that the denoiser assumes;
+ * 1: the measured noise. \a threads is the largest number of threads; 0: all cores. Throws std::runtime_error, with
+ * a message of one sentence, if this build has no denoiser of this name, or if the denoiser does not work. "bm3d" is
+ * tested here on simulated noise. */
 Denoiser
 MakeDenoiser(const std::string & name, double strength, unsigned int threads);
 
-/** ITK's BilateralImageFilter. */
+/** Returns a denoiser that uses itk::BilateralImageFilter. */
 Denoiser
 MakeBilateral(double strength);
 
-/** The name and version of the OpenCV of this build, or nothing without it. */
+/** Returns the version of the OpenCV of this build; empty without OpenCV. */
 std::string
 OpenCVVersion();
 
-/** The denoisers that OpenCV gives; defined where there is OpenCV. Non-local means: */
+/** Returns a denoiser that uses OpenCV's non-local means. It is defined only in a build with OpenCV. */
 Denoiser
 MakeNonLocalMeans(double strength, unsigned int threads);
-/** BM3D of the contributed module xphoto. */
+/** Returns a denoiser that uses BM3D of OpenCV's contributed module xphoto. It is defined only in a build with
+ * OpenCV. */
 Denoiser
 MakeBlockMatching(double strength, unsigned int threads);
 

@@ -16,7 +16,8 @@ namespace sensornoise::tools
 {
 namespace
 {
-/** What an exception says; of an ITK exception on one line, without the class and address that ITK puts in front. */
+/** Returns the message of an exception. The message of an ITK exception becomes one line without the prefix of class
+ * and address. */
 std::string
 TextOf(const std::exception & error)
 {
@@ -25,7 +26,7 @@ TextOf(const std::exception & error)
   {
     return error.what();
   }
-  // what() would name the line of the source, too
+  // what() also names the line of the source
   std::string       text = itkError->GetDescription();
   const std::size_t address = text.find("): ");
   if ((text.rfind("itk::ERROR: ", 0) == 0 || text.rfind("ITK ERROR: ", 0) == 0) && address != std::string::npos)
@@ -36,7 +37,7 @@ TextOf(const std::exception & error)
   return text;
 }
 
-/** Whether ITK, or the C++ library, could not allocate: both say so in words of their own only. */
+/** Returns whether an allocation failed in ITK or in the C++ library, which report it in different words. */
 bool
 IsOutOfMemory(const std::exception & error, const std::string & text)
 {

@@ -9,7 +9,7 @@
 namespace sensornoise::tools
 {
 
-/** What an error says, in one line for people: also where a library says no more than "std::bad_alloc". */
+/** Returns an error as one line for users, also if a library reports only "std::bad_alloc". */
 std::string
 SentenceOf(const std::exception & error);
 

@@ -115,7 +115,7 @@ AddSensorOptions(CLI::App & app, EstimateOptions & options, EstimateTexts & text
     ->group("Sensor");
 }
 
-/** Options of files that are written. */
+/** Adds the options for output files. */
 void
 AddOutputOptions(CLI::App & app, EstimateOptions & options)
 {

@@ -11,7 +11,7 @@ namespace sensornoise::tools
 
 struct EstimateOptions;
 
-/** Values that are read once all options are known. */
+/** Option values as text. They are parsed once all options are known. */
 struct EstimateTexts
 {
   std::string bitDepth{ "auto" };
@@ -24,7 +24,7 @@ struct EstimateTexts
   std::string frames;
 };
 
-/** Declares the options of estimate-sensor-noise, in the groups and with the words of --help. */
+/** Adds the options of estimate-sensor-noise, with the groups and the texts of --help. */
 void
 AddEstimateOptions(CLI::App & app, EstimateOptions & options, EstimateTexts & texts);
 

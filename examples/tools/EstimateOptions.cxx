@@ -27,7 +27,8 @@ namespace sensornoise::tools
 {
 namespace
 {
-/** Reads "a,b,...", exactly \a count numbers, whose \a form is said where they are not. */
+/** Reads exactly \a count numbers, separated by \a separator. Throws CLI::ValidationError, which states the expected
+ * \a form, if the text holds anything else. */
 template <typename TNumber>
 std::vector<TNumber>
 ReadNumbers(const std::string & option,
@@ -186,7 +187,8 @@ RequirePlotName(const std::string & name)
   }
 }
 
-/** --dark and --check take all names behind them. */
+/** Throws std::invalid_argument for a command line without frames. It explains that --dark and --check take all
+ * names that follow. */
 [[noreturn]] void
 RefuseMissingFrames(const EstimateOptions & options)
 {
@@ -211,7 +213,8 @@ RefuseMissingFrames(const EstimateOptions & options)
                               files + ". Or end the list with --: " + tool + option + " " + files + " -- FRAMES");
 }
 
-/** There are frames to be measured, or reports to be compared and nothing that is for measuring. */
+/** Throws if there are no frames to be measured. With --compare it throws if an option for measurements is given, or
+ * fewer than two reports. */
 void
 RequireWork(const CLI::App & app, const EstimateOptions & options)
 {
@@ -295,7 +298,7 @@ EstimateOptions::Parse(int argc, char ** argv)
   RequireValues(app);
   RequireWork(app, *this);
   hasCheck = app.count("--check") > 0;
-  check.erase(std::remove(check.begin(), check.end(), ""), check.end()); // what CLI11 makes of no name
+  check.erase(std::remove(check.begin(), check.end(), ""), check.end()); // CLI11 stores "" for --check without a name
   for (std::vector<std::string> * const names : { &files, &dark, &check })
   {
     *names = ExpandNames(*names, !raw.empty());

@@ -18,7 +18,7 @@
 namespace sensornoise::tools
 {
 
-/** What --plot is to be. */
+/** Kind of the file that --plot writes. */
 enum class PlotKind
 {
   None,
@@ -31,54 +31,53 @@ enum class PlotKind
 struct EstimateOptions
 {
   std::vector<std::string>                 files;
-  std::string                              raw;    ///< how frames lie in files without a header; empty: none
-  FrameChoice                              choice; ///< of files with several channels or planes
+  std::string                              raw;    ///< layout of files without a header; empty: none
+  FrameChoice                              choice; ///< channels or planes that are read from files with several
   std::string                              bayer{ "auto" };
   std::string                              method{ "refined" };
-  unsigned int                             bitDepth{ 0 }; ///< 0: found
+  unsigned int                             bitDepth{ 0 }; ///< 0: estimated
   double                                   clipLow{ std::numeric_limits<double>::quiet_NaN() };
   double                                   clipHigh{ std::numeric_limits<double>::quiet_NaN() };
-  double                                   step{ 0.0 };   ///< 0: found
+  double                                   step{ 0.0 };   ///< quantization step [DN]; 0: estimated
   std::optional<std::pair<double, double>> levelRange;    ///< low, high [DN]; none: all levels
-  std::string                              exposuresText; ///< list of numbers, or name of a file; empty: none
-  std::vector<double>                exposures; ///< of the frames that are measured, see SelectExposures(); empty: none
-  double                             excessNoiseFactor{ 1.0 }; ///< F: the gain is the variance's slope over F [1]
-  double                             offset{ std::numeric_limits<double>::quiet_NaN() };
-  double                             offsetStandardError{ 0.0 };
-  std::vector<std::string>           dark;
-  bool                               hasCheck{ false };
-  std::vector<std::string>           check; ///< empty: the frames themselves
+  std::string                              exposuresText; ///< list of numbers, or file name; empty: none
+  std::vector<double>                      exposures; ///< of each measured frame, see SelectExposures(); empty: none
+  double                                   excessNoiseFactor{ 1.0 }; ///< F [1]: the gain is the variance slope over F
+  double                                   offset{ std::numeric_limits<double>::quiet_NaN() };
+  double                                   offsetStandardError{ 0.0 };
+  std::vector<std::string>                 dark;
+  bool                                     hasCheck{ false };
+  std::vector<std::string>           check; ///< frames that the model is compared with; empty: the measured frames
   RollingShutter                     rollingShutter{ RollingShutter::Auto };
   double                             sigmaRows{ 50.0 };
-  std::optional<std::array<long, 4>> roi;                    ///< x, y, width, height
+  std::optional<std::array<long, 4>> roi;                    ///< x, y, width, height [pixel]
   std::optional<std::pair<std::size_t, std::size_t>> frames; ///< first, one past the last
-  std::optional<std::pair<std::size_t, std::size_t>> cut;    ///< of these what is left to do, see SelectFiles()
+  std::optional<std::pair<std::size_t, std::size_t>> cut;    ///< frames to be cut out of the stack, see SelectFiles()
   std::string                                        mask;
-  std::uint64_t                                      memoryLimit{ 0 }; ///< [bytes]; 0: what it needs
-  unsigned int                                       threads{ 0 };     ///< 0: all
+  std::uint64_t                                      memoryLimit{ 0 }; ///< [bytes]; 0: no limit
+  unsigned int                                       threads{ 0 };     ///< 0: all cores
   std::string                                        json;
   std::string                                        maps;
-  std::string                                        plot;          ///< .html: the page; .svg, .png: its first figure
-  bool                                               hash{ false }; ///< also without a page
-  std::vector<std::string>                           compare;       ///< stored reports; else frames are measured
+  std::string                                        plot;          ///< .html: page; .svg, .png: its first figure
+  bool                                               hash{ false }; ///< the report has the hash even without a page
+  std::vector<std::string>                           compare;       ///< stored reports to be compared; empty: none
   bool                                               quiet{ false };
 
-  /** Reads the command line; the exit code if there is nothing left to do (--help, --version). Throws std::exception on
-   * wrong use.
-   */
+  /** Reads the command line. Returns the exit code if nothing is left to do (--help, --version). Throws
+   * std::exception on wrong use. */
   std::optional<int>
   Parse(int argc, char ** argv);
 
-  /** Applies --frames to a list of files; stacks are cut later. */
+  /** Applies --frames to a list of files. For stacks it sets \a cut instead, and the frames are cut out later. */
   void
   SelectFiles(bool areStacks);
 
-  /** Applies --frames to the exposures. The files hold \a all frames. Throws std::invalid_argument unless there is one
-   * exposure for each frame. */
+  /** Applies --frames to the exposures. \a all is the number of frames in the files. Throws std::invalid_argument
+   * unless there is one exposure for each frame. */
   void
   SelectExposures(std::size_t all);
 
-  /** Whether the report goes to a file, not to standard output or nowhere. */
+  /** Returns whether the report goes to a file. If not, it goes to standard output or is not written. */
   bool
   HasReportFile() const
   {
@@ -88,11 +87,11 @@ struct EstimateOptions
   PlotKind
   Plot() const;
 
-  /** Whether the report has the hash of the frames' files. */
+  /** Returns whether the report has the hash of the frame files: with --hash, or if --plot writes a page. */
   bool
   WantsHash() const;
 
-  /** What is to be cut out of the stack. */
+  /** Returns a text about the region and the frames that are cut out of the stack. */
   std::string
   DescribeRegion() const;
 

@@ -16,7 +16,7 @@ namespace sensornoise::tools
 {
 namespace
 {
-/** The table of the formats, a line each. */
+/** Returns the table of the formats, with one line per format. */
 std::string
 ListOfFormats()
 {

@@ -17,9 +17,9 @@ struct ExportOptions
 {
   std::vector<std::string> reports;
   std::string              format;
-  std::string              output; ///< a file, or a folder for several files; empty: standard output
-  std::string              into;   ///< DNG file; its copy gets the tag; empty: none
-  std::string              maps;   ///< folder of the maps; empty: none
+  std::string              output; ///< file, or folder for several files; empty: standard output
+  std::string              into;   ///< DNG file whose copy gets the tag NoiseProfile; empty: none
+  std::string              maps;   ///< folder of the maps that --maps wrote; empty: none
   ExportSettings           settings;
 
   /** Reads the command line. Returns the exit code if nothing is left to do (--help, --version, --list). Throws

@@ -42,7 +42,7 @@ NumberOf(const std::string & word)
   return word.empty() || *end != '\0' ? std::nullopt : std::optional<double>(number);
 }
 
-/** The columns of a file, line by line. */
+/** Reader of the columns of an exposure file, line by line. */
 class ExposureFile
 {
 public:
@@ -60,7 +60,7 @@ public:
       m_Columns = columns.size();
       if (!exposure)
       {
-        return; // a header
+        return; // this line is a header
       }
     }
     const std::string where = "--exposures: line " + std::to_string(number) + " of " + m_Name;
@@ -85,7 +85,7 @@ public:
 
 private:
   std::string         m_Name;
-  std::size_t         m_Columns{ 0 }; // 0: no line yet
+  std::size_t         m_Columns{ 0 }; // columns of the first line; 0: no line yet
   std::vector<double> m_Exposures;
 };
 } // namespace
@@ -120,7 +120,7 @@ ReadExposures(const std::string & text)
   std::size_t  number = 0;
   for (std::string line; std::getline(file, line);)
   {
-    const bool hasMark = ++number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0; // of UTF-8
+    const bool hasMark = ++number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0; // byte order mark of UTF-8
     line = Trim(hasMark ? line.substr(3) : line);
     if (!line.empty() && line.front() != '#')
     {

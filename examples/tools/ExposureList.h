@@ -9,14 +9,15 @@
 namespace sensornoise::tools
 {
 
-/** Whether the value of --exposures is a list of numbers, "0,0,10,20.5", and not the name of a file. */
+/** Returns whether the value of --exposures is a list of numbers, "0,0,10,20.5". Otherwise it is a file name. */
 bool
 IsExposureList(const std::string & text);
 
-/** Reads the exposures of --exposures: a list of numbers separated by commas, or a text file with one frame a line,
- * whose exposure is the last column. Columns are separated by commas, semicolons or tabs. The first line may be a
- * header; empty lines and lines that begin with # are skipped. Throws std::runtime_error that names the line for a line
- * that is no number or has another number of columns than the first one, and for a file that cannot be read. */
+/** Reads the exposures of --exposures: a list of numbers separated by commas, or a text file with one frame per
+ * line. The exposure is the last column of a line. Columns are separated by commas, semicolons or tabs. The first
+ * line may be a header. Empty lines and lines that begin with # are skipped. Throws std::runtime_error if the file
+ * cannot be read or holds no exposure. A line that does not end with a number, or has a different number of columns
+ * from the first line, also throws; the error names the line. */
 std::vector<double>
 ReadExposures(const std::string & text);
 

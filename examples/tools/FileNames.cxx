@@ -26,7 +26,7 @@ IsDigit(char c)
   return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
-/** The digits from a place on, without leading zeros; moves the place behind them. */
+/** Returns the digits that begin at position \a at, without leading zeros. Moves \a at behind them. */
 std::string
 TakeNumber(const std::string & text, std::size_t & at)
 {
@@ -51,7 +51,8 @@ IsImage(const fs::path & file)
   return FindFrameFormat(head, file.string()) != nullptr;
 }
 
-/** Whether this is the header of a Photron camera's recording, whose frames the file beside it stands for as well. */
+/** Returns whether the file is the header of a Photron recording whose pixels are in a file of the same folder. That
+ * file stands for the whole recording. */
 bool
 IsHeaderOfOther(const fs::path & file)
 {

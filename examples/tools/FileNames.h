@@ -9,15 +9,16 @@
 namespace sensornoise::tools
 {
 
-/** Whether \a a comes before \a b where numbers in names count as numbers: frame_2 before frame_10. */
+/** Returns whether \a a precedes \a b in natural order, in which digits compare as numbers: frame_2 before frame_10. */
 bool
 IsBefore(const std::string & a, const std::string & b);
 
-/** Replaces each folder by the images in it and each pattern (* ? [), for which there is no file of that name, by the
- * files that match it, both in the order of IsBefore(). Other names stay, in their order. \a areRaw: the frames have no
- * header, and all files of a folder count; else files that are no images are left out, which a note on standard error
- * says. A second note says where a shell has sorted the names as text. Throws std::invalid_argument where a folder has
- * no image or a pattern no file. */
+/** Replaces each folder by the images in it, and each pattern (* ? [) by the files that match it. Both are in the
+ * order of IsBefore(). A name with such characters that exists as a file is not a pattern. Other names stay, in
+ * their order. With \a areRaw the frames have no header, and all files of a folder are taken. Otherwise files that
+ * are not images are left out, and a note on standard error says so. A second note reports names that a shell has
+ * sorted as text. Throws std::invalid_argument if a name is empty, a folder holds no image, or no file matches a
+ * pattern. */
 std::vector<std::string>
 ExpandNames(const std::vector<std::string> & names, bool areRaw);
 

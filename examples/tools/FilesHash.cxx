@@ -20,7 +20,7 @@ namespace sensornoise::tools
 #ifdef SENSORNOISE_OPENSSL
 namespace
 {
-/** SHA-256 of what is added, one part after the other. */
+/** Running SHA-256 of the data added so far. */
 class Sha256
 {
 public:
@@ -97,7 +97,7 @@ HashOf(const FrameList & list)
       hash.Add(part.name);
 #endif
     }
-    RequireUnchanged(file); // the bytes that were measured
+    RequireUnchanged(file); // the hash must be of the bytes that were measured
   }
 #ifdef SENSORNOISE_OPENSSL
   input.sha256 = hash.HexDigits();

@@ -13,12 +13,13 @@ struct FrameList;
 namespace sensornoise::tools
 {
 
-/** Whether this program was built with OpenSSL, which computes the hash. */
+/** Returns whether this program was built with OpenSSL, which computes the hash. */
 bool
 HasHash();
 
-/** Number, bytes and SHA-256 of the files of \a list, and of their pixels where these are in other files; without
- * OpenSSL there is no hash. Reads all of them once. Throws FileError if one is no longer what was opened. */
+/** Returns the number, the bytes and the SHA-256 of the files of \a list, including the files that hold only pixels.
+ * Without OpenSSL the hash is missing. Reads all files once. Throws FileError if a file has changed since it was
+ * opened. */
 InputFiles
 HashOf(const FrameList & list);
 

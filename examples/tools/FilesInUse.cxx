@@ -17,7 +17,8 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/** What an ordinary file, or one that is not there yet, is told by; empty for others. */
+/** Returns the identity of an ordinary file (device and inode), or the path if there is no such file. It is empty
+ * for pipes and devices. */
 std::string
 IdentityOf(const fs::path & path)
 {

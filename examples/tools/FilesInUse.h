@@ -10,27 +10,28 @@ namespace sensornoise::tools
 {
 
 /** \class FilesInUse
- * What a tool reads and writes: no file that is read may be written, and none twice. Files are told apart by device and
- * inode, so through symbolic and hard links. Pipes and devices may be both.
+ * Files that a tool reads and writes. A file that is read may not be written, and no file may be written twice.
+ * Files are identified by device and inode, so symbolic and hard links are resolved. Pipes and devices are exempt.
  */
 class FilesInUse
 {
 public:
-  /** \a file will be read, as "the frame", "the mask", and so on; and with a header of MetaImage or NRRD the files of
-   * its pixels. */
+  /** Registers \a file as input. \a role is its name in messages: "the frame", "the mask". The pixel files of a
+   * header (MetaImage, NRRD, Photron) are registered as well. */
   void
   Read(const std::string & file, const std::string & role);
 
-  /** \a file will be written for \a option. Throws std::runtime_error, which names both, if it is in use. */
+  /** Registers \a file as the output of \a option. Throws std::runtime_error, which names both uses, if the file is
+   * in use. */
   void
   Write(const std::string & file, const std::string & option);
 
 private:
-  std::map<std::string, std::string> m_Uses; // of a file, by what it is told by
+  std::map<std::string, std::string> m_Uses; // role and name of each file, by its identity
 };
 
-/** Throws std::runtime_error if a report of text would have the name of an image: most likely the report's name was
- * forgotten, and this is the first frame's. */
+/** Throws std::runtime_error if a text report would get the name of an image. Most likely the name of the report was
+ * forgotten, and this is the name of the first frame. */
 void
 RequireReportName(const std::string & file, const std::string & option);
 

@@ -9,9 +9,9 @@
 namespace sensornoise::tools
 {
 
-/** Returns the title of the page of a burst: the name of the file, or of the first and the last file, without folders,
- * and the time at which the last file was modified, in UTC. The time is of the file and not of the clock, so that the
- * same files have the same page. It is "" if the file has none. */
+/** Returns the title of the page of a burst: the name of the file, or of the first and the last file, without
+ * folders. The time is the modification time of the last file, in UTC, so that the same files give the same page.
+ * The time is empty if it cannot be read. */
 PageTitle
 TitleOf(const FrameList & list);
 

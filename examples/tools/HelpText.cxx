@@ -16,7 +16,7 @@ TerminalWidth()
 {
   constexpr long narrowest = 40;
   constexpr long widest = 1000;
-  // no other thread runs yet
+  // getenv() is safe: no other thread runs yet
   const char * const text = std::getenv("COLUMNS"); // NOLINT(concurrency-mt-unsafe)
   winsize            window{};
   long               columns = 80;
@@ -119,10 +119,10 @@ HelpFormatter::make_option_desc(const CLI::Option * option) const
 std::string
 HelpFormatter::make_option(const CLI::Option * option, bool isPositional) const
 {
-  constexpr std::size_t column = 24; // where explanations begin
+  constexpr std::size_t column = 24; // column in which the explanations begin
   const std::string     name = "  " + make_option_name(option, isPositional) + make_option_opts(option);
   const std::string     text = make_option_desc(option);
-  // a name that is too long has a line of its own
+  // a long name gets a separate line
   const std::string start = name.size() + 2 > column ? WrapText(name, m_Width, 6) + '\n' + std::string(column, ' ')
                                                      : name + std::string(column - name.size(), ' ');
   const std::string wrapped = WrapText(std::string(column, ' ') + text, m_Width, column);

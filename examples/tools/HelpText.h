@@ -11,16 +11,18 @@
 namespace sensornoise::tools
 {
 
-/** The columns of the terminal that standard output is, else COLUMNS of the environment, else 80. At least 40. */
+/** Returns the width of the terminal [characters], from 40 to 1000. It is the width of standard output if that is a
+ * terminal, else the environment variable COLUMNS, else 80. */
 std::size_t
 TerminalWidth();
 
-/** Breaks each line of a text between words, so that it has at most \a width characters where words allow. Further
- * lines of a paragraph begin with \a indent blanks. */
+/** Breaks each line of a text between words. Lines have at most \a width characters unless a word is longer. The
+ * continuation lines of a paragraph begin with \a indent blanks. */
 std::string
 WrapText(const std::string & text, std::size_t width, std::size_t indent);
 
-/** Writes --help at the width of the terminal. Positional arguments are explained by the description alone. */
+/** Formatter that writes --help at the width of the terminal. Positional arguments are explained only in the
+ * description. */
 class HelpFormatter : public CLI::Formatter
 {
 public:
@@ -38,10 +40,10 @@ public:
   make_group(std::string group, bool isPositional, std::vector<const CLI::Option *> options) const override;
   std::string
   make_option(const CLI::Option * option, bool isPositional) const override;
-  /** The name of the value alone. */
+  /** Returns the name of the value of an option, without the permitted values. */
   std::string
   make_option_opts(const CLI::Option * option) const override;
-  /** The explanation, then the default. */
+  /** Returns the explanation of an option, then its default. */
   std::string
   make_option_desc(const CLI::Option * option) const override;
 

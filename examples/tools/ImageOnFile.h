@@ -9,7 +9,8 @@
 namespace sensornoise::tools
 {
 
-/** The pixels of a list that holds one frame, of any type: a double holds them all. Throws FileError. */
+/** Reads the only frame of a list. Pixels of all types become double, which represents them exactly. Throws
+ * FileError. */
 itk::Image<double, 2>::Pointer
 ReadImage(const FrameList & list);
 

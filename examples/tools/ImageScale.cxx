@@ -16,14 +16,15 @@ namespace sensornoise::tools
 {
 namespace
 {
-/** Light of the median pixel over that of the brightest that were measured, from which on a frame is refused: codes
- * times 16 are beyond in all but the darkest frames. Between both limits a frame is warned of. Set by hand. */
+/** Limits for the signal of the median pixel divided by the largest mean signal in the report [1]. Above
+ * ImpossibleLight the frame is rejected: multiplication of the grey values by 16 exceeds it in all but the darkest
+ * frames. Above DoubtfulLight there is a warning. Both are chosen empirically, without a systematic study. */
 constexpr double ImpossibleLight = 8.0;
 constexpr double DoubtfulLight = 2.0;
-/** Share of pixels whose argument of the root is negative that is warned of; noise alone makes 8 % of a frame without
- * light at a read noise of 1 e-, and less than 0.1 % from 10 e- on. */
+/** Fraction of pixels with a negative argument of the square root, above which there is a warning [1]. In a dark
+ * frame, noise alone gives 8 % at a read noise of 1 e-, and less than 0.1 % from 10 e- on. */
 constexpr double DoubtfulShare = 0.01;
-/** Different codes that must occur before their spacing tells anything. */
+/** Number of distinct grey values from which on their spacing is tested. */
 constexpr std::size_t LeastCodes = 16;
 
 std::string
@@ -51,7 +52,8 @@ RequireFinite(const std::vector<TPixel> & levels, const std::string & image)
   }
 }
 
-/** The largest number that the distances of all codes are multiples of; 0 where there are too few to tell. */
+/** Returns the greatest common divisor of the distances between grey values [DN]; 0 if there are fewer than
+ * LeastCodes grey values. */
 template <typename TPixel>
 std::int32_t
 CodeStep(const std::vector<TPixel> & levels)
@@ -87,7 +89,7 @@ RequireCodeStep(const std::vector<TPixel> & levels, const NoiseModelFile & repor
     return;
   }
   const std::int32_t step = CodeStep(levels);
-  // a frame of few levels may have every second code only by chance; a step below the report's is never chance
+  // in a frame of few grey values a multiple of the step may occur by chance, but never a smaller step
   if (step >= 4.0 * *report.codeStepDn || (step > 0 && 2.0 * step <= *report.codeStepDn))
   {
     Refuse(image,
@@ -105,12 +107,13 @@ Median(std::vector<TPixel> levels)
   return static_cast<double>(*middle);
 }
 
-/** Light of the median over that of the brightest measured; refuses what cannot be. */
+/** Returns the signal of the median pixel divided by the largest mean signal in the report [1]; 0 if the report has
+ * no such level. Throws std::runtime_error if the median is outside the range that the report permits. */
 double
 RequireMedian(double median, const NoiseModelFile & report, const std::string & image)
 {
   const double zero = report.ZeroLevelDn();
-  const double lowest = zero - 0.375 * report.model.varianceSlopeDn; // below, the transform gives 0
+  const double lowest = zero - 0.375 * report.model.varianceSlopeDn; // below this level the transform gives 0
   if (median < lowest)
   {
     Refuse(

@@ -12,15 +12,18 @@
 namespace sensornoise::tools
 {
 
-/** Requires that the levels of a frame are on the scale of a report, as far as they tell. Throws std::runtime_error,
- * one sentence, where a pixel is not finite, and where the frame cannot be of the report's camera and setting:
- * - the codes of an integer frame are multiples of another number than the report's: codes times 16, for one;
- * - half of the pixels are above the highest level that the sensor attains, or below the level of no light;
- * - half of them have more than 8 times the light of the brightest that were measured.
+/** Tests whether the grey values of a frame can be on the scale of a report. Throws std::runtime_error, with a
+ * message of one sentence, if a pixel is not finite, or in any of these cases:
+ * - The quantization step of an integer frame is at least 4 times, or at most half of, the step of the report. This
+ *   is tested for a step of at least 1 DN in the report and at least 16 distinct grey values. An example is a frame
+ *   multiplied by 16.
+ * - The median pixel is above the highest level that the sensor attains, or so far below the level of zero variance
+ *   that the transform gives 0.
+ * - The signal of the median pixel is more than 8 times the largest mean signal in the report.
  *
- * Returns what is odd and may be right, a sentence, or nothing: half of the pixels have more than twice the light of
- * the brightest that were measured; more than 1 % lie so far below the level of no light that the transform makes them
- * 0. \a image names the frame. */
+ * Returns a warning of one sentence, or an empty text. It warns if the signal of the median pixel is more than 2
+ * times the largest mean signal, or if the transform gives 0 for more than 1 % of the pixels. \a image names the
+ * frame in messages. */
 template <typename TPixel>
 std::string
 RequireScale(const std::vector<TPixel> & levels, const NoiseModelFile & report, const std::string & image);

@@ -8,7 +8,7 @@
 namespace sensornoise::tools
 {
 
-/** The threads that ITK uses; 0: as many as it chooses. */
+/** Sets the number of threads of ITK; 0: the default of ITK. */
 inline void
 SetItkThreads(unsigned int threads)
 {

@@ -18,7 +18,7 @@ LowerCase(std::string text)
   return text;
 }
 
-/** ".tif" of "Frame.TIF". */
+/** Returns the file name extension in lower case: ".tif" for "Frame.TIF". */
 inline std::string
 LowerCaseEnding(const std::filesystem::path & file)
 {

@@ -84,7 +84,7 @@ MapFiles::~MapFiles()
   m_Files.clear();
   for (auto path = m_Made.rbegin(); path != m_Made.rend(); ++path)
   {
-    std::error_code stays; // where it holds a file
+    std::error_code stays; // a folder with files stays
     fs::remove(*path, stays);
   }
 }

@@ -17,14 +17,15 @@
 namespace sensornoise::tools
 {
 
-/** The maps of an estimator as files of a folder, opened before the work begins; all of them appear, or none. */
+/** Maps of an estimator as files of a folder. The files are opened before the work begins. They get their names when
+ * all maps are written. */
 class MapFiles
 {
 public:
   using MapType = itk::Image<double, 2>;
   using PixelUseType = itk::Image<unsigned char, 2>;
 
-  /** What every pixel's own dark frames tell. */
+  /** Calibration of each pixel from its dark frames, with the bounds of its interval [DN]. */
   struct IntervalMap
   {
     const MapType * value;
@@ -32,11 +33,11 @@ public:
     const MapType * high;
   };
 
-  /** The files that there will be; \a hasDark: those of the calibration, too. */
+  /** Returns the names of the files. With \a hasDark they include the maps of the calibration. */
   static std::vector<std::string>
   NamesIn(const std::filesystem::path & folder, bool hasDark);
 
-  /** Makes the folder, if there is none; it goes again if nothing is written. */
+  /** Makes the folder, if there is none. The folder is removed again if nothing is written. */
   MapFiles(const std::filesystem::path & folder, bool hasDark);
   ~MapFiles();
 
@@ -46,13 +47,13 @@ public:
         const MapType *      correctedVariance,
         const PixelUseType * pixelUse);
 
-  /** The calibration of the pixels from dark frames [DN]. To be called before Write(), which gives the files their
-   * names. */
+  /** Writes the calibration of the pixels from dark frames [DN]. It must be called before Write(), which gives the
+   * files their names. */
   void
   WriteCalibration(const IntervalMap & offset, const IntervalMap & readNoise);
 
 private:
-  std::vector<std::filesystem::path> m_Made; // folders, the outermost first
+  std::vector<std::filesystem::path> m_Made; // folders that were made, the outermost first
   std::deque<SignalCleanup>          m_AtSignal;
   std::deque<PendingFile>            m_Files; // in the order of NamesIn()
   std::size_t                        m_Written{ 0 };

@@ -18,7 +18,7 @@ namespace sensornoise::tools
 {
 namespace
 {
-/** The reports of the channels, or the only one. */
+/** Returns the reports of the channels, or the only report. */
 std::vector<const Report *>
 ReportsOf(const MeasuredStack & measured)
 {
@@ -34,9 +34,9 @@ ReportsOf(const MeasuredStack & measured)
   return reports;
 }
 
-/** What the refined method says of the frames to be checked: no other method tells every pixel's variance without what
- * flicker and motion add. What was told of the report's frames, but for those that were chosen and for dark frames, is
- * true of them, too. */
+/** Measures the frames of --check with the refined method. The other methods do not give the variance of each pixel
+ * without the contributions of flicker and motion. The options for the frames of the report apply to these frames as
+ * well. For frames of other files, --frames and --dark do not apply. */
 MeasuredStack
 MeasureFramesToCheck(const EstimateOptions & options, const MeasuredStack & measured)
 {

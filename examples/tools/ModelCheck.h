@@ -14,20 +14,20 @@ namespace sensornoise::tools
 {
 struct EstimateOptions;
 
-/** The check of a report, or of each channel's; null where a report has no model. */
+/** Check of the report, or of the report of each channel. An entry is empty if its report has no model. */
 using ModelChecks = std::vector<std::optional<NoiseModelCheck>>;
 
-/** Reads the frames of --check, or takes those of the report, and holds the report's model against them; channel by
- * channel, where it has some. Says on standard error where a report has no model. */
+/** Compares the model of a report with the frames of --check, or with the frames of the report, channel by channel.
+ * A report without a model is reported on standard error. */
 ModelChecks
 CheckModel(const EstimateOptions & options, const MeasuredStack & measured);
 
-/** The report as JSON, with the check as a member "check"; of channels "checks", one each. None, if \a checks is empty.
- */
+/** Returns the report as JSON. The check is added as the member "check", or as "checks" for several channels.
+ * Without a check no member is added. */
 std::string
 ToJson(const MeasuredStack & measured, const ModelChecks & checks);
 
-/** The report as a table, then its checks. */
+/** Returns the report as a table, followed by its checks. */
 std::string
 MakeTable(const MeasuredStack & measured, const ModelChecks & checks);
 

@@ -11,18 +11,18 @@
 namespace sensornoise::tools
 {
 
-/** What a report says to whoever transforms images: the noise model, and on which scale its levels are. */
+/** Noise model of a report, and the scale of its grey values, for transforms of images. */
 struct NoiseModelFile
 {
   std::string           name;
   NoiseModel            model;
-  std::optional<double> codeStepDn; ///< spacing of the sensor's codes; none for floating-point frames
-  std::optional<double> clipLowDn;  ///< lowest level that the sensor attains
-  std::optional<double> clipHighDn; ///< highest level
-  std::optional<double> lowestDn;   ///< mean level of the darkest 1/256 of the pixels that were measured
-  std::optional<double> highestDn;  ///< of the brightest
+  std::optional<double> codeStepDn; ///< quantization step [DN]; none for floating-point frames
+  std::optional<double> clipLowDn;  ///< lowest level that the sensor attains [DN]
+  std::optional<double> clipHighDn; ///< highest level that the sensor attains [DN]
+  std::optional<double> lowestDn;   ///< lowest mean level of an intensity bin of the report [DN]
+  std::optional<double> highestDn;  ///< highest mean level of an intensity bin of the report [DN]
 
-  /** The level at which the model has no variance [DN]: no light, and no read noise. */
+  /** Returns the level at which the variance of the model is zero [DN]. */
   double
   ZeroLevelDn() const
   {
@@ -30,9 +30,9 @@ struct NoiseModelFile
   }
 };
 
-/** Reads a report of estimate-sensor-noise. Only `variance_slope` and `total_intercept` have to have a value: gain,
- * offset and read noise may lack. Throws std::runtime_error if \a file cannot be read or is no JSON, and UnfitReport if
- * it is no such report, of several channels, or without such a model. */
+/** Reads a report of estimate-sensor-noise. Only `variance_slope` and `total_intercept` must have a value; gain,
+ * offset and read noise may be missing. Throws std::runtime_error if \a file cannot be read or is not JSON. Throws
+ * UnfitReport if it is not such a report, has several channels, or has no valid model. */
 NoiseModelFile
 ReadNoiseModel(const std::string & file);
 

@@ -19,19 +19,20 @@ namespace sensornoise::tools
 {
 namespace
 {
-/** OpenCV's filters take 16 bits: so many codes make one standard deviation of the noise, or fewer where the range of
- * the frame is above 256 of them. Rounding then adds less than a thousandth of the noise's variance. */
+/** Grey values per standard deviation of the noise, for the 16-bit filters of OpenCV. There are fewer if the range
+ * of the frame exceeds 16 bits. At 256, rounding adds less than a thousandth to the variance of the noise. */
 constexpr double CodesPerSigma = 256.0;
 
-/** The filter strength h of cv::fastNlMeansDenoising with NORM_L1 for noise of variance 1: weights are exp(-(d/h)^2), d
- * the mean absolute difference of two patches, which noise alone makes 2 / sqrt(pi) = 1.13. On frames of the simulated
- * cameras A, B and C, PSNR is best at 1.6 for the scene target and at 1.1 for texture; 1.3 is within 0.8 and 0.2 dB of
- * both. Patches of 3 x 3 pixels are 1 to 2 dB better there than OpenCV's default of 7 x 7. */
+/** Filter strength h of cv::fastNlMeansDenoising with NORM_L1 for noise of variance 1. The weights are
+ * exp(-(d/h)^2), where d is the mean absolute difference of two patches. Noise alone gives d = 2 / sqrt(pi) = 1.13.
+ * On frames of the simulated cameras A, B and C, the PSNR is best at 1.6 for the scene target and at 1.1 for
+ * texture. At 1.3 it is within 0.8 dB and 0.2 dB of these maxima. There, patches of 3 x 3 pixels are 1 to 2 dB
+ * better than OpenCV's default of 7 x 7. */
 constexpr double NonLocalMeansStrength = 1.3;
 constexpr int    PatchPixels = 3;
 constexpr int    SearchPixels = 21; // OpenCV's default
 
-/** The frame as codes of 16 bits, and the way back. */
+/** Frame as 16-bit grey values, with the conversion back. */
 class CodedFrame
 {
 public:
@@ -92,7 +93,7 @@ BlockMatching(RealFrame & frame, double strength)
   coded.Decode(clean, frame);
 }
 
-/** Noise of variance 1 on an even frame, and what is left of its variance. */
+/** Applies a denoiser to a uniform frame with noise of variance 1. Returns the variance of the result. */
 double
 VarianceLeftOf(const Denoiser & denoise)
 {

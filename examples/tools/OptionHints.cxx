@@ -12,7 +12,8 @@ namespace sensornoise::tools
 {
 namespace
 {
-/** The fewest characters to insert, remove or replace that make one word of the other. */
+/** Returns the edit distance: the smallest number of insertions, deletions and replacements that change one word
+ * into the other. */
 std::size_t
 EditDistance(const std::string & a, const std::string & b)
 {
@@ -32,7 +33,7 @@ EditDistance(const std::string & a, const std::string & b)
   return row.back();
 }
 
-/** A word without its leading hyphens and what stands behind "=". */
+/** Returns a word without its leading hyphens and without the part from "=" on. */
 std::string
 NameIn(const std::string & word)
 {

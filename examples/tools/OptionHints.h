@@ -13,12 +13,11 @@ class App;
 namespace sensornoise::tools
 {
 
-/** Says that there is no option \a word, and which one may be meant. */
+/** Returns the message that there is no option \a word, with the most similar option. */
 std::string
 UnknownOption(const CLI::App & app, const std::string & word);
 
-/** Throws CLI::ValidationError where an option has no value, or another option as its value, as in
- * "--json --quiet". */
+/** Throws CLI::ValidationError if the value of an option is empty, or is another option, as in "--json --quiet". */
 void
 RequireValues(const CLI::App & app);
 

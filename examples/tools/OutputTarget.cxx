@@ -22,7 +22,8 @@ RefuseOutput(const std::string & name, const std::string & why)
   throw std::runtime_error("cannot write " + name + ": " + why);
 }
 
-/** The number of the descriptor whose entry \a file is in \a folder; -1 if that is not the folder of descriptors. */
+/** Returns the number of the file descriptor if \a folder is the folder of descriptors, such as /dev/fd, and \a file
+ * is a number; else -1. */
 int
 DescriptorOf(const fs::path & folder, const std::string & file)
 {
@@ -50,7 +51,7 @@ RequireFolder(const OutputTarget & target)
   }
 }
 
-/** Sets what \a target's path is. */
+/** Sets the kind of the target. Throws std::runtime_error if it cannot be written. */
 void
 FindKind(OutputTarget & target)
 {
@@ -90,7 +91,7 @@ FindTarget(const std::string & name)
     throw std::runtime_error("the name of an output is empty; expected that of a file");
   }
   fs::path path = name;
-  for (int links = 0; links < 40; ++links) // as many as Linux follows
+  for (int links = 0; links < 40; ++links) // Linux follows 40 links as well
   {
     const fs::path  parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
     std::error_code error;

@@ -9,24 +9,24 @@
 namespace sensornoise::tools
 {
 
-/** Where the name of an output leads, through symbolic links. */
+/** File that an output name leads to, through symbolic links. */
 struct OutputTarget
 {
   enum class Kind
   {
-    File,      ///< an ordinary one, there already or not: replaced when the new one is complete
-    Special,   ///< a pipe or a character device, such as /dev/null: written to, never replaced
-    Descriptor ///< an open file of this program, such as /dev/stdout or /dev/fd/3: written to
+    File,      ///< ordinary file, which may exist: replaced when the new file is complete
+    Special,   ///< pipe or character device, such as /dev/null: written to, never replaced
+    Descriptor ///< open file of this program, such as /dev/stdout or /dev/fd/3: written to
   };
 
   std::string           name; ///< as given
   Kind                  kind{ Kind::File };
   std::filesystem::path path;             ///< absolute, without symbolic links; empty for a descriptor
-  int                   descriptor{ -1 }; ///< of Kind::Descriptor
+  int                   descriptor{ -1 }; ///< file descriptor of Kind::Descriptor; else -1
 };
 
-/** Follows \a name. Throws std::runtime_error, which says why, if it cannot be written: no folder, no permission, a
- * folder itself. Writes nothing. */
+/** Finds the target of the output \a name. Writes nothing. Throws std::runtime_error, with the reason, if it cannot
+ * be written: for example a missing folder, a missing permission, or a folder of this name. */
 OutputTarget
 FindTarget(const std::string & name);
 

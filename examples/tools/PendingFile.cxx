@@ -21,7 +21,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/** A descriptor that is closed when it goes. */
+/** File descriptor that is closed by the destructor. */
 class Descriptor
 {
 public:
@@ -37,7 +37,7 @@ public:
   {
     return m_Number;
   }
-  /** Whether all that was written was taken: some file systems tell only now. */
+  /** Closes the file. Returns whether all data were written, which some file systems report only here. */
   bool
   Close()
   {
@@ -50,7 +50,7 @@ private:
   int m_Number;
 };
 
-/** Whether all bytes were taken; else errno tells why. */
+/** Returns whether all bytes were written. If not, errno holds the reason. */
 bool
 WriteAll(int descriptor, const char * bytes, std::size_t count)
 {
@@ -73,7 +73,7 @@ SystemWords()
   return std::generic_category().message(errno);
 }
 
-/** Of random digits: the name of the target itself might be too long with them. */
+/** Returns a name of random digits. The name of the target with added digits may be too long. */
 fs::path
 TemporaryName(const fs::path & folder, const fs::path & extension)
 {
@@ -160,7 +160,7 @@ PendingFile::CopyToTarget() const
 {
   const Descriptor from(open(m_Temporary.c_str(), O_RDONLY | O_CLOEXEC));
   Descriptor       to(m_Target.kind == OutputTarget::Kind::Descriptor
-                  ? dup(m_Target.descriptor) // opened anew, a file would be written from its start
+                  ? dup(m_Target.descriptor) // open() would start at the beginning of the file
                   : open(m_Target.path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
   if (from.Number() < 0 || to.Number() < 0)
   {

@@ -11,19 +11,19 @@
 namespace sensornoise::tools
 {
 
-/** A report that was read and does not serve: another schema, or without what is needed. */
+/** Error for a report that can be read but not used: it has another schema, or lacks a required value. */
 class UnfitReport : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/** The JSON record that estimate-sensor-noise --json wrote. Throws std::runtime_error if \a file cannot be read or is
- * no JSON, and UnfitReport if it has another schema. */
+/** Reads the JSON record that estimate-sensor-noise --json wrote. Throws std::runtime_error if \a file cannot be
+ * read or is not JSON, and UnfitReport if it has another schema. */
 nlohmann::json
 ReadReportRecord(const std::string & file);
 
-/** A number, or nothing where there is null, another type, or no such member. */
+/** Returns a member as a number. It is empty if the member is null, of another type, or missing. */
 std::optional<double>
 NumberIn(const nlohmann::json & record, const char * name);
 

@@ -13,7 +13,7 @@ namespace sensornoise::tools
 {
 namespace
 {
-/** A name where a signal handler, which may not allocate, finds it. */
+/** Path that a signal handler, which may not allocate, can read. */
 struct Slot
 {
   std::atomic<bool>      isUsed{ false };
@@ -21,7 +21,7 @@ struct Slot
 };
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may read no other atomic");
 
-std::array<Slot, 32> slots; // a report and ten maps need 12
+std::array<Slot, 32> slots; // estimate-sensor-noise: report, plot, ten maps, and each folder that it makes
 
 extern "C" void
 RemoveAndEnd(int signal)
@@ -33,7 +33,7 @@ RemoveAndEnd(int signal)
       rmdir(slot->path.data());
     }
   }
-  raise(signal); // blocked until the end of this function; its action is the default again
+  raise(signal); // delivered at the end of this function, with the default action
 }
 
 void

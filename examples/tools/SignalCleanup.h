@@ -10,14 +10,16 @@ namespace sensornoise::tools
 {
 
 /** \class SignalCleanup
- * While it lives, a file, or a folder that is empty by then, is removed if a signal ends the program: INT, TERM, HUP,
- * PIPE, XFSZ and their like, and abort() in a library. The program then ends as the signal would have ended it. A
- * signal that is ignored (nohup) stays ignored. Otherwise nothing is removed: that is left to its owner.
+ * Removes a file or an empty folder if a signal ends the program while the object exists. The signals include INT,
+ * TERM, HUP, PIPE and XFSZ, and ABRT, which a library raises by abort(). The program then ends with the default
+ * action of the signal. A signal that is ignored (nohup) stays ignored. The destructor removes nothing: the owner of
+ * the file does.
  */
 class SignalCleanup
 {
 public:
-  /** \a path is absolute. What was named last is removed first. Throws std::runtime_error if there are too many. */
+  /** Registers \a path, which must be absolute. The path with the highest slot, usually the last one, is removed
+   * first. Throws std::runtime_error if the path is too long, or too many paths are registered. */
   explicit SignalCleanup(const std::string & path);
   SignalCleanup(const SignalCleanup &) = delete;
   SignalCleanup &

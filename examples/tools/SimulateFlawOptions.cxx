@@ -11,7 +11,7 @@ namespace
 constexpr const char * SensorGroup = "The sensor";
 constexpr const char * CameraGroup = "Processing in the camera";
 
-/** An option of two numbers, none by default. */
+/** Adds an option with two numbers, which is empty by default. */
 void
 AddPair(CLI::App & app, const char * name, std::vector<double> & values, const char * help, const char * group)
 {

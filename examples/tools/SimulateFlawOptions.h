@@ -15,8 +15,8 @@ class App;
 namespace sensornoise::tools
 {
 
-/** The part of simulate-sensor-noise's command line that a real sensor and its camera need: SensorFlaws, and the fixed
- * patterns. All off unless given. */
+/** Options of simulate-sensor-noise for the deviations of real sensors and cameras: SensorFlaws and fixed-pattern
+ * noise. All are off by default. */
 struct SimulateFlawOptions
 {
   std::string                    bayer{ "none" };
@@ -50,11 +50,11 @@ struct SimulateFlawOptions
   unsigned int                   repeatPeriod{ 1 };
   bool                           isDark{ false };
 
-  /** Adds the options, in groups of their own. */
+  /** Adds the options, in separate groups. */
   void
   AddTo(CLI::App & app);
 
-  /** Hands the options to an itk::SensorNoiseStackSource. */
+  /** Sets the options of an itk::SensorNoiseStackSource. */
   template <typename TSource>
   void
   ApplyTo(TSource & source) const;

@@ -37,8 +37,8 @@ struct SimulateOptions
   std::uint64_t         seed{ 1 };
   SimulateFlawOptions   flaws;
 
-  /** Reads the command line; false if there is nothing left to do (--help, --version). Throws std::exception on wrong
-   * use. */
+  /** Reads the command line. Returns false if nothing is left to do (--help, --version). Throws std::exception on
+   * wrong use. */
   bool
   Parse(int argc, char ** argv);
 };

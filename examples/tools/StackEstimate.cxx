@@ -55,7 +55,8 @@ ShowProgressOn(itk::ProcessObject & filter)
   filter.AddObserver(itk::ProgressEvent(), command);
 }
 
-/** Cuts a region out of an image, chunk by chunk; the output lives as long as the filter. */
+/** Returns a filter that cuts a region out of an image, chunk by chunk. Its output is valid as long as the filter
+ * exists. */
 template <typename TImage>
 typename itk::ExtractImageFilter<TImage, TImage>::Pointer
 Crop(TImage * image, const typename TImage::RegionType & region)
@@ -68,7 +69,8 @@ Crop(TImage * image, const typename TImage::RegionType & region)
   return extract;
 }
 
-/** The part of the stack that --roi and --frames ask for. */
+/** Returns the part of the stack that --roi and --frames select. Throws std::invalid_argument if the stack does not
+ * contain it. */
 itk::ImageRegion<3>
 SelectRegion(const EstimateOptions & options, const FrameList & list, const itk::ImageRegion<3> & whole)
 {
@@ -98,7 +100,7 @@ SelectRegion(const EstimateOptions & options, const FrameList & list, const itk:
   return region;
 }
 
-/** The mask of the pixels that lie in the region. */
+/** Returns the part of the mask that lies in the region. */
 MaskType::Pointer
 SelectMask(const std::string & file, const FrameList & list, const itk::ImageRegion<3> & region)
 {
@@ -123,7 +125,7 @@ MakeReader(const FrameList & list)
   return reader;
 }
 
-/** How many columns and rows of the frame are cut off before its mosaic. */
+/** Returns the numbers of columns and rows that --roi cuts off before the region [pixel]. */
 std::array<std::size_t, 2>
 CutOff(const EstimateOptions & options)
 {
@@ -131,7 +133,8 @@ CutOff(const EstimateOptions & options)
   return options.roi ? std::array<std::size_t, 2>{ number(0), number(1) } : std::array<std::size_t, 2>{ 0, 0 };
 }
 
-/** The pattern, given or of the file, as it is where the region begins: an image that was cut out has no metadata. */
+/** Sets the Bayer pattern, from --bayer or from the file, shifted to the corner of the region. A cropped image has
+ * no metadata. */
 template <typename TStack, typename TEstimator>
 void
 SetPattern(const EstimateOptions & options, const TStack & whole, TStack & cut, TEstimator & estimator)
@@ -161,8 +164,8 @@ ResultOf(const itk::SensorNoiseEstimator<TStack> & estimator)
   return estimator.GetReport();
 }
 
-/** The text of the file that --plot asks for. \a maps are needed for a page alone. A figure is of the plane G1 of a
- * mosaic. */
+/** Returns the text of the file that --plot selects. Only a page needs \a maps. The figure of a mosaic shows the
+ * channel G1. */
 std::string
 MakePlot(PlotKind kind, const MeasuredStack & measured, const PageTitle & title, const PageMaps & maps)
 {
@@ -175,11 +178,11 @@ MakePlot(PlotKind kind, const MeasuredStack & measured, const PageTitle & title,
   return kind == PlotKind::Png ? SvgAsPng(svg) : svg;
 }
 
-/** Says what memory the estimate of a large frame will need, before it starts. */
+/** Prints the memory that the estimate of a large frame needs, before it starts. */
 void
 NoteMemory(const EstimateOptions & options, const itk::ImageRegion<3> & region)
 {
-  constexpr double leastNoted = 1e9; // bytes. Set by hand: of half or twice that, too, machines have enough today
+  constexpr double leastNoted = 1e9; // bytes. Chosen empirically: computers have more memory than twice this limit
   const MemoryNeed need{ region.GetSize(0) * region.GetSize(1), region.GetSize(2) };
   if (options.quiet || options.method != "refined" || need.Least() < leastNoted)
   {
@@ -196,7 +199,6 @@ NoteMemory(const EstimateOptions & options, const itk::ImageRegion<3> & region)
   std::cerr << '\n';
 }
 
-/** Returns the region and the frames that --roi and --frames choose, for the report. */
 StackSelection
 SelectionOf(const EstimateOptions & options)
 {
@@ -212,7 +214,7 @@ SelectionOf(const EstimateOptions & options)
   return selection;
 }
 
-/** Hash of the frames' files, and of those of dark frames. */
+/** Adds the hash of the frame files, and of the dark frame files, to the reports. */
 void
 AddHash(const EstimateOptions & options, const FrameList & list, const FrameList & dark, MeasuredStack & measured)
 {
@@ -224,7 +226,7 @@ AddHash(const EstimateOptions & options, const FrameList & list, const FrameList
   }
 }
 
-/** Measures by the single-image method. */
+/** Measures the frames with the single-image method. */
 template <typename TStack>
 MeasuredStack
 EstimateSingleImages(const EstimateOptions &     options,
@@ -297,7 +299,7 @@ Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * map
   {
     estimator->SetMask(SelectMask(options.mask, list, region));
   }
-  // an image does not keep alive the filter that makes it
+  // the filters must exist as long as their output images: an image does not own its filter
   FrameList                                                       darkList;
   typename itk::SensorNoiseFrameListSource<StackType>::Pointer    darkReader;
   typename itk::ExtractImageFilter<StackType, StackType>::Pointer darkCrop;
@@ -347,7 +349,7 @@ std::string
 PatternOf(const EstimateOptions & options, const MeasuredStack & measured)
 {
   const auto * const channels = std::get_if<ChannelReports>(&measured);
-  const auto         cut = CutOff(options); // twice cut off is as it was
+  const auto         cut = CutOff(options); // the same shift again gives the pattern of the frame
   return channels == nullptr ? "none" : NameOf(CutPattern(channels->pattern, cut[0], cut[1]));
 }
 

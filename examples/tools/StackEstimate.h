@@ -19,15 +19,15 @@ namespace sensornoise::tools
 class MapFiles;
 struct EstimateOptions;
 
-/** What was measured: of a monochrome sensor, or of the channels of a mosaic. */
+/** Report of a monochrome sensor, or reports of the channels of a mosaic. */
 using MeasuredStack = std::variant<Report, ChannelReports>;
 
-/** Reads the frames, in parts, and measures what the options select of them. Writes the maps unless \a maps is null,
- * and makes the text of the plot that the options ask for unless \a plot is null. */
+/** Reads the frames in chunks, and measures the part that the options select. Writes the maps unless \a maps is
+ * null. Makes the text of the plot unless \a plot is null. */
 MeasuredStack
 EstimateStack(const EstimateOptions & options, const FrameList & list, MapFiles * maps, std::string * plot = nullptr);
 
-/** The option --bayer that gives the same channels again: the pattern of the whole frame, or "none". */
+/** Returns the value of --bayer for the whole frame that gives the same channels again: a pattern, or "none". */
 std::string
 PatternOf(const EstimateOptions & options, const MeasuredStack & measured);
 

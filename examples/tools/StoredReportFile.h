@@ -10,13 +10,13 @@
 namespace sensornoise::tools
 {
 
-/** Reads a report of estimate-sensor-noise for exports. Throws std::runtime_error if \a file cannot be read or is no
- * JSON, and UnfitReport if it has another schema. */
+/** Reads a report of estimate-sensor-noise for exports. Throws std::runtime_error if \a file cannot be read or is
+ * not JSON, and UnfitReport if it has another schema. */
 StoredReport
 ReadStoredReport(const std::string & file);
 
-/** Reads the maps pixel_offset.mha and pixel_read_noise.mha of a folder that estimate-sensor-noise --maps wrote. Throws
- * std::runtime_error if one of them cannot be read, or their sizes differ. */
+/** Reads the maps pixel_offset.mha and pixel_read_noise.mha from a folder that estimate-sensor-noise --maps wrote.
+ * Throws std::runtime_error if a map cannot be read, or if their sizes differ. */
 NoiseMaps
 ReadNoiseMaps(const std::string & folder);
 

@@ -30,7 +30,7 @@ SvgAsPng(const std::string &)
 #else
 namespace
 {
-/** Pixels for one unit of the figure: sharp also on a telephone, and in print. */
+/** Pixels per unit of the figure. Two are sharp on high-resolution screens and in print. */
 constexpr double PixelsPerUnit = 2.0;
 
 struct Free
@@ -70,7 +70,7 @@ FailPng(GError * error)
   FailPng(std::string(error != nullptr ? error->message : "it does not say why"));
 }
 
-/** The figure's own size: its width, and the height that its view has then. */
+/** Returns the size of the figure: its width, and the height that follows from its view box. */
 RsvgRectangle
 SizeOfFigure(RsvgHandle * handle)
 {

@@ -8,13 +8,13 @@
 namespace sensornoise::tools
 {
 
-/** Throws std::runtime_error, which names what to build with, where this program has no librsvg. \a file: the PNG that
- * is wanted. */
+/** Throws std::runtime_error if this program was built without librsvg. The message names the library, and \a file,
+ * the PNG to be written. */
 void
 RequirePng(const std::string & file);
 
-/** The bytes of a PNG of an SVG figure, with two pixels for each of its units, in its colours for light paper. Throws
- * std::runtime_error. */
+/** Draws an SVG figure in its colours for light paper. Returns the bytes of a PNG with two pixels per unit of the
+ * figure. Throws std::runtime_error. */
 std::string
 SvgAsPng(const std::string & svg);
 

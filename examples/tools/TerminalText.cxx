@@ -12,7 +12,8 @@ namespace sensornoise::tools
 {
 namespace
 {
-/** Whether the character set is UTF-8, by the first of these variables that is set, as POSIX has it. */
+/** Returns whether the character set is UTF-8. As in POSIX, the first of LC_ALL, LC_CTYPE and LANG that is set
+ * determines it. */
 bool
 IsUtf8()
 {

@@ -8,8 +8,8 @@
 namespace sensornoise::tools
 {
 
-/** The text as standard output can show it: ASCII on a terminal whose character set, by LC_ALL, LC_CTYPE or LANG, is
- * not UTF-8; unchanged into files and pipes. */
+/** Returns the text as standard output can show it. It becomes ASCII on a terminal whose character set, by LC_ALL,
+ * LC_CTYPE or LANG, is not UTF-8. It is unchanged for files and pipes. */
 std::string
 ForStandardOutput(const std::string & text);
 

@@ -13,8 +13,8 @@
 namespace sensornoise::tools
 {
 
-/** Calls \a write, which writes \a file under its temporary name: an error that names that one names its target
- * instead. */
+/** Calls \a write, which writes \a file under its temporary name. If an error names the temporary file, it throws an
+ * error that names the target instead. */
 template <typename TWrite>
 void
 WriteNamed(const PendingFile & file, TWrite write)

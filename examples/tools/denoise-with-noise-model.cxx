@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-// Removes the noise of images by the noise model of their camera, a report of estimate-sensor-noise:
+// Removes the noise of images with the noise model of their camera, a report of estimate-sensor-noise:
 //   denoise-with-noise-model --report report.json frame.tif clean.tif
 
 #include "tools/DenoiseOptions.h"
@@ -29,7 +29,7 @@ constexpr int ExitDone = 0;
 constexpr int ExitWrongUse = 2;
 constexpr int ExitUnfitReport = 3;
 
-/** To be called before anything is written. */
+/** Throws if an output is also an input or another output. It must be called before anything is written. */
 void
 RequireOutputsApart(const DenoiseOptions & options, const std::vector<DenoiseOptions::Job> & jobs)
 {
@@ -45,7 +45,7 @@ RequireOutputsApart(const DenoiseOptions & options, const std::vector<DenoiseOpt
   }
 }
 
-/** The folder of the outputs, made if there is none; it goes again if nothing is written into it. */
+/** Folder of the outputs. It is made if there is none, and removed again if nothing is written into it. */
 class OutputFolder
 {
 public:
@@ -68,13 +68,13 @@ public:
   {
     for (const fs::path & path : m_Made)
     {
-      std::error_code stays; // where it holds a file
+      std::error_code stays; // a folder with files stays
       fs::remove(path, stays);
     }
   }
 
 private:
-  std::vector<fs::path> m_Made; // the innermost first
+  std::vector<fs::path> m_Made; // folders that were made, the innermost first
 };
 
 void

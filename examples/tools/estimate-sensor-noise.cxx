@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-// Measures the noise of a camera from a burst of raw frames on files. See --help, and README.md.
+// Measures the noise of a camera from files of a burst of raw frames. See --help and README.md.
 
 #include "sensornoise/ReportText.h"
 #include "sensornoise/Report.h"
@@ -40,8 +40,8 @@ constexpr int ExitDone = 0;
 constexpr int ExitWrongUse = 2;
 constexpr int ExitNothingEstimated = 3;
 
-/** The report to its file first, which is there even if nobody takes the table; then the table, and JSON for standard
- * output. */
+/** Writes the report. A file is completed first, so that it exists even if standard output fails. The table follows,
+ * then JSON on standard output. */
 void
 WriteReport(const MeasuredStack &        measured,
             const ModelChecks &          checks,
@@ -77,7 +77,8 @@ WriteReport(const MeasuredStack &        measured,
   }
 }
 
-/** Whether --frames counts the frames of stacks, not files. Files that --frames leaves out of a list are not opened. */
+/** Returns whether --frames counts the frames of stacks and not files. In a list of files, only the first selected file
+ * is opened, or the first file if --frames ends beyond the list. */
 bool
 AreStacks(const EstimateOptions & options)
 {
@@ -92,7 +93,8 @@ AreStacks(const EstimateOptions & options)
   return isStack(std::min(options.frames->first, files - 1)) || (options.frames->second > files && isStack(0));
 }
 
-/** To be called before anything is read, and when the folder of the maps is there. */
+/** Throws if an output is also an input or another output. It must be called before anything is read, when the
+ * folder of the maps exists. */
 void
 RequireOutputsApart(const EstimateOptions & options)
 {
@@ -142,7 +144,7 @@ TellWarnings(const MeasuredStack & measured)
   }
 }
 
-/** Of what this program may have been built without. */
+/** Throws std::runtime_error if an option needs a library that this program was built without. */
 void
 RequireAbilities(const EstimateOptions & options)
 {
@@ -209,7 +211,7 @@ Run(EstimateOptions & options)
   SetItkThreads(options.threads);
   RequireAbilities(options);
   TellOfSharedDarkFrames(options.dark, options.files);
-  // whether they can be written is found before the work begins
+  // throws before the work begins if an output cannot be written
   std::optional<PendingFile> json;
   if (options.HasReportFile())
   {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-// Writes the noise model of a report of estimate-sensor-noise for a program that asks for one:
+// Writes the noise model of a report of estimate-sensor-noise in the format of another program:
 //   export-noise-model report.json --format dng --output noise_profile.txt
 
 #include "tools/ErrorSentence.h"
@@ -65,7 +65,7 @@ MakeExport(const ExportOptions & options)
   return made;
 }
 
-/** The names of the files to be written: \a output, or for several files those in the folder \a output. */
+/** Returns the names of the files to be written: \a output, or several files in the folder \a output. */
 std::vector<std::string>
 NamesOf(const NoiseExport & made, const std::string & output)
 {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-// Simulates a burst of raw frames with known noise, and writes what an estimator should find beside it:
+// Simulates a burst of raw frames with known noise, and writes the true values for an estimator as a second file:
 //   simulate-sensor-noise --output stack.mha --truth truth.json --reference target --camera B --condition 3
 
 #include "base/FreeMemory.h"
@@ -44,7 +44,7 @@ using ReferenceType = itk::Image<double, 2>;
 using StackType = itk::Image<unsigned short, 3>;
 using SourceType = itk::SensorNoiseStackSource<StackType>;
 
-/** A scene on a file: one image, checked as frames are. */
+/** Reads a scene from a file, which must hold one image. The pixels are checked as the pixels of frames are. */
 ReferenceType::Pointer
 ReadReference(const std::string & name)
 {
@@ -167,8 +167,8 @@ MakeSource(const SimulateOptions & options)
   return source;
 }
 
-/** The module's record of the truth, with what only the command line knows; camera and condition are null if one of
- * their values was replaced. */
+/** Returns the truth as JSON, with the scene, camera and condition of the command line. Camera or condition is null
+ * if one of its values was replaced. */
 nlohmann::ordered_json
 TruthAsJson(const SimulateOptions & options, const SourceType & source)
 {
@@ -181,7 +181,7 @@ TruthAsJson(const SimulateOptions & options, const SourceType & source)
   return json;
 }
 
-/** Whether there is room for the stack on the disk, and in memory unless it is written in parts. */
+/** Throws if the stack does not fit on the disk. A stack that is not written in parts must fit in memory as well. */
 void
 RequireRoom(const SourceType & source, const PendingFile & file)
 {
@@ -205,10 +205,10 @@ WriteStack(SourceType & source, const PendingFile & file)
   writer->SetNumberOfStreamDivisions(
     static_cast<unsigned int>(1 + pixels * sizeof(StackType::PixelType) / itk::SensorNoiseChunkBytes));
   WriteNamed(file, [&] { writer->Update(); });
-  file.RequireBytes(pixels * sizeof(StackType::PixelType)); // no format here compresses
+  file.RequireBytes(pixels * sizeof(StackType::PixelType)); // the formats are not compressed
 }
 
-/** To be called before anything is read. */
+/** Throws if an output is also an input or another output. It must be called before anything is read. */
 void
 RequireOutputsApart(const SimulateOptions & options)
 {
