@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-// The published method filter by filter, as an ITK pipeline that streams from one reader:
+// Runs the published method filter by filter, as an ITK pipeline that streams from one reader:
 //
 //   reader -> TemporalStatistics -> VibrationMask -> FlickerCorrection(reader) -> TemporalStatistics -> NoiseRegression
 //
 // This is Figure 2 of F. Sur, M. Gredi'ac, SIAM J. Imaging Sci. 8(1), 2015. SensorNoiseEstimator gives the same numbers
-// in fewer passes over the stack.
+// with fewer passes over the stack.
 
 #include "sensornoise/ReportText.h"
 #include "sensornoise/Report.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-// How often the check of a noise model is right: a report is compared with another burst of the same camera, as it is,
-// and with a slope that is 5 % too steep. The first should fit, the second should not.
+// Measures how often the check of a noise model is right. A report is compared with another burst of the same camera,
+// once unchanged and once with a slope that is 5 % too steep. The first comparison should fit, the second should not.
 
 #include "sensornoise/NoiseModel.h"
 #include "sensornoise/SimulationSettings.h"
@@ -20,7 +20,7 @@ namespace
 constexpr std::size_t   CheckedSize = 256; // [pixels]
 constexpr std::size_t   CheckedFrames = 60;
 constexpr double        WrongSlope = 1.05;
-constexpr std::uint64_t OtherBurst = 500; // what is added to the seed of a report's burst
+constexpr std::uint64_t OtherBurst = 500; // added to the seed of the report's burst
 
 Report
 MeasureBurst(char camera, int condition, const std::string & scene, const StudyOptions & options, std::uint64_t seed)

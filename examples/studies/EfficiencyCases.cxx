@@ -78,7 +78,7 @@ MakeSettings(const std::string & experiment, const StudyOptions & options, std::
   return settings;
 }
 
-/** The scene at rest, as the optics blur it, at the brightness of gamma = 0 [e-]. */
+/** Returns the expected electrons of the static scene after optical blur, without flicker (gamma = 0) [e-]. */
 std::vector<double>
 ElectronsAtRest(const Scene & scene, SimulationSettings settings)
 {
@@ -94,7 +94,7 @@ ElectronsAtRest(const Scene & scene, SimulationSettings settings)
   return electrons;
 }
 
-/** Closed forms of the limit, for pixels with these expected electrons. */
+/** Returns the closed forms of the limit for pixels with these expected electrons. */
 PrecisionLimit
 ClosedLimit(const CramerRaoInput & input)
 {
@@ -116,7 +116,8 @@ ClosedLimit(const CramerRaoInput & input)
                                  input.truth->realisedFlickerSd });
 }
 
-/** The pixels that no clipping touches, which the bound is for; what else the method leaves out is its own loss. */
+/** Returns 1 for the pixels of the bound: pixels that clipping does not affect, and that are finite, not masked and
+ * not at the border. Pixels that the method leaves out for other reasons count as a loss of the method. */
 std::vector<std::uint8_t>
 MaskOfUnclipped(const std::vector<std::uint8_t> & use, std::size_t pixels)
 {
@@ -132,8 +133,9 @@ MaskOfUnclipped(const std::vector<std::uint8_t> & use, std::size_t pixels)
   return mask;
 }
 
-/** The truth of a report's quantities, and their limits: the smallest standard deviations that unbiased estimates can
- * have. \a pixelSize is the size of the report's pixels, in pixels of the simulated frames. */
+/** Returns the true values of the quantities of a report, and their limits: the smallest standard deviations of
+ * unbiased estimates. \a pixelSize is the size of a pixel of the report in pixels of the simulated frames: 2 for a
+ * channel of a mosaic. */
 Record
 MakeRecord(const MeasuredStack & measured, const CramerRaoInput & input, bool isFullBound, double pixelSize)
 {
@@ -151,7 +153,7 @@ MakeRecord(const MeasuredStack & measured, const CramerRaoInput & input, bool is
                { "flicker_sd", truth.realisedFlickerSd },
                { "vibration_sd_x", truth.realisedVibrationSdXPixels / pixelSize },
                { "vibration_sd_y", truth.realisedVibrationSdYPixels / pixelSize } } },
-           { "limit", // infinite limits are null
+           { "limit", // an infinite limit becomes null
              { { "gain", limit.gain },
                { "intercept", limit.intercept },
                { "offset", limit.offset },
@@ -190,7 +192,7 @@ MeasureMosaic(const Scene & scene, const StackSimulator & simulator)
     const FrameGeometry  size = mosaic.Plane();
     const CramerRaoInput input{ ofPlane.data(), maskOfPlane.data(), size.width, size.height, &truth };
     Record               record{ { "plane", NameOf(plane) } };
-    record.update(MakeRecord({ reports.Of(plane), {} }, input, false, 2.0)); // vibration in pixels of the plane
+    record.update(MakeRecord({ reports.Of(plane), {} }, input, false, 2.0)); // vibration in pixels of the channel
     records.push_back(std::move(record));
   }
   return records;

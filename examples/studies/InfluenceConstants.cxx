@@ -24,7 +24,7 @@ struct VariedConstant
   std::string  name;
   double *     value;
   const char * unit;
-  const char * what; ///< one line for people
+  const char * what; ///< one-line description
 };
 
 const std::vector<VariedConstant> &

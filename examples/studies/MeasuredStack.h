@@ -19,13 +19,13 @@
 namespace sensornoise::tools
 {
 
-/** A report, and the value of PixelUse of each pixel. */
+/** Report of a stack, and the PixelUse of each pixel. */
 struct MeasuredStack
 {
   Report                    report;
   std::vector<std::uint8_t> pixelUse;
 
-  /** The report as JSON. */
+  /** Returns the report as JSON. */
   nlohmann::ordered_json
   ReportRecord() const
   {
@@ -33,7 +33,8 @@ struct MeasuredStack
   }
 };
 
-/** Hands all \a frames frames of a stack, one after the other in \a codes, to a method in all of its passes. */
+/** Passes all \a frames frames of a stack, which follow one another in \a codes, to a method in each of its passes.
+ * Returns the result. */
 template <typename TMethod, typename TPixel>
 MeasuredStack
 MeasureBy(TMethod && method, const std::vector<TPixel> & codes, std::size_t frames)
@@ -46,7 +47,7 @@ MeasureBy(TMethod && method, const std::vector<TPixel> & codes, std::size_t fram
   return { method.GetReport(), method.GetPixelUse() };
 }
 
-/** Measures a stack by the method "refined" or "published", with its default settings. */
+/** Measures a stack with the method "refined" or "published" and its default settings. */
 template <typename TPixel>
 MeasuredStack
 MeasureBy(const std::string &         methodName,

@@ -15,7 +15,7 @@ namespace sensornoise::tools
 
 namespace
 {
-/** The results that wait for earlier ones. */
+/** Queue of results that wait until all earlier results were used. */
 class Queue
 {
 public:

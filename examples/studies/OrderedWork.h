@@ -10,9 +10,9 @@
 namespace sensornoise::tools
 {
 
-/** Calls \a make for 0 to \a count - 1, by \a threads threads at a time, and hands each result to \a use as soon as all
- * results before it were used: the order of the results does not depend on the number of threads. Throws the first
- * exception of \a make; no further result is used then. */
+/** Calls \a make for 0 to \a count - 1 on \a threads threads, and passes each result to \a use after all earlier
+ * results. The order of the results does not depend on the number of threads. Throws the first exception of \a make
+ * or \a use. No further result is used after an exception. */
 void
 MakeInOrder(std::size_t                                      count,
             unsigned int                                     threads,

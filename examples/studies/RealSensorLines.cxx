@@ -13,8 +13,8 @@ namespace
 {
 constexpr std::array<RealSensorScene, 2> Scenes{ RealSensorScene::Target, RealSensorScene::Texture };
 
-/** Cameras A, B and C with the vibrations of conditions 1, 2 and 3, without and with their flicker: offsets that are
- * not identified, and some that are. */
+/** Returns settings of cameras A, B and C with the vibrations of conditions 1, 2 and 3, without and with flicker. In
+ * some of them the offset is not identifiable. */
 std::vector<RealSensorSetting>
 MakeBracketSettings()
 {
@@ -47,7 +47,7 @@ std::vector<RealSensorSetting>
 MakeCrossingSettings()
 {
   std::vector<RealSensorSetting> all;
-  for (const std::size_t frames : { 20, 50, 100 }) // a fast block and slower ones
+  for (const std::size_t frames : { 20, 50, 100 }) // with fewer frames the block moves faster
   {
     for (const RealSensorScene scene : Scenes)
     {

@@ -12,39 +12,40 @@
 namespace sensornoise::tools
 {
 
-/** Settings that are judged together. */
+/** Settings whose results form one line of the tables. */
 struct RealSensorLine
 {
   std::string                                     name;
-  std::string                                     what; ///< one line for people
+  std::string                                     what; ///< one-line description
   std::function<std::vector<RealSensorSetting>()> makeSettings;
 };
 
-/** All lines, in the order in which they are reported. */
+/** Returns all lines, in the order in which they are reported. */
 std::vector<RealSensorLine>
 GetRealSensorLines();
 
-/** Bent responses, over the whole range of the scene and over parts of it. */
+/** Appends non-linear responses, over the whole range of the scene and over parts of it. */
 void
 AppendResponseLines(std::vector<RealSensorLine> & lines);
 
-/** Flat fields with patterns of the pixels, and sCMOS sensors, each with and without dark frames. */
+/** Appends flat fields with fixed-pattern noise, and sCMOS sensors, each with and without dark frames. */
 void
 AppendPixelLines(std::vector<RealSensorLine> & lines);
 
-/** Sensors whose pixels share noise, and cameras that process their frames, beside plain ones. */
+/** Appends sensors with spatial or temporal noise correlation and cameras that process their frames, together with
+ * unprocessed ones. */
 void
 AppendProcessedLines(std::vector<RealSensorLine> & lines);
 
-/** Brackets of the offset, and an object that crosses the frame. */
+/** Appends bounds of the offset, and a moving object that crosses the frame. */
 void
 AppendSceneLines(std::vector<RealSensorLine> & lines);
 
-/** Camera B in condition 3, 50 frames of \a scene. */
+/** Returns a setting with camera B in condition 3 and 50 frames of \a scene. */
 RealSensorSetting
 MakeRealSensorSetting(RealSensorScene scene, std::string name);
 
-/** A number as names of settings have it: "0.3". */
+/** Returns a number as the names of settings contain it: "0.3". */
 std::string
 ShortText(double number);
 

@@ -10,7 +10,7 @@ namespace sensornoise::tools
 {
 namespace
 {
-/** What is not alike in all pixels of a flat field. */
+/** Fixed-pattern noise of a flat field. */
 struct NamedPattern
 {
   const char * name;
@@ -26,7 +26,7 @@ constexpr NamedPattern FlatPatterns[] = {
   { "column gains 1 %", [](SimulationSettings & settings) { settings.flaws.pattern.columnGainSd = 0.01; } }
 };
 
-/** The light of a flat field. */
+/** Illumination of a flat field: expected electrons [e-] and standard deviation of the flicker [1]. */
 struct FlatLight
 {
   double electrons;
@@ -43,7 +43,7 @@ MakeFlatSetting(const NamedPattern & pattern, double shading, const FlatLight & 
   setting.shading = shading;
   setting.settings.camera.electrons = light.electrons;
   setting.settings.conditions = { light.flickerSd, 0.0, 0.0 };
-  setting.settings.bitDepth = 14; // 7000 e- at 1 DN/e- pass 12 bits
+  setting.settings.bitDepth = 14; // 7000 e- at 1 DN/e- exceed 12 bits
   setting.settings.frames = frames;
   pattern.apply(setting.settings);
   return setting;
@@ -70,7 +70,8 @@ MakeFlatSettings(bool hasDarkFrames)
   return all;
 }
 
-/** A sensor whose pixels have a read noise of 1.4 e- in the median and 1.6 to 2 e- in the root mean square. */
+/** Returns an sCMOS sensor. The read noise of its pixels has a median of 1.4 e- and a root mean square of 1.6 to 2
+ * e-. */
 RealSensorSetting
 MakeScmosSetting(RealSensorScene scene, double gain, double electrons, double flickerSd, bool hasLongTail)
 {

@@ -18,7 +18,7 @@ const Kinds Filtered{ "filtered" };
 const Kinds Enlarged{ "enlarged" };
 const Kinds NotWhite{ "not-linear", "filtered" };
 
-/** A setting for each of \a strengths, which \a apply puts into the flaws. */
+/** Returns the settings of AppendEverywhere() for each of \a strengths. \a apply sets the strength in the flaws. */
 template <typename TStrength, typename TApply>
 Settings
 MakeStrengths(const std::vector<TStrength> & strengths, const std::string & unit, const Kinds & kinds, TApply apply)
@@ -33,7 +33,7 @@ MakeStrengths(const std::vector<TStrength> & strengths, const std::string & unit
   return all;
 }
 
-/** Noise that no two pixels share, or that rows and columns share; light that is not the same everywhere. */
+/** Returns settings with white noise, row noise, column noise, banding, and illumination that varies over the frame. */
 Settings
 MakePlainSettings()
 {
@@ -99,7 +99,8 @@ MakeBinnedSettings()
   return all;
 }
 
-/** Neighbours share some 2 fraction / (1 - 8 fraction) of their noise: above 2 % a filter is as good a name. */
+/** Returns settings with coupling. The noise correlation of neighbouring pixels is about 2 f / (1 - 8 f), where f is
+ * the coupled fraction. Above 2 % the noise class "filtered" is right as well. */
 Settings
 MakeCouplingSettings()
 {
@@ -183,7 +184,8 @@ MakeBlockSettings()
                                      [](SensorFlaws & flaws, unsigned int quality) { flaws.blocks.quality = quality; });
 }
 
-/** The variance of the brightest level loses the share 8 k Q (BrighterFatterSettings). */
+/** Returns settings in which the variance of the brightest level decreases by the fraction 8 k Q
+ * (BrighterFatterSettings). */
 Settings
 MakeBrighterFatterSettings()
 {

@@ -63,7 +63,7 @@ MakeFullRangeSettings(const std::vector<ResponseSettings> & responses)
   return all;
 }
 
-/** The same responses, seen through a part of their range. */
+/** Returns settings with the same responses, in which the scene covers only a part of the range. */
 std::vector<RealSensorSetting>
 MakeNarrowSettings()
 {

@@ -12,42 +12,42 @@
 namespace sensornoise::tools
 {
 
-/** What the camera looks at. */
+/** Scene in front of the camera. */
 enum class RealSensorScene
 {
   Target,  ///< MakeTargetScene()
   Texture, ///< MakeTextureScene()
-  Flat     ///< one level, with the lens's shading
+  Flat     ///< uniform field with the shading of the lens
 };
 
-/** The name as the table prints it: "target", "texture", "flat". */
+/** Returns the name that the tables print: "target", "texture" or "flat". */
 inline const char *
 NameOf(RealSensorScene scene)
 {
   return scene == RealSensorScene::Target ? "target" : scene == RealSensorScene::Texture ? "texture" : "flat";
 }
 
-/** One setting of the study: a sensor with its flaws, in front of a scene. */
+/** Setting of the study: a sensor with its flaws in front of a scene. */
 struct RealSensorSetting
 {
-  std::string        name; ///< what sets it apart from the others of its line
+  std::string        name; ///< name of the setting within its line
   RealSensorScene    scene{ RealSensorScene::Target };
-  SimulationSettings settings; ///< the seed is that of the stack, set when it is made
+  SimulationSettings settings; ///< settings of the simulator; the seed is set when the stack is made
 
-  /** The light of the scene's darkest and brightest level in units of camera.electrons [1], 0 <= darkest < brightest
-   * <= 1. A flat field has the brightest one. */
+  /** Signal at the darkest and the brightest level of the scene, in units of camera.electrons [1], 0 <= darkest <
+   * brightest <= 1. A flat field uses only the brightest level. */
   double darkestLight{ 0.0 };
   double brightestLight{ 1.0 };
-  /** Of a flat field: how much darker its corners are than its middle [1], 0 or more, below 1. */
+  /** Shading of a flat field: fraction by which its corners are darker than its centre [1], 0 or more, below 1. */
   double shading{ 0.0 };
 
-  bool hasDarkFrames{ false }; ///< as many as bright ones, from the same sensor, give the offset
-  bool isCrossed{ false };     ///< a textured block moves through the frame
-  /** Two lamps, each with flicker of conditions.flickerSd of its own, and with its own part of the scene. Such a stack
-   * has no one flicker. */
+  bool hasDarkFrames{ false }; ///< dark frames of the same sensor, as many as bright frames
+  bool isCrossed{ false };     ///< a textured block crosses the frame
+  /** There are two lamps, each with independent flicker of conditions.flickerSd and with its own part of the scene.
+   * The true flicker of such a stack is not defined. */
   bool hasTwoLamps{ false };
 
-  /** What the report may call the noise, as KindOf() has it; empty: any. */
+  /** Noise classes that the report may give; empty: any. */
   std::vector<std::string> kinds;
 
   bool

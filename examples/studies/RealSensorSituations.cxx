@@ -14,7 +14,7 @@ namespace
 struct Situation
 {
   char        camera;
-  int         condition; ///< 0: no flicker, nothing moves
+  int         condition; ///< 0: no flicker and no vibration
   std::size_t frames;
 };
 

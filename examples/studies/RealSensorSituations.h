@@ -12,8 +12,9 @@
 namespace sensornoise::tools
 {
 
-/** Appends the test chart and the texture before all three cameras, 50 and 100 frames, with flicker and motion and
- * without: ten settings, each changed by \a change and called \a name. \param kinds what their noise may be called */
+/** Appends ten settings, each changed by \a change and with \a name in its name. They are the test chart and the
+ * texture in front of all three cameras, with 50 and 100 frames, with and without flicker and motion. \param kinds
+ * noise classes that the reports may give */
 void
 AppendEverywhere(std::vector<RealSensorSetting> &                 all,
                  const std::string &                              name,

@@ -14,10 +14,10 @@ namespace
 {
 constexpr std::uint64_t LitPixelStream = 120;
 constexpr std::uint64_t LampStream = 121;
-constexpr std::size_t   EdgeRows = 16;  ///< farther than blur and vibration reach
-constexpr std::size_t   FieldRows = 16; ///< of the black and the white field
+constexpr std::size_t   EdgeRows = 16;  ///< height of the copied edge [pixel], beyond blur and vibration
+constexpr std::size_t   FieldRows = 16; ///< height of the black and the white field [pixel]
 
-/** Of a block that crosses, in units of the frame's. */
+/** Width of the block that crosses the frame [pixel], from the size of the frame. */
 std::size_t
 BlockWidth(std::size_t size)
 {
@@ -29,7 +29,8 @@ BlockHeight(std::size_t size)
   return 2 * size / 3;
 }
 
-/** A flat field under a lens: a parabola of the distance from the middle, 1 there and 1 - shading in the corners. */
+/** Returns a flat field with the shading of a lens [1]. It is a parabola of the distance from the centre, with 1 in
+ * the centre and 1 - shading in the corners. */
 std::vector<double>
 MakeShadedField(std::size_t size, double shading)
 {
@@ -50,7 +51,8 @@ FillsRange(const RealSensorSetting & setting)
   return setting.scene != RealSensorScene::Flat && setting.darkestLight == 0.0 && setting.brightestLight == 1.0;
 }
 
-/** The scene in units of camera.electrons, with the rows below the frame if the scene does not fill the range. */
+/** Returns the scene in units of camera.electrons. If the scene does not fill the range, the rows below the frame
+ * are included. */
 std::vector<double>
 MakeReference(const RealSensorSetting & setting, std::size_t size)
 {
@@ -75,7 +77,7 @@ MakeReference(const RealSensorSetting & setting, std::size_t size)
   return scene;
 }
 
-/** Two normal numbers for each frame. */
+/** Returns the flicker of the two lamps in each frame: independent normal random numbers. */
 std::vector<double>
 DrawLamps(const SimulationSettings & settings, std::uint64_t seed)
 {
@@ -89,7 +91,8 @@ DrawLamps(const SimulationSettings & settings, std::uint64_t seed)
   return flicker;
 }
 
-/** The share of the second lamp rises from 0 to 1 along the diagonal. */
+/** Applies the flicker of two lamps to a row of electrons. The fraction of the second lamp rises from 0 to 1 along
+ * the diagonal of the frame. */
 void
 LightByLamps(double first, double second, std::size_t y, std::vector<double> & electrons)
 {
@@ -110,7 +113,7 @@ MakeSimulator(const RealSensorSetting & setting, std::size_t size, std::uint64_t
   settings.isDark = isDark;
   if (setting.hasTwoLamps)
   {
-    settings.conditions.flickerSd = 0.0; // the lamps have it
+    settings.conditions.flickerSd = 0.0; // each lamp has its own flicker
   }
   return { MakeReference(setting, size), size, FillsRange(setting) ? size : size + EdgeRows + FieldRows, settings };
 }
@@ -123,7 +126,7 @@ RealSensorStack::RealSensorStack(const RealSensorSetting & setting, std::size_t 
 {
   if (setting.isCrossed && !isDark)
   {
-    // Another texture than the scene's.
+    // The texture differs from the texture of the scene.
     m_Block = MakeTextureScene(BlockWidth(size), BlockHeight(size), DefaultSceneSeed + 1);
   }
   if (setting.hasTwoLamps && !isDark)
@@ -148,7 +151,7 @@ RealSensorStack::Render() const
     std::uint16_t * const out = codes.data() + row * m_Size;
     const std::size_t     t = row / m_Size;
     const std::size_t     y = row % m_Size;
-    // The block passes below the upper third of the frame, which stays still.
+    // The block crosses only the lower two thirds of the frame; the upper third stays static.
     const bool isBeside = m_Block.empty() || y < m_Size - BlockHeight(m_Size);
     if (isBeside && m_Lamps.empty())
     {
@@ -162,8 +165,8 @@ RealSensorStack::Render() const
   return codes;
 }
 
-/** The block enters on the left, hides what is behind it, and has left on the right at the end of the burst; it is lit
- * as the scene is, with 20 to 80 % of the full light. */
+/** Draws the block into a row of electrons. The block enters on the left, hides the scene behind it, and has left on
+ * the right at the end of the burst. It has the illumination of the scene, and 20 to 80 % of the full signal. */
 void
 RealSensorStack::DrawBlock(std::size_t t, std::size_t y, std::vector<double> & electrons) const
 {
@@ -188,7 +191,7 @@ RealSensorStack::DrawBlock(std::size_t t, std::size_t y, std::vector<double> & e
   }
 }
 
-/** As StackSimulator::RenderRow of a sensor without flaws. */
+/** Renders a row as StackSimulator::RenderRow() does for a sensor without flaws. */
 void
 RealSensorStack::RenderLitRow(std::size_t t, std::size_t y, std::uint16_t * out) const
 {

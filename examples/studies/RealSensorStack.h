@@ -14,24 +14,26 @@ namespace sensornoise::tools
 {
 
 /** \class RealSensorStack
- * A simulated burst of one setting, square frames.
+ * Simulated burst of one setting, with square frames.
  *
- * The simulator stretches a scene to [0, electrons]. A scene that does not fill this range gets more rows below the
- * frame: copies of its last row, which keep blur and vibration as they are at an edge, then a black and a white field.
- * These rows are simulated, but are no part of the frames. */
+ * The simulator scales a scene to [0, electrons]. A scene that does not fill this range gets more rows below the
+ * frame. Copies of its last row come first, so that blur and vibration act as at an edge; a black and a white field
+ * follow. These rows are simulated, but are not part of the frames.
+ */
 class RealSensorStack
 {
 public:
-  /** \param size width and height [pixels], at least 32
-   * \param isDark the same sensor with the shutter closed
+  /** Makes the simulator of a setting.
+   * \param size width and height [pixel], at least 32
+   * \param isDark the shutter of the same sensor is closed
    * \throws std::invalid_argument if the setting cannot be used */
   RealSensorStack(const RealSensorSetting & setting, std::size_t size, std::uint64_t seed, bool isDark = false);
 
-  /** All codes, frame after frame [DN]. */
+  /** Returns the grey values of all frames, frame after frame [DN]. */
   std::vector<std::uint16_t>
   Render() const;
 
-  /** Its first Pixels() pixels are those of the frame. */
+  /** Returns the simulator. Its first Pixels() pixels are the pixels of the frame. */
   const StackSimulator &
   GetSimulator() const
   {
@@ -44,7 +46,7 @@ public:
   }
 
 private:
-  /** One row whose light the simulator does not know: the block crosses, or there are two lamps. */
+  /** Renders a row that the block crosses, or that two lamps illuminate: the simulator has neither. */
   void
   RenderLitRow(std::size_t t, std::size_t y, std::uint16_t * out) const;
 
@@ -54,8 +56,8 @@ private:
   RealSensorSetting   m_Setting;
   std::size_t         m_Size;
   StackSimulator      m_Simulator;
-  std::vector<double> m_Lamps; ///< flicker of both lamps in each frame [1]; empty: one lamp
-  std::vector<double> m_Block; ///< texture of what crosses, as wide and high as the block [1]; empty: nothing does
+  std::vector<double> m_Lamps; ///< flicker of the two lamps in each frame [1]; empty: one lamp
+  std::vector<double> m_Block; ///< texture of the block, as wide and high as it [1]; empty: no block
 };
 
 } // namespace sensornoise::tools

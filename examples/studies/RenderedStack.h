@@ -12,7 +12,7 @@
 namespace sensornoise::tools
 {
 
-/** All frames of a simulated stack, one after the other. */
+/** Returns all frames of a simulated stack, frame after frame [DN]. */
 inline std::vector<std::uint16_t>
 RenderStack(const StackSimulator & simulator, std::size_t width, std::size_t height, std::size_t frames)
 {

@@ -42,7 +42,7 @@ Measure(const RefinedSettings & settings, const Codes & codes, std::size_t size,
   return MeasureBy(RefinedMethod<std::uint16_t>(settings, { size, size, 1 }, frames), codes, frames);
 }
 
-/** Mean truth of the pixels that a measurement used. */
+/** Mean true values of the pixels that a measurement used. */
 struct PixelTruth
 {
   double gain;
@@ -51,9 +51,11 @@ struct PixelTruth
   double readNoiseMedianDn;
 };
 
-/** Gain: mean of d(mean digital number) / d(electron); offset: mean digital number without signal; both over the pixels
- * that \a use, values of PixelUse, has as used, over all where it has none. Read noise: root mean square and median
- * over all pixels that are not reported as defective, by \a dark frames, or without them by the frames. */
+/** Returns the true values of a stack. The gain is the mean of d(mean digital number) / d(electron), and the offset
+ * is the mean digital number without signal. Both are means over the pixels that are used according to \a use
+ * (values of PixelUse), or over all pixels if none is. The root mean square of the read noise is over the pixels
+ * that are not defective according to \a dark, or according to \a use without dark frames. The median of the read
+ * noise is over all pixels. */
 PixelTruth
 TruthOfPixels(const RealSensorStack & stack, const std::vector<std::uint8_t> & use, const DarkMaps * dark)
 {
@@ -82,7 +84,7 @@ TruthOfPixels(const RealSensorStack & stack, const std::vector<std::uint8_t> & u
   };
 }
 
-/** The fraction of the pixels whose 95 % interval contains the truth. */
+/** Returns the fraction of the pixels with an interval whose 95 % interval contains the true value [1]. */
 template <typename TTruth>
 double
 CoverageOf(const IntervalMapDn & map, TTruth truthOf)
@@ -101,7 +103,7 @@ CoverageOf(const IntervalMapDn & map, TTruth truthOf)
   return held / std::max(1.0, count);
 }
 
-/** The gain of the stack in which each exposure is there once [DN/e-]. */
+/** Returns the gain that is measured from the distinct frames of a stack with repeated frames [DN/e-]. */
 std::optional<double>
 GainOfDistinctFrames(const RealSensorSetting & setting, const Codes & codes, std::size_t size)
 {
@@ -125,7 +127,7 @@ NumberOrNull(const std::optional<double> & number)
   return number ? Record(*number) : Record();
 }
 
-/** The fractions of the pixels whose intervals of offset and read noise contain the truth. */
+/** Returns the fractions of the pixels whose intervals of offset and read noise contain the true value. */
 Record
 CoverageOfMaps(const DarkMaps & dark, const StackSimulator & simulator)
 {
@@ -134,7 +136,7 @@ CoverageOfMaps(const DarkMaps & dark, const StackSimulator & simulator)
            { "read_noise", CoverageOf(own.readNoise, [&](std::size_t p) { return simulator.PixelReadNoiseDn(p); }) } };
 }
 
-/** Simulates a stack, and dark frames where the setting has them, and measures it by the refined method. */
+/** Simulates a stack, with dark frames if the setting has them, and measures it with the refined method. */
 std::vector<Record>
 MeasureCase(RealSensorSetting setting, const StudyOptions & options, std::uint64_t seed)
 {

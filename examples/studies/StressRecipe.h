@@ -15,7 +15,7 @@
 namespace sensornoise::tools
 {
 
-/** How to make the stack of one case: the simulator's settings, and what the simulator does not know. */
+/** Recipe for the stack of a case: settings of the simulator, and changes that the simulator does not support. */
 struct StressRecipe
 {
   using RowOfElectrons = std::vector<double>;
@@ -24,35 +24,37 @@ struct StressRecipe
   std::size_t         size{ 0 };
   std::vector<double> scene;
 
-  /** Changes the expected electrons of row y of frame t; empty: none. */
+  /** Changes the expected electrons of row y of frame t; empty: no change. */
   std::function<void(const SimulatedSeries & series, std::size_t t, std::size_t y, RowOfElectrons & electrons)> light;
-  /** Level in frame t at a pixel, beside the offset [DN]; empty: none. */
+  /** Level of a pixel in frame t that is added to the offset [DN]; empty: 0. */
   std::function<double(std::size_t t, std::size_t pixel)> levelDn;
-  /** From the converter's code to that of the file, as a real number that is then rounded; empty: as it is. */
+  /** Maps a grey value of the converter to a grey value of the file, before rounding; empty: no change. */
   std::function<double(double code)> recode;
-  /** Truth of the file's codes in units of the converter's. */
+  /** Factor from true values of the converter [DN] to true values of the file [DN]. */
   double scale{ 1.0 };
   bool   isEightBit{ false };
-  /** Codes added to the middle sample of the stack. */
+  /** Grey values that are added to the middle sample of the stack [DN]. */
   std::uint16_t strayCodes{ 0 };
 };
 
-/** A case and how it is made. */
+/** Case and the function that makes its recipe. */
 struct StressRecipeEntry
 {
   StressCase                          description;
   std::function<void(StressRecipe &)> prepare;
 };
 
-/** Light: rolling shutters, lamps, bleaching, things that move; vibration, flicker, length of the burst. */
+/** Appends cases of the scene: rolling shutters, lamps, bleaching, moving objects, vibration, flicker and length of
+ * the burst. */
 void
 AppendSceneRecipes(std::vector<StressRecipeEntry> & entries);
 
-/** Sensors with flaws, and codes that are not the sensor's own. */
+/** Appends cases of sensors with flaws, and of grey values that were changed after the converter. */
 void
 AppendSensorRecipes(std::vector<StressRecipeEntry> & entries);
 
-/** Charge that moves between pixels, and cameras that process their codes: the noise is not white any more. */
+/** Appends cases of charge that moves between pixels, and of cameras that process their frames. The noise is no
+ * longer white. */
 void
 AppendProcessedRecipes(std::vector<StressRecipeEntry> & entries);
 

@@ -22,8 +22,9 @@ using Row = StressRecipe::RowOfElectrons;
 constexpr double        Pi = 3.14159265358979323846;
 constexpr std::uint64_t SeriesStream = 110;
 
-/** One smooth random function of the rows a frame, independent from frame to frame: 32 waves with normal wave numbers
- * add up to a nearly Gaussian process of covariance sd^2 exp(-d^2 / (2 length^2)) at distance d. */
+/** Returns a smooth random function of the rows for each frame [1], independent from frame to frame. It is a sum of
+ * 32 waves with normal wave numbers, a nearly Gaussian process. Its covariance at distance d is sd^2 exp(-d^2 / (2
+ * length^2)). */
 std::vector<double>
 DrawFlickerOfRows(const StressRecipe & recipe, double sd, double lengthRows)
 {
@@ -59,7 +60,8 @@ PrepareRandomRolling(StressRecipe & recipe)
   };
 }
 
-/** Two lamps of their own flicker; the share of the second rises from 0 to 1 along the diagonal. */
+/** Two lamps have independent flicker. The fraction of the second lamp rises from 0 to 1 along the diagonal of the
+ * frame. */
 void
 PrepareTwoLamps(StressRecipe & recipe)
 {
@@ -81,7 +83,8 @@ PrepareTwoLamps(StressRecipe & recipe)
   };
 }
 
-/** All the light, or a smooth pattern of half of it, decays exponentially by 20 % over the burst. */
+/** All of the signal decays exponentially by 20 % over the burst, or with \a isMixed a smooth pattern that is half
+ * of the signal. */
 void
 PrepareBleaching(StressRecipe & recipe, bool isMixed)
 {
@@ -98,7 +101,7 @@ PrepareBleaching(StressRecipe & recipe, bool isMixed)
   };
 }
 
-/** A disk of 5 % of the area that crosses the scene slantwise, with an edge one pixel wide. */
+/** A disk with 5 % of the area and an edge one pixel wide crosses the scene on a slanted path. */
 void
 PrepareMovingDisk(StressRecipe & recipe)
 {
@@ -118,7 +121,7 @@ PrepareMovingDisk(StressRecipe & recipe)
   };
 }
 
-/** A textured block of a third of the width crosses from left to right over the lower two thirds of the rows. */
+/** A textured block with a third of the width crosses from left to right over the lower two thirds of the rows. */
 void
 PrepareCrossingBlock(StressRecipe & recipe)
 {
@@ -134,7 +137,7 @@ PrepareCrossingBlock(StressRecipe & recipe)
     const double left = travel * static_cast<double>(t) / last - width;
     for (std::size_t x = 0; x < electrons.size() && y >= top; ++x)
     {
-      const double at = static_cast<double>(x) - left; // column of the block
+      const double at = static_cast<double>(x) - left; // position in the block [pixel]
       if (at >= 0.0 && at <= width - 1.0)
       {
         const double * row = block.data() + (y - top) * blockWidth;
@@ -147,7 +150,7 @@ PrepareCrossingBlock(StressRecipe & recipe)
   };
 }
 
-/** The middle quarter of the frame sways sideways by 2 pixels, once in 17.3 frames. */
+/** The middle quarter of the frame moves horizontally as a sine of amplitude 2 pixels and period 17.3 frames. */
 void
 PrepareWavingQuarter(StressRecipe & recipe)
 {
@@ -190,7 +193,7 @@ PrepareVeil(StressRecipe & recipe)
   };
 }
 
-/** Strong changes of the illumination: the shapes of the simulator, of IlluminationOf(). */
+/** Appends strong changes of the illumination, with the shapes of IlluminationOf(). */
 void
 AppendIlluminationRecipes(std::vector<StressRecipeEntry> & entries)
 {
@@ -204,7 +207,8 @@ AppendIlluminationRecipes(std::vector<StressRecipeEntry> & entries)
   append("ramp0", "the illumination rises linearly from 0", "ramp:0", 1.0);
   append("decay0.1", "the illumination decays exponentially to 10 %", "decay:0.1", 1.0);
   append("sine0.1", "the illumination is a sine from 10 % to 100 %, with a period of 9 frames", "sine:0.1:9", 1.0);
-  // The brightest of 100 frames has about 5 times the mean illumination: with all electrons most pixels clip.
+  // The brightest of 100 frames has about 5 times the mean illumination. With all electrons most of its pixels would
+  // clip.
   append("exponential", "the illumination is an exponential random number, 1 / 5 of the electrons", "exponential", 0.2);
 }
 } // namespace

@@ -20,7 +20,7 @@ constexpr double        TopCode = 4095.0;
 constexpr std::uint64_t TelegraphStream = 120;
 constexpr std::uint64_t DriftStream = 122;
 
-/** 1 % of the pixels are 20 DN higher in half of the frames, at random. */
+/** 1 % of the pixels are 20 DN higher in a random half of the frames (random telegraph noise). */
 void
 PrepareTelegraph(StressRecipe & recipe)
 {
@@ -34,7 +34,7 @@ PrepareTelegraph(StressRecipe & recipe)
   };
 }
 
-/** The offset wanders slowly, the same everywhere, with mean 0 and 3 DN rms over the burst. */
+/** The offset drifts slowly and equally in all pixels, with mean 0 and 3 DN rms over the burst. */
 void
 PrepareBlackDrift(StressRecipe & recipe)
 {
@@ -59,7 +59,7 @@ PrepareBlackDrift(StressRecipe & recipe)
   recipe.levelDn = [drift](std::size_t t, std::size_t) { return drift[t]; };
 }
 
-/** So much light that 5 % of the pixels are at the top code or would be above it. */
+/** The illumination is so high that 5 % of the pixels reach or would exceed the highest grey value. */
 void
 PrepareClippedHighlights(StressRecipe & recipe)
 {
@@ -72,7 +72,7 @@ PrepareClippedHighlights(StressRecipe & recipe)
   camera.electrons = (TopCode - camera.offsetDn) / (camera.gainDnPerElectron * *rank);
 }
 
-/** The camera applies a tone curve: code = top (u / 4095)^(1 / gamma). */
+/** Returns a case whose camera applies a tone curve to the grey value u: top (u / 4095)^(1 / gamma). */
 StressRecipeEntry
 MakeGammaEntry(const char * name, double gamma, double top)
 {
@@ -83,7 +83,7 @@ MakeGammaEntry(const char * name, double gamma, double top)
            } };
 }
 
-/** 3000 e- on 210 codes of 8 bits, with less read noise than a code step. */
+/** Returns a case with 3000 e- on 210 grey values of 8 bits. The read noise is below the quantization step. */
 StressRecipeEntry
 MakeCoarseEntry(const char * name, double readNoiseDn)
 {
@@ -104,7 +104,7 @@ MakeScaledEntry(const char * name, const char * what, double scale, std::uint16_
             recipe.strayCodes = strayCodes;
           } };
 }
-/** The sensor's response is bent: its local gain departs by so many per cent. */
+/** Appends sensors with a non-linear response, whose local gain deviates by up to 2 or 4 %. */
 void
 AppendBentEntries(std::vector<StressRecipeEntry> & entries)
 {
@@ -121,7 +121,8 @@ AppendBentEntries(std::vector<StressRecipeEntry> & entries)
   }
 }
 
-/** A scientific CMOS camera: read noise of 1.4 e- (median) to 1.8 e- (rms), offsets and gains of the pixels differ. */
+/** Returns a case with a scientific CMOS camera. The read noise of its pixels has a median of 1.4 e- and a root mean
+ * square of 1.8 e-; offsets and gains of the pixels differ. */
 StressRecipeEntry
 MakeScientificEntry(const char * name, const char * what, double electrons)
 {
@@ -133,7 +134,7 @@ MakeScientificEntry(const char * name, const char * what, double electrons)
           } };
 }
 
-/** Pixels that differ, and noise that rows and columns share. */
+/** Appends cases with fixed-pattern noise, row noise, column noise and banding. */
 void
 AppendPatternEntries(std::vector<StressRecipeEntry> & entries)
 {

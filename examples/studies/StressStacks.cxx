@@ -34,7 +34,8 @@ GetEntries()
   return entries;
 }
 
-/** As StackSimulator::RenderRow, with the recipe's light and level. */
+/** Renders a row as StackSimulator::RenderRow() does for a sensor without flaws, with the signal and the level of
+ * the recipe. */
 void
 ComposeRow(const StackSimulator & simulator,
            const StressRecipe &   recipe,
@@ -73,7 +74,7 @@ FindEntry(const std::string & name)
   return *entry;
 }
 
-/** Variance that the pixels of a row, a column or a band share [DN^2]. */
+/** Returns the variance of row noise, column noise and banding [DN^2]. */
 double
 SharedVarianceDn2(const LineNoiseSettings & lineNoise)
 {
@@ -81,8 +82,8 @@ SharedVarianceDn2(const LineNoiseSettings & lineNoise)
          0.5 * std::pow(lineNoise.bandingAmplitudeDn, 2);
 }
 
-/** Truth of each pixel; empty where all are alike, or differ as hot pixels and offsets do: then the estimate is
- * to be that of the camera. */
+/** Returns the true values of each pixel. They are empty if gains, read noise and response are alike in all pixels,
+ * apart from hot pixels and offsets. The estimate is then compared with the values of the camera. */
 std::vector<StressTruth>
 DescribePixels(const StackSimulator & simulator, const StressRecipe & recipe)
 {
@@ -102,7 +103,7 @@ DescribePixels(const StackSimulator & simulator, const StressRecipe & recipe)
   return truths;
 }
 
-/** The codes of the file, frame after frame. */
+/** Returns the grey values of the file, frame after frame [DN]. */
 std::vector<std::uint16_t>
 RenderCodes(const StackSimulator & simulator, const StressRecipe & recipe)
 {

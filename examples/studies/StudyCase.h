@@ -24,7 +24,7 @@ struct StudyOptions
   std::optional<std::size_t> frames; ///< frames of a stack; null: as the case has them
   std::string                method{ "refined" };
 
-  // Of the efficiency study alone; null or empty: as camera and condition have them.
+  // Options of the efficiency study only; null or empty: values of camera and condition.
   std::uint64_t         sceneSeed{ DefaultSceneSeed }; ///< seed of the target's or the texture's random numbers
   std::optional<double> flickerSd;                     ///< standard deviation of the illumination factor [1]
   std::vector<double>   vibrationSd;                   ///< standard deviations along x and y [pixels]
@@ -38,7 +38,7 @@ struct StudyOptions
   bool                  isFullBound{ false };          ///< the Cramér-Rao bound itself, instead of its closed forms
 };
 
-/** One kind of simulated stack, and how it is measured. */
+/** Kind of simulated stack, and how it is measured. */
 struct StudyCase
 {
   /** Simulates and measures the stack of one seed. Returns a record for each report: its truth, the report, and what
@@ -46,7 +46,7 @@ struct StudyCase
   using Measure = std::function<std::vector<nlohmann::ordered_json>(const StudyOptions &, std::uint64_t seed)>;
 
   std::string name; ///< study, case and scene: "robustness/gamma2.2/target"
-  std::string what; ///< one line for people
+  std::string what; ///< one-line description
   Measure     measure;
 };
 
@@ -66,7 +66,7 @@ AppendSensorCases(std::vector<StudyCase> & cases);
 void
 AppendCheckCases(std::vector<StudyCase> & cases);
 
-/** All cases, in the order in which they are listed. */
+/** Returns all cases, in the order in which they are listed. */
 std::vector<StudyCase>
 GetStudyCases();
 

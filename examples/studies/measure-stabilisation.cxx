@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-// What the generalized Anscombe transform and its inverses do to a pixel's mean, by numerical integration over the
-// Poisson-Gaussian law: the variance after the transform, and by how much the inverses depart from the exact unbiased
-// one.
+// Measures the effect of the generalized Anscombe transform and its inverses on the mean of a pixel. The
+// Poisson-Gaussian distribution is integrated numerically. Printed are the variance after the transform, and the
+// deviation of each inverse from the exact unbiased inverse.
 //
 //   measure-stabilisation
 
@@ -25,11 +25,11 @@ constexpr std::array<double, 9>  ReadNoises{ 0.0, 0.3, 0.5, 1.0, 2.0, 3.0, 5.0, 
 constexpr std::array<double, 15> Lights{ 0.0,  0.5,   1.0,   2.0,   3.0,    5.0,    10.0,   20.0,
                                          50.0, 100.0, 300.0, 600.0, 1000.0, 3000.0, 10000.0 };
 
-/** What an inverse makes of the mean of stabilised values, above the light that it stands for [e-]. */
+/** Returns the bias of an inverse: the inverse of the mean of stabilised values, minus the true signal [e-]. */
 double
 BiasOf(AnscombeInverse inverse, double electrons, double readNoise)
 {
-  // In electrons, with a = 1 and mu = 0, b is the read variance.
+  // In units of electrons, with a = 1 and mu = 0, b is the variance of the read noise.
   const sensornoise::GeneralizedAnscombe transform({ 1.0, readNoise * readNoise });
   const double                           mean = sensornoise::MomentsOfStabilised(electrons, readNoise).mean;
   double                                 found = 0.0;
@@ -58,7 +58,8 @@ PrintTable(const char * title, const std::function<double(double electrons, doub
   std::printf("\n");
 }
 
-/** The largest departures from \a low to \a high electrons, of a dense set of lights and read noises. */
+/** Prints the largest deviations for signals from \a low to \a high [e-] and read noises up to 30 e-, on a dense
+ * grid. */
 void
 PrintWorst(double low, double high)
 {
