@@ -13,8 +13,8 @@
 namespace sensornoise::opencv
 {
 
-/** Throws std::invalid_argument, which names the frame, unless \a mat has two dimensions and one channel of a type that
- * the filters take. */
+/** Throws std::invalid_argument, which names the frame, unless \a mat has two dimensions and one channel of a pixel
+ * type of the filters. */
 inline void
 RequireRaw(const cv::Mat & mat, const std::string & name)
 {
@@ -36,9 +36,9 @@ RequireRaw(const cv::Mat & mat, const std::string & name)
   }
 }
 
-/** A cv::Mat as an itk::Image of \a TPixel: the same memory, not a copy. The Mat must outlive the image. Throws
- * std::invalid_argument where the types differ, or the rows do not follow one another without a gap (a region of a
- * larger Mat: take its clone()). */
+/** Returns a cv::Mat as an itk::Image of \a TPixel with the same memory, without a copy. The Mat must outlive the
+ * image. Throws std::invalid_argument if the types differ, or if there are gaps between the rows. A region of a
+ * larger Mat has gaps: use its clone(). */
 template <typename TPixel>
 typename itk::Image<TPixel, 2>::Pointer
 ViewAsImage(cv::Mat & mat)
@@ -58,7 +58,8 @@ ViewAsImage(cv::Mat & mat)
   return image;
 }
 
-/** An itk::Image as a cv::Mat: the same memory, not a copy. The image, which is up to date, must outlive the Mat. */
+/** Returns an itk::Image as a cv::Mat with the same memory, without a copy. The image must be up to date and must
+ * outlive the Mat. */
 template <typename TPixel>
 cv::Mat
 ViewAsMat(itk::Image<TPixel, 2> & image)

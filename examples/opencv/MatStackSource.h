@@ -19,8 +19,10 @@ namespace sensornoise::opencv
 {
 
 /** \class MatStackSource
- * A vector of cv::Mat as a stack, an itk::Image whose last axis is time. Frames that lie behind one another in memory,
- * planes of one Mat for one, are not copied; of others those that a filter asks for, a chunk at a time. */
+ * Source of a stack, an itk::Image whose last axis is time, from a vector of cv::Mat. Frames that are contiguous in
+ * memory, such as planes of one Mat, are not copied. Other frames are copied one chunk at a time, when a filter
+ * requests them.
+ */
 template <typename TPixel>
 class MatStackSource : public itk::ImageSource<itk::Image<TPixel, 3>>
 {
@@ -32,8 +34,8 @@ public:
 
   itkNewMacro(Self);
 
-  /** Mats share memory: nothing is copied here. Throws std::invalid_argument unless all have one channel of \a TPixel
-   * and the same size. */
+  /** Sets the frames. Mats share memory, so nothing is copied here. Throws std::invalid_argument unless all frames
+   * have one channel of \a TPixel and the same size. */
   void
   SetFrames(std::vector<cv::Mat> frames)
   {
@@ -64,7 +66,7 @@ protected:
       typename StackType::SizeType{ { number(m_Frames[0].cols), number(m_Frames[0].rows), number(m_Frames.size()) } });
   }
 
-  /** Whole frames. */
+  /** Enlarges the requested region to whole frames. */
   void
   EnlargeOutputRequestedRegion(itk::DataObject * data) override
   {

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-// OpenCV's frames in, a report out, and a cv::Mat whose noise has variance 1:
+// Measures the noise of OpenCV's frames, writes a report, and stabilises a cv::Mat so that its noise has variance 1:
 //   stabilise-mats report.json frame_*.png        stabilise-mats report.json --video camera.avi
-// --video takes 100 frames of a file, of a sequence of images (its first file's name, or a pattern like frame_%03d.png,
-// which has to begin near 0) or of a camera (its number).
+// --video reads 100 frames of a video file, of a sequence of images or of a camera (its number). A sequence is given by
+// the name of its first file, or by a pattern like frame_%03d.png whose numbers begin near 0.
 //
-// What was tried: of images it makes the same report as of the Mats, 16 bits and all, by the back end for images
-// (CAP_IMAGES; OpenCV 4.6 here, 4.14 and 5.0 in Python). FFmpeg, which takes files, and sequences if nothing is said,
-// is not for raw frames: that of 4.6 makes them 8-bit colour whatever CAP_PROP_CONVERT_RGB says, and is refused; those
-// of 4.14 and 5.0 take frames of 16 bits for 8, with no more than a warning of their own. No camera was tried.
+// Images read as a sequence with the back end for images (CAP_IMAGES) gave the same report as the Mats, also with 16
+// bits. This was tested with OpenCV 4.6 here, and with 4.14 and 5.0 in Python. The back end FFmpeg reads video files,
+// and sequences if no back end is given. It does not suit raw frames. In OpenCV 4.6 it converts frames to 8-bit colour
+// in spite of CAP_PROP_CONVERT_RGB, and this program rejects them. In 4.14 and 5.0 it reduces frames from 16 to 8 bits
+// with only a warning. No camera was tested.
 
 #include "opencv/MatImage.h"
 #include "opencv/MatStackSource.h"
@@ -44,7 +45,7 @@ ReadImages(const std::vector<std::string> & names)
   std::vector<cv::Mat> frames;
   for (const std::string & name : names)
   {
-    frames.push_back(cv::imread(name, cv::IMREAD_UNCHANGED)); // unchanged: else 16 bits become 8
+    frames.push_back(cv::imread(name, cv::IMREAD_UNCHANGED)); // IMREAD_UNCHANGED keeps 16 bits
     RequireRaw(frames.back(), name);
   }
   return frames;
@@ -57,7 +58,7 @@ OpenVideo(const std::string & name)
   cv::VideoCapture video;
   const bool       isNumber = name.find_first_not_of("0123456789") == std::string::npos;
   const bool       isImages = name.find('%') != std::string::npos || cv::haveImageReader(name);
-  // left to itself, OpenCV would take FFmpeg for images, too
+  // without a back end given, OpenCV also uses FFmpeg for images
   if (!(isNumber ? video.open(std::stoi(name)) : video.open(name, isImages ? cv::CAP_IMAGES : cv::CAP_ANY)))
   {
     throw std::runtime_error(name + " cannot be opened as a video; expected a file, the first image of a "
@@ -74,7 +75,7 @@ ReadVideo([[maybe_unused]] const std::string & name)
   constexpr std::size_t most = 100;
   cv::VideoCapture      video = OpenVideo(name);
   const bool            isLeftAsItIs = video.set(cv::CAP_PROP_CONVERT_RGB, 0.0);
-  const bool            isImages = video.get(cv::CAP_PROP_BACKEND) == cv::CAP_IMAGES; // which leaves them as they are
+  const bool            isImages = video.get(cv::CAP_PROP_BACKEND) == cv::CAP_IMAGES; // does not change the pixels
   std::vector<cv::Mat>  frames;
   for (cv::Mat frame; frames.size() < most && video.read(frame); frame = cv::Mat())
   {
@@ -86,7 +87,7 @@ ReadVideo([[maybe_unused]] const std::string & name)
         "pattern like frame_%03d.png");
     }
     RequireRaw(frame, name);
-    frames.push_back(frame); // a new Mat each time: read() would write into the last one's memory
+    frames.push_back(frame); // a new Mat for each frame: read() would overwrite the last frame
   }
   if (frames.empty())
   {
@@ -128,7 +129,7 @@ EstimateOf(const std::vector<cv::Mat> & frames)
   }
 }
 
-/** Noise of variance 1, in the Mat's own memory. */
+/** Stabilises a frame in the memory of the Mat, so that its noise has variance 1. */
 void
 StabiliseInPlace(cv::Mat & frame, const sensornoise::NoiseModel & model)
 {
@@ -139,8 +140,9 @@ StabiliseInPlace(cv::Mat & frame, const sensornoise::NoiseModel & model)
   }
 }
 
-/** Standard deviation of the noise of a stabilised frame, from how its difference to the next one differs between
- * neighbours: what flicker adds is alike there. By the median, as edges are outliers; 1 where the model is right. */
+/** Returns the standard deviation of the noise of a stabilised frame [1]; it is 1 if the model is right. It is
+ * estimated from the difference to the next frame, and how this differs between neighbouring pixels, so that flicker
+ * cancels. The median excludes edges. */
 double
 StabilisedNoise(const std::vector<cv::Mat> & frames, const sensornoise::NoiseModel & model)
 {
@@ -155,8 +157,8 @@ StabilisedNoise(const std::vector<cv::Mat> & frames, const sensornoise::NoiseMod
   std::vector<float> sizes(steps.begin<float>(), steps.end<float>());
   const auto         middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
-  constexpr double medianOfNormal = 0.6745; // of the size of a normal number with standard deviation 1
-  return *middle / medianOfNormal / 2.0;    // of four pixels
+  constexpr double medianOfNormal = 0.6745; // median of the absolute value of a standard normal number
+  return *middle / medianOfNormal / 2.0;    // the difference has the noise of four pixels
 }
 
 void
@@ -185,7 +187,7 @@ main(int argc, char * argv[])
 {
   try
   {
-    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_ERROR); // a file that is not there is said below
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_ERROR); // a missing file is reported below
     Run({ argv + 1, argv + argc });
     return 0;
   }
