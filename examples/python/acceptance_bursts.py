@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the bursts of acceptance_lines.LINES, replaces frames in them, and judges what the estimator says of them."""
+"""Makes the bursts of acceptance_lines.LINES, replaces frames in them, and tests the reports of the estimator."""
 
 import json
 import tempfile
@@ -13,19 +13,19 @@ from acceptance_lines import CAMERA, expected_of, simulator_options, stream_of
 from acceptance_programs import ProgramError, run
 from acceptance_stacks import judge
 
-DATA = b"ElementDataFile = LOCAL\n"  # the last line of a MetaImage's header; the pixels follow
-DIP_DEPTH = 0.12  # of the illumination in the middle of a dip [1]
-# Standard deviation of the Gaussian dip, in units of the frame's width: so wide that it resembles flicker.
+DATA = b"ElementDataFile = LOCAL\n"  # last line of the header of a MetaImage; the pixels follow
+DIP_DEPTH = 0.12  # decrease of the illumination in the middle of a dip [1]
+# Standard deviation of the Gaussian dip, in units of the frame width. It is so wide that the dip resembles flicker.
 DIP_RADIUS = 0.6
-ROUNDING_VARIANCE = 1 / 12  # of whole digital numbers [DN^2]
-OTHER_GAIN = 1.5  # of a frame of another gain, over that of the burst [1]
-# Electrons and gain of a frame whose shot noise is below the rounding, for the mean of a burst's pixels.
+ROUNDING_VARIANCE = 1 / 12  # variance of rounding to whole digital numbers [DN^2]
+OTHER_GAIN = 1.5  # gain of a frame with another gain, over the gain of the burst [1]
+# Electrons of a frame whose shot noise is below the rounding; it gives the mean of the pixels of a burst.
 NOISELESS_ELECTRONS = 1e9
 COMPARED_QUANTITIES = ("gain", "offset", "read_noise")
 
 
 def read_frames(name):
-    """The frames (t, y, x) of a stack that simulate-sensor-noise wrote, and the bytes in front of them."""
+    """Returns the frames (t, y, x) of a stack that simulate-sensor-noise wrote, and the bytes in front of them."""
     content = Path(name).read_bytes()
     start = content.index(DATA) + len(DATA)
     header = dict(line.split(" = ", 1) for line in content[:start].decode("ascii").splitlines())
@@ -40,7 +40,7 @@ def write_frames(name, frames, header):
 
 
 class Camera:
-    """The burst's own camera, scene and noise, which make the replaced frames."""
+    """Camera, scene and noise of a burst, which make the frames that replace others."""
 
     def __init__(self, programs, line, scene, bits, truth, folder, seed):
         self.programs, self.line, self.scene, self.bits = programs, line, scene, bits
@@ -49,14 +49,14 @@ class Camera:
         self.random = np.random.default_rng(seed)
 
     def simulate(self, scene, **others):
-        """One frame of the camera, with other options of the simulator."""
+        """Returns one frame of the camera, with other options of the simulator."""
         name = self.folder / "other.mha"
         options = simulator_options(self.line, scene, self.bits, frames=1, **others)
         run([self.programs.simulator, "--output", name, *options, "--seed", self.seed])
         return read_frames(name)[0][0]
 
     def expose(self, electrons, shape, gain=None):
-        """A frame with so many expected electrons; of the camera's gain unless another is given [DN/e-]."""
+        """Returns a frame with this number of expected electrons, with the gain of the camera or a given gain [DN/e-]."""
         levels = self.offset + (gain or self.gain) * self.random.poisson(electrons, shape)
         levels = levels + self.random.normal(0.0, self.read_noise, shape)
         return np.clip(np.rint(levels), 0, self.highest)
@@ -71,7 +71,7 @@ def other_scene(camera, _shape):
 
 
 def mean_electrons(camera):
-    """The expected electrons of the pixels, without flicker and vibration."""
+    """Returns the expected electrons of the pixels, without flicker and vibration [e-]."""
     still = {"flicker_sd": 0, "vibration_sd": "0,0", "read_noise": 0, "bit_depth": 0}
     gain = CAMERA["gain"] * CAMERA["electrons"] / NOISELESS_ELECTRONS
     mean = camera.simulate(camera.scene, gain=gain, electrons=NOISELESS_ELECTRONS, **still)
@@ -79,7 +79,7 @@ def mean_electrons(camera):
 
 
 def dip(camera, shape):
-    """A frame whose illumination has a smooth dip, as by a thing out of focus in front of the lamp."""
+    """Returns a frame with a smooth dip of the illumination, like an object out of focus in front of the lamp."""
     y, x = np.indices(shape)
     squared = (x - shape[1] / 2) ** 2 + (y - shape[0] / 2) ** 2
     illumination = 1 - DIP_DEPTH * np.exp(-squared / (2 * (DIP_RADIUS * shape[1]) ** 2))
@@ -87,7 +87,7 @@ def dip(camera, shape):
 
 
 def another_gain(camera, shape):
-    """A frame that was read with another gain, as by a camera that adjusts it."""
+    """Returns a frame with another gain, as from a camera with automatic gain."""
     return camera.expose(mean_electrons(camera), shape, gain=OTHER_GAIN * camera.gain)
 
 
@@ -102,8 +102,8 @@ REPLACEMENTS = {
 
 
 def simulate(programs, line, scene, bits, seed, folder):
-    """Makes a burst: its file, its truth, the bound of its gain, and the gain by EMVA 1288 of an exposure series
-    [DN/e-]."""
+    """Makes a burst. Returns its file, its truth, the bound of its gain [DN/e-], and the gain of an exposure series by
+    EMVA 1288 [DN/e-]. The latter is None for other bursts."""
     name, truth_name, factors_name = (folder / file for file in ("burst.mha", "truth.json", "factors.txt"))
     illumination = line.illumination
     if line.factors:
@@ -133,26 +133,26 @@ def simulate(programs, line, scene, bits, seed, folder):
 
 
 def truth_of(record):
-    """The truth of the compared quantities."""
+    """Returns the true values of the compared quantities."""
     return {"gain": record["gain"], "offset": record["offset"], "read_noise": record["realised_read_noise"]}
 
 
 def estimate(programs, name, stack, options):
-    """Runs the estimator on a stack: its report, and how the program ended.
+    """Runs the estimator on a stack. Returns its report, and how the program ended.
 
-    name: of the line, for errors."""
+    name: name of the line, for errors."""
     done = run([programs.estimator, stack, "--json", "-", "--quiet", "--threads", 1, *options], allowed=None)
     try:
         return json.loads(done.output), done
     except json.JSONDecodeError:
-        # Nothing could be estimated, without a report; or the program ended by a signal.
+        # There is no report: nothing could be estimated, or a signal ended the program.
         if done.code not in (2, 3):
             raise ProgramError(f"{name}: {programs.estimator} ended with exit code {done.code}") from None
         return {"warnings": []}, done
 
 
 def measure(programs, line, scene, bits, number):
-    """Makes a burst, estimates it, and judges the report."""
+    """Makes a burst, estimates its noise, and tests the report."""
     seed = stream_of(f"{line.name} {scene} {bits}", number)
     with tempfile.TemporaryDirectory(prefix="acceptance-") as folder:
         name, record, bound, emva = simulate(programs, line, scene, bits, seed, Path(folder))

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Sums up the results of measure_acceptance.py line by line, and compares two: paired differences with their scatter.
+"""Sums up the results of measure_acceptance.py for each line, and compares two results by paired differences.
 
-Stacks are paired by line, variant, setting, seed and recipe, and so have the same noise. A difference counts if it is
-beyond chance (CHANCE, student_factor) and above a smallest size (SMALLEST_FRACTION, SMALLEST_ERROR). Silently wrong
-stacks decide the verdict first: where their number changes, nothing else counts. Otherwise a line is worse if any
-measure is worse, and better if some measure is better and none is worse.
+Stacks with the same line, variant, setting, seed and recipe have the same noise and form a pair. A difference is
+significant if it exceeds chance (CHANCE, student_factor) and a smallest size (SMALLEST_FRACTION, SMALLEST_ERROR). A
+significant difference in silently wrong stacks alone decides the verdict. Otherwise a line is worse if any measure is
+significantly worse, and better if a measure is better and none is worse.
 """
 
 import math
@@ -16,30 +16,30 @@ from typing import NamedTuple
 from acceptance_lines import LINES, MEASURED, MUST_REFUSE
 from scipy import stats
 
-CHANCE = 3.0  # standard errors, as of a normal distribution: one difference in 370 by chance
-LARGEST_ERROR = 1.0  # a gain that is off by more counts as off by so much, lest one stack decides a line [1]
-SMALLEST_FRACTION = 0.05  # of the stacks: 1 in 20 has to change, the fraction that a 95 % interval misses [1]
-SMALLEST_ERROR = 0.05  # of the old mean error [1]: a tenth of the frames makes as much (1 / sqrt(1.1) = 0.953)
-NOMINAL_COVERAGE = 0.95  # of the report's intervals [1]
+CHANCE = 3.0  # standard errors of a normal distribution: chance exceeds it in one difference of 370
+LARGEST_ERROR = 1.0  # larger relative errors of the gain count as this one, so that no stack dominates a line [1]
+SMALLEST_FRACTION = 0.05  # fraction of the stacks that must change: 1 in 20, as a 95 % interval misses [1]
+SMALLEST_ERROR = 0.05  # fraction of the old mean error [1]: 10 % more frames change it as much (1 / sqrt(1.1) = 0.953)
+NOMINAL_COVERAGE = 0.95  # coverage of the intervals of the report [1]
 ALL_LINES = ", all lines"
 HELD = ("gain", "offset", "read_noise", "linearity_error")  # quantities whose intervals are counted
-LEAST_NAMED = 0.95  # demanded fraction of the frames unlike the others that are named [1]
-# Probability below which it is a fault that so few intervals hold the truth, or that errors are so much above EMVA's.
+LEAST_NAMED = 0.95  # least fraction of the frames unlike the others that must be named [1]
+# Probability of a result by chance, below which it is a fault: low coverage, or errors larger than EMVA's.
 IMPROBABLE = 0.001
 
 
 def student_factor(dof):
-    """Standard errors that Student's t exceeds as often as a normal variable exceeds CHANCE."""
+    """Returns the standard errors that Student's t exceeds as often as a normal variable exceeds CHANCE."""
     return float(stats.t.isf(stats.norm.sf(CHANCE), dof))
 
 
 def lower_tail(met, count, probability):
-    """Probability of at most `met` of `count`, by the binomial distribution."""
+    """Returns the binomial probability of at most `met` successes in `count` trials."""
     return float(stats.binom.cdf(met, count, probability))
 
 
 def by_line(stacks):
-    """The stacks of each line, by their keys; first the lines of LINES, then those of studies."""
+    """Returns the stacks of each line, by their keys: first the lines of LINES, then the lines of studies."""
     lines = defaultdict(dict)
     for key, stack in stacks.items():
         lines[key[0]][key] = stack
@@ -48,7 +48,7 @@ def by_line(stacks):
 
 
 def by_kind(lines):
-    """The stacks of all lines of a kind: what stands before the slash."""
+    """Returns the stacks of all lines of a kind. The kind is the part of the name before the slash."""
     kinds = defaultdict(dict)
     for name, line in lines.items():
         kinds[name.split("/")[0] + ALL_LINES] |= line
@@ -61,7 +61,7 @@ def held(stacks, name):
 
 
 def named(stacks):
-    """How many of the frames unlike the others are named, and how many there are."""
+    """Returns how many of the frames unlike the others are named, and how many there are."""
     return tuple(sum(stack.get(name, 0) for stack in stacks) for name in ("named", "unlike"))
 
 
@@ -70,19 +70,19 @@ def size_of(stack):
 
 
 def errors_beside_emva(stacks):
-    """The errors of the gain, ours and those of EMVA's photon transfer, of the stacks that have both."""
+    """Returns pairs of relative errors of the gain, ours and EMVA's photon transfer, for stacks that have both [1]."""
     both = [(stack["error"], stack.get("emva_error")) for stack in stacks]
     return [(ours, theirs) for ours, theirs in both if ours is not None and theirs is not None]
 
 
 def rms_over_emva(pairs):
-    """Rms error of the gain over that of EMVA's photon transfer; None without pairs."""
+    """Returns the rms error of the gain over the rms error of EMVA's photon transfer [1]; None without pairs."""
     theirs = sum(error**2 for _, error in pairs)
     return math.sqrt(sum(error**2 for error, _ in pairs) / theirs) if theirs else None
 
 
 def summarise(stacks):
-    """A line of the table: counts and means over its stacks; None where nothing is known."""
+    """Returns a line of the table: counts and means over its stacks; None for an unknown value."""
     errors = [size_of(stack) for stack in stacks if stack["error"] is not None]
     ratios = [stack["error"] / stack["bound"] for stack in stacks if stack["error"] is not None and stack["bound"]]
     row = {
@@ -102,7 +102,7 @@ def summarise(stacks):
 
 
 def faults_of(row, stacks):
-    """The faults of a line: results that it should not show."""
+    """Returns the faults of a line: results that it should not show."""
     unexpected = sum(stack["refused"] for stack in stacks if stack["expected"] == MEASURED)
     faults = [name for name in ("silent", "wrong") if row[name]][:1]
     if unexpected:
@@ -122,9 +122,10 @@ def faults_of(row, stacks):
 
 
 def scatter_of(differences):
-    """Standard error of the mean difference: the larger of that from the single stacks and that from their groups.
+    """Returns the standard error of the mean difference: the larger one of two estimates, from the scatter of the
+    single stacks and from the scatter of their groups.
 
-    differences: (group, difference). The settings of a study share the noise of a seed: they are a group."""
+    differences: (group, difference). The settings of a study that have the noise of the same seed are a group."""
     values = [value for _, value in differences]
     error = statistics.stdev(values) / math.sqrt(len(values))
     groups = defaultdict(list)
@@ -138,7 +139,8 @@ def scatter_of(differences):
 
 
 class Difference(NamedTuple):
-    """Mean of new less old, its standard error, the degrees of freedom of that, and how many pairs differ."""
+    """Mean of new less old, its standard error and the degrees of freedom of the error, and the number of pairs that
+    differ."""
 
     mean: float
     error: float
@@ -147,10 +149,10 @@ class Difference(NamedTuple):
 
 
 def paired(pairs, measure, is_count):
-    """The difference of a measure over pairs, as (group, old, new); None without pairs.
+    """Returns the difference of a measure over pairs of (group, old, new); None without pairs.
 
-    is_count: differences are -1, 0 or 1. One of each sign is added to their scatter, so that a few stacks that all
-    change alike do not look certain."""
+    is_count: the differences are -1, 0 or 1. One difference of each sign is then added to the scatter, so that a few
+    equal changes do not look certain."""
     both = [(group, measure(old), measure(new)) for group, old, new in pairs]
     differences = [(group, new - old) for group, old, new in both if old is not None and new is not None]
     if not differences:
@@ -164,7 +166,7 @@ def paired(pairs, measure, is_count):
 
 
 def coverage_of(stack):
-    """Fraction of the intervals that hold the truth."""
+    """Returns the fraction of the intervals that contain the truth."""
     return statistics.fmean(stack["covered"].values()) if stack["covered"] else None
 
 
@@ -178,7 +180,7 @@ MEASURES = {
 
 
 def direction(name, difference, old_error):
-    """-1: worse, 1: better, 0: the same, of one measure."""
+    """Returns the direction of the difference of a measure: -1: worse, 1: better, 0: no significant difference."""
     if difference is None or not difference.changed or not difference.dof:
         return 0
     size = abs(difference.mean)
@@ -189,11 +191,11 @@ def direction(name, difference, old_error):
 
 
 def compare_line(old, new):
-    """Paired differences of a line and its verdict; None if no stack is in both."""
+    """Returns the paired differences of a line and its verdict; None if no stack is in both results."""
     keys = [key for key in old if key in new]
     if not keys:
         return None
-    # Stacks of one line, variant and seed share their noise: they are a group.
+    # Stacks with the same line, variant and seed have the same noise: they are a group.
     pairs = [((line, variant, seed), old[key], new[key]) for key in keys for line, variant, _, seed, _ in [key]]
     differences = {name: paired(pairs, measure, is_count) for name, (measure, is_count) in MEASURES.items()}
     old_errors = [size_of(stack) for _, stack, _ in pairs if stack["error"] is not None]
@@ -209,7 +211,7 @@ def compare_line(old, new):
 
 
 def verdict_of(signs):
-    """The verdict, and the measures behind it."""
+    """Returns the verdict, and the measures that decide it."""
     if signs["silent"]:
         return {"verdict": "better" if signs["silent"] > 0 else "worse", "by": ["silent"]}
     for verdict, sign in (("worse", -1), ("better", 1)):
@@ -219,7 +221,7 @@ def verdict_of(signs):
 
 
 def compare(old, new):
-    """The comparison of each line, and of all lines of a kind, that has stacks in both results."""
+    """Returns the comparison of each line, and of all lines of a kind, with stacks in both results."""
     old_lines, new_lines = (lines | by_kind(lines) for lines in map(by_line, (old, new)))
     compared = {name: compare_line(old_lines[name], new_lines[name]) for name in old_lines if name in new_lines}
     return {name: line for name, line in compared.items() if line}

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The jobs of measure_acceptance.py, and the file of those that were done.
+"""Lists the jobs of measure_acceptance.py, and reads and writes the file of finished jobs.
 
-A job is one line, one variant and one seed. The file has one JSON object for each job that is done, so that a run that
-was ended goes on where it was: a job is not run again if the file has it of the same programs and the same recipe.
+A job is one line, one variant and one seed. The file has one JSON object for each finished job, so that an interrupted
+run can continue. A job is not repeated if the file has it with the same programs and the same recipe.
 """
 
 import json
@@ -21,11 +21,11 @@ from acceptance_programs import hash_of
 
 
 class Plan(NamedTuple):
-    """How many stacks, and of what size, a run has. Seeds are those of each variant of a line."""
+    """Numbers and sizes of the stacks of a run. The numbers of seeds are for each variant of a line."""
 
-    burst_seeds: int  # times 3 scenes and 2 converters, as the next
-    exposure_seeds: int  # of exposures/*
-    situation_seeds: int  # of each scene of a situation
+    burst_seeds: int  # times 3 scenes and 2 converters
+    exposure_seeds: int  # for exposures/*, times 3 scenes and 2 converters
+    situation_seeds: int  # for each scene of a situation
     efficiency_seeds: int
     efficiency_size: int  # width and height [pixels]
     robustness_seeds: int  # times 2 scenes
@@ -34,19 +34,19 @@ class Plan(NamedTuple):
     sensors_size: int
 
 
-# So many that two cores stay below 5 minutes: sensors of 128 pixels took 302 s.
+# Numbers with which two cores need less than 5 minutes. Sensors of 128 pixels took 302 s.
 QUICK = Plan(3, 1, 1, 6, 256, 4, 128, 2, 96)
-# At least 100 stacks a line.
+# Numbers that give at least 100 stacks per line, but 40 for a situation without a scene of SCENES.
 FULL = Plan(20, 20, 40, 100, 512, 50, 256, 20, 256)
 
 
 class Job(NamedTuple):
-    """Something to run: it gives the stacks of one line, variant and seed."""
+    """Work that gives the stacks of one line, variant and seed."""
 
     line: str
     variant: str
     seed: int
-    recipe: str  # what determines the stacks beside line, variant and seed
+    recipe: str  # options that determine the stacks together with line, variant and seed
     program: str  # hash of the programs
     measure: Callable[[], list[dict]]
 
@@ -73,7 +73,7 @@ def burst_jobs(programs, plan):
 
 
 def situation_jobs(programs, plan):
-    """The jobs of the bursts that NumPy makes. What makes them is part of the recipe."""
+    """Yields the jobs of the bursts that NumPy makes. The source that makes them is part of the recipe."""
     program, recipe = hash_of(programs.estimator), situations_all.recipe()
     for situation, scene, seed in situations_all.bursts(plan.situation_seeds):
         measure = partial(situations_all.measure, programs, situation, scene, seed)
@@ -81,8 +81,8 @@ def situation_jobs(programs, plan):
 
 
 def study_jobs(programs, plan):
-    """The jobs of measure-cases, if it was built. Those of the sensors are the longest and come first, so that no
-    processor waits for them at the end."""
+    """Yields the jobs of measure-cases, if it was built. The jobs of the sensors take longest and come first, so that
+    no processor is idle at the end."""
     program = programs.studies
     if not program.exists():
         return
@@ -99,7 +99,7 @@ def study_jobs(programs, plan):
 
 
 def read_results(name):
-    """The jobs in a file of results. A line that was cut off, as by a machine that stopped, is left out."""
+    """Returns the jobs in a file of results. Incomplete lines, as after a crash, are left out."""
     path = Path(name)
     records = []
     for line in path.read_text(encoding="utf-8").splitlines() if path.exists() else ():
@@ -115,13 +115,13 @@ def key_of(record):
 
 
 def missing_jobs(jobs, records):
-    """The jobs that a file of results does not have."""
+    """Returns the jobs that are not in the records of a file of results."""
     done = {key_of(record) for record in records}
     return [job for job in jobs if job.key not in done]
 
 
 def append_result(name, job, stacks):
-    """Adds a job to a file of results, in one piece, on a line of its own."""
+    """Adds a job to a file of results, as one line in one write."""
     record = {**dict(zip(("line", "variant", "seed", "recipe", "program"), job.key, strict=True)), "stacks": stacks}
     with Path(name).open("ab+") as file:
         length = file.seek(0, os.SEEK_END)
@@ -131,7 +131,7 @@ def append_result(name, job, stacks):
 
 
 def stacks_of(records, jobs=None):
-    """The stacks by (line, variant, setting, seed, recipe): of the jobs, or of the last program of each line."""
+    """Returns the stacks by (line, variant, setting, seed, recipe), of the jobs or of the last program of each line."""
     last = {record["line"]: record["program"] for record in records}
     wanted = None if jobs is None else {job.key for job in jobs}
     return {

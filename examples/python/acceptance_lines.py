@@ -1,59 +1,60 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The bursts of measure_acceptance.py that no study simulates: one entry of LINES for each line of its table.
+"""Lists the bursts of measure_acceptance.py that no study simulates: one entry of LINES for each line of its table.
 
-All have the camera of CAMERA, each scene of SCENES and each converter of OFFSETS_DN; a line adds its illumination, and
-frames that it replaces (acceptance_bursts.py).
+All bursts have the camera of CAMERA. Each line has each scene of SCENES and each converter of OFFSETS_DN. A line adds
+its illumination, and the frames that it replaces (acceptance_bursts.py).
 """
 
 import zlib
 from typing import NamedTuple
 
-MEASURED = "measured"  # the gain is identified
-MAY_REFUSE = "may refuse"  # not identified is right, too
-MUST_REFUSE = "must refuse"  # the frames do not determine the gain: each identified one is wrong
+MEASURED = "measured"  # the gain must be identified
+MAY_REFUSE = "may refuse"  # the gain may be identified or not
+MUST_REFUSE = "must refuse"  # the frames do not determine the gain: any identified gain is wrong
 
-# A camera whose shot noise is far above its read noise. It vibrates as in condition 3 of the simulator.
+# Camera whose shot noise is far above its read noise. It vibrates as in condition 3 of the simulator.
 CAMERA = {"gain": 0.5, "read-noise": 3, "electrons": 5000, "size": "240x200", "flicker-sd": 0.01}
 SCENES = ("target", "texture", "flat")
-OFFSETS_DN = {12: 100, 16: 4000}  # by the bits of the converter
+OFFSETS_DN = {12: 100, 16: 4000}  # dark offset [DN] by the bits of the converter
 FRAMES = 60
-# Of the exposure series, exposures/*: a steady lamp, and no vibration, which EMVA's photon transfer takes for noise.
+# Options of the exposure series, exposures/*: a steady lamp, and no vibration, which EMVA's photon transfer takes for
+# noise.
 BENCH = ("--flicker-sd", "0.002", "--vibration-sd", "0,0")
 LOWEST_LIT = 0.05  # illumination factor of the darkest level of a series without dark frames [1]
-FIXED_PATTERN = ("--prnu", "0.007", "--dsnu", "2")  # of half of the lines
+FIXED_PATTERN = ("--prnu", "0.007", "--dsnu", "2")  # PRNU [1] and DSNU [DN] in half of the exposure series
 
 
 class Line(NamedTuple):
-    """A line of the table: how its bursts are made, and what the estimator should say of them."""
+    """Line of the table: how its bursts are made, and what the estimator should report."""
 
     name: str
-    illumination: str = "steady"  # of simulate-sensor-noise --illumination
+    illumination: str = "steady"  # value of simulate-sensor-noise --illumination
     expected: str = MEASURED
     expected_of_flat: str = MEASURED
-    factors: tuple[float, ...] = ()  # instead of illumination: one for each frame
-    replaced: tuple[tuple[int, str], ...] = ()  # frame and kind, of acceptance_bursts.REPLACEMENTS
+    factors: tuple[float, ...] = ()  # illumination factor of each frame, instead of illumination
+    replaced: tuple[tuple[int, str], ...] = ()  # frame, and kind in acceptance_bursts.REPLACEMENTS
     frames: int = FRAMES
-    frames_per_level: int = 0  # of an exposure series; 0: the burst is none
+    frames_per_level: int = 0  # frames per level of an exposure series; 0: other bursts
     simulator: tuple[str, ...] = ()  # further options of simulate-sensor-noise
     estimator: tuple[str, ...] = ()  # further options of estimate-sensor-noise
 
 
 def one_frame(frames, place, factor, others):
-    """The illumination factors of a burst in which one frame has another factor than the others."""
+    """Returns the illumination factors of a burst in which one frame has another factor than the others."""
     return tuple(factor if frame == place else others for frame in range(frames))
 
 
 def unlike(name, *replaced, **further):
-    """A line whose frames are replaced. The rest of a flat field is steady and need not determine the gain."""
+    """Returns a line with replaced frames. The other frames of a flat field are steady and need not determine the gain."""
     return Line(f"unlike/{name}", expected_of_flat=MAY_REFUSE, replaced=replaced, **further)
 
 
 def exposures(levels, frames_per_level, lowest, *options, suffix="", is_given=False):
-    """A line whose bursts are exposure series, of equally distant levels from the lowest factor to 1.
+    """Returns a line of exposure series with equally spaced levels from the lowest factor to 1.
 
-    lowest: 0: the first level is dark frames; options: of the simulator; is_given: the estimator gets the factors by
-    --exposures."""
+    lowest: 0: the first level has dark frames; options: options of the simulator; is_given: the estimator gets the
+    factors by --exposures."""
     steps = [round(lowest + (1 - lowest) * level / (levels - 1), 6) for level in range(levels)]
     factors = tuple(step for step in steps for _ in range(frames_per_level))
     return Line(
@@ -70,8 +71,8 @@ LINES = (
     Line("illumination/steady", expected_of_flat=MAY_REFUSE),
     Line("illumination/every-4th-lit", "pulses:0:4"),
     Line("illumination/every-4th-brighter", "pulses:0.3:4"),
-    Line("illumination/every-20th-lit", "pulses:0:20", MAY_REFUSE, MAY_REFUSE),  # 3 lit frames
-    # One lit frame has leverage 1: its residual is 0, and no noise of the light is left.
+    Line("illumination/every-20th-lit", "pulses:0:20", MAY_REFUSE, MAY_REFUSE),  # 3 illuminated frames
+    # One illuminated frame has leverage 1: its residual is 0, so no shot noise remains.
     Line("illumination/one-lit", "", MUST_REFUSE, MUST_REFUSE, factors=one_frame(20, 7, 1.0, others=0.0), frames=20),
     Line("illumination/ramp", "ramp:0"),
     Line("illumination/decay-to-10%", "decay:0.1"),
@@ -100,7 +101,7 @@ LINES = (
     unlike("dark-first", (0, "dark")),
     unlike("other-scene", (30, "other scene")),
     unlike("dip", (20, "dip"), expected=MAY_REFUSE, frames=40),
-    # Without flicker the dip is all that changes, and looks like the flicker that determines the offset.
+    # Without flicker only the dip changes the illumination. It looks like the flicker that determines the offset.
     unlike("dip-without-flicker", (20, "dip"), expected=MAY_REFUSE, frames=40, simulator=("--flicker-sd", "0")),
     unlike("another-gain", (7, "another gain"), (30, "another gain"), (44, "another gain")),
     unlike("four-kinds", (3, "zeros"), (17, "saturated"), (31, "other scene"), (44, "dip")),
@@ -108,7 +109,7 @@ LINES = (
 
 
 def variants():
-    """The scenes and converters of each line, as (scene, bits)."""
+    """Returns the scenes and converters of each line, as (scene, bits)."""
     return [(scene, bits) for scene in SCENES for bits in OFFSETS_DN]
 
 
@@ -117,15 +118,15 @@ def expected_of(line, scene):
 
 
 def stream_of(name, number):
-    """The simulator's seed of stack `number` of something named: lines and variants have noise of their own, and two
-    programs that are compared have the same."""
+    """Returns the seed of the simulator for stack `number` of a named line or variant. Lines and variants have
+    independent noise, but two programs that are compared have the same noise."""
     return zlib.crc32(name.encode()) * 10_000 + number
 
 
 def simulator_options(line, scene, bits, **others):
-    """Options of simulate-sensor-noise by which the bursts of a line are made, but for files and the seed.
+    """Returns the options of simulate-sensor-noise that make the bursts of a line, without files and seed.
 
-    others: by name, instead of the line's."""
+    others: options by name that replace the options of the line."""
     options = {**CAMERA, "reference": scene, "bit-depth": bits, "offset": OFFSETS_DN[bits], "frames": line.frames}
     words = {f"--{name}": str(value) for name, value in options.items()}
     words |= dict(zip(line.simulator[::2], line.simulator[1::2], strict=True))

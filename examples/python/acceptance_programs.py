@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The built programs that measure_acceptance.py runs, what they take, and how a result names the ones it is of."""
+"""Runs the built programs of measure_acceptance.py, measures their processor time, and identifies them by a hash."""
 
 import hashlib
 import os
@@ -10,15 +10,15 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
-HASH_DIGITS = 12  # of the SHA-256 of a program: two programs of a project have the same with a chance of 2^-48
+HASH_DIGITS = 12  # digits of the SHA-256 of a program: two programs have the same with a probability of 2^-48
 
 
 class ProgramError(RuntimeError):
-    """A program ended as it should not."""
+    """Error for a program with an unexpected exit code."""
 
 
 class Done(NamedTuple):
-    """The output of a program, its exit code and its processor time, of user and system together [s]."""
+    """Output of a program, its exit code and its processor time, user and system together [s]."""
 
     output: str
     code: int
@@ -26,13 +26,13 @@ class Done(NamedTuple):
 
 
 def run(command, allowed=(0,)):
-    """Runs a program to its end. Another exit code than the allowed ones (None: all) is a ProgramError."""
+    """Runs a program to its end. Raises ProgramError for an exit code that is not allowed (None: all are allowed)."""
     command = list(map(str, command))
     with tempfile.TemporaryFile() as errors:
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=errors)
         output = process.stdout.read()
         process.stdout.close()
-        # Not process.wait(): processor time, unlike the clock's, hardly changes with what else the machine does.
+        # wait4() gives the processor time, which depends little on the load of the machine.
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
         errors.seek(0)
@@ -48,7 +48,7 @@ def hash_of(program):
 
 
 class Programs(NamedTuple):
-    """The folders of the built programs. Studies contain the estimator: they come from its folder."""
+    """Folders of the built programs. The studies contain the estimator, so they come from its folder."""
 
     simulators: Path
     estimators: Path

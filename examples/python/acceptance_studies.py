@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the cases of measure-cases for one seed, and judges the reports that it prints.
+"""Runs the cases of measure-cases for one seed, and tests the reports that it prints.
 
-The gain alone may be wrong. The signal range of these stacks is not known, so that an offset has no size to be held
-against.
+Only the gain can be wrong. The signal range of these stacks is not known, so the error of an offset has no reference.
 """
 
 import json
@@ -18,7 +17,7 @@ EXPECTED_OF_STUDY = {"efficiency": MEASURED, "sensors": MAY_REFUSE}
 
 
 def judge_record(record):
-    """The result of one record: what is wrong with it, and whether its intervals hold the truth."""
+    """Returns the result of one record: what is wrong in it, and whether its intervals contain the truth."""
     study, name = record["case"].split("/", 1)
     report, truth = record["report"], record["truth"]
     loud = [warning["code"] for warning in report["warnings"] if warning["severity"] != "note"]
@@ -31,7 +30,7 @@ def judge_record(record):
 
 
 def measure(program, pattern, line, size, seed):
-    """The results of all cases of a pattern. line: what their seeds are derived of."""
+    """Returns the results of all cases that match a pattern. line: text from which their seeds are derived."""
     options = ["--first-seed", stream_of(line, seed), "--size", size, "--threads", 1]
     done = run([program, pattern, *options])
     stacks = [judge_record(json.loads(text)) for text in done.output.splitlines()]
@@ -39,6 +38,6 @@ def measure(program, pattern, line, size, seed):
 
 
 def names_of(program, study):
-    """The names of a study's cases and lines, without the scene, each once."""
+    """Returns the distinct names of the cases and lines of a study, without the scene."""
     names = [text.split("  ")[0].split("/") for text in run([program, "--list", f"{study}/*"]).output.splitlines()]
     return list(dict.fromkeys(name[1] for name in names))

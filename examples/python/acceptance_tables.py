@@ -33,7 +33,7 @@ def summary_row(name, row):
 
 
 def print_summary(stacks):
-    """One row a line, and one for all lines of a kind."""
+    """Prints one row for each line, and one row for all lines of a kind."""
     print(
         f"{'line':<32}{'stacks':>6}{'error %':>9}{'/bound':>9}{'/EMVA':>9}{'gain held':>11}{'offset':>11}"
         f"{'read noise':>11}{'linearity':>10}{'named':>8}{'refused':>8}{'wrong':>6}{'silent':>7}{'s':>7}  faults"
@@ -46,7 +46,7 @@ def print_summary(stacks):
 
 
 def difference(found, scale, form, width):
-    """A mean difference with its standard error; = where no stack differs."""
+    """Returns a mean difference with its standard error as text; = if no stack differs."""
     if found is None:
         return f"{NONE:>{width}}"
     if not found.changed:
@@ -68,7 +68,8 @@ def comparison_row(name, line):
 
 
 def print_comparison(old, new):
-    """One row a line: new less old, in % of the gain or of the stacks, with the standard error; the verdict."""
+    """Prints one row for each line: new less old, in % of the gain or of the stacks, with the standard error and the
+    verdict."""
     counts = [measure for measure in MEASURES if measure != "error"]
     print(
         f"{'line':<32}{'stacks':>6}{'error %':>20}"

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Measures a camera from one burst and takes the noise out of a frame of another; draws it before and after.
+"""Measures a camera from one burst, removes the noise from a frame of another burst, and draws both frames.
 
     denoise.py [--picture denoised.png] [--denoiser nlm|itk|scikit-image]
 
-Both bursts are simulated (camera B of Sur & Grédiac 2015 with a tenth of its light), so that the truth is known: the
-report is made of a burst without flicker, which cannot tell the offset, and serves all the same.
+Both bursts are simulated (camera B of Sur & Grédiac 2015 with a tenth of its electrons), so that the truth is known.
+The report comes from a burst without flicker, which does not determine the offset. Denoising needs no offset.
 """
 
 import argparse
@@ -18,12 +18,13 @@ STILL = {"flicker_sd": 0.0, "vibration_sd": (0.0, 0.0)}
 
 
 def psnr(image, truth):
-    """Against the range of the levels [dB]."""
+    """Returns the peak signal-to-noise ratio relative to the range of the true levels [dB]."""
     return 10 * np.log10(np.ptp(truth) ** 2 / np.mean((image.astype(np.float64) - truth) ** 2))
 
 
 def total_variation(image):
-    """Any function that takes noise of standard deviation 1 out of an array (y, x) will do: scikit-image's, here."""
+    """Denoises an array (y, x) with noise of standard deviation 1. Any such function will do; this one is from
+    scikit-image."""
     from skimage.restoration import denoise_tv_chambolle
 
     return denoise_tv_chambolle(image.astype(np.float64), weight=1.0)
@@ -40,7 +41,7 @@ def main() -> None:
     report = itk.estimate_sensor_noise(burst)
     print("offset:", report["offset"]["status"], " variance slope:", report["variance_slope"]["value"])
 
-    # Another scene, and the same with a hundred thousand times the electrons, which has hardly any noise.
+    # Another scene, and the same scene with 100,000 times the electrons, which has hardly any noise.
     noisy = itk.simulate_sensor_noise(**CAMERA, **STILL, frames=1, seed=2)[0][0]
     bright = {**CAMERA, **STILL, "electrons": 3e7, "gain": 1e-5, "read_noise": 0.0}
     truth = itk.simulate_sensor_noise(**bright, frames=1, seed=2)[0][0].astype(np.float64)

@@ -7,7 +7,7 @@
     estimate.py frames/*.tif                               # 2-D frames in time order
     estimate.py stack.mha --json report.json --plot report.html
 
-The options are those of itk.estimate_sensor_noise; the command-line tool estimate-sensor-noise has more of them.
+itk.estimate_sensor_noise() has the same options; the command-line tool estimate-sensor-noise has more.
 """
 
 import argparse
@@ -20,7 +20,7 @@ import itk
 
 
 def parse_arguments() -> argparse.Namespace:
-    """What the command line says."""
+    """Returns the options of the command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("frames", nargs="*", metavar="FRAME", help="image files or one stack file; default: simulated")
     parser.add_argument("--bit-depth", type=int, metavar="N", help="bits of the sensor's codes (default: found)")
@@ -35,7 +35,7 @@ def parse_arguments() -> argparse.Namespace:
 
 
 def print_truth(report: Mapping[str, Any], truth: Mapping[str, Any]) -> None:
-    """Prints the truth of a simulated stack beside the estimate."""
+    """Prints the true values of a simulated stack next to the estimates."""
     print(f"\n{'quantity':<18}{'truth':>10}{'estimate':>12}  {'error':<11}  unit")
     for name, true in (
         ("gain", truth["gain"]),
@@ -63,7 +63,7 @@ def main() -> int:
     except (ValueError, RuntimeError) as error:
         print(str(error).splitlines()[0], file=sys.stderr)
         return 2
-    print(report)  # a table, and the warnings below it
+    print(report)  # a table, followed by the warnings
     if truth is not None:
         print_truth(report, truth)
     if arguments.json:

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Measures the noise of a camera from frames that some other package reads, a few at a time.
+"""Measures the noise of a camera from frames that another package reads, a few frames at a time.
 
-    lazy.py frames/*.png           # by OpenCV's cv2.imread
-    lazy.py recording.avi          # by OpenCV's cv2.VideoCapture: uncompressed grey values, or the numbers are no noise
-    lazy.py stack.npy              # by numpy.memmap
-    lazy.py                        # a simulated burst, in a file of NumPy's
+    lazy.py frames/*.png           # with OpenCV's cv2.imread
+    lazy.py recording.avi          # with OpenCV's cv2.VideoCapture: the video must have uncompressed grey values
+    lazy.py stack.npy              # with numpy.memmap
+    lazy.py                        # a simulated burst in a .npy file
 
-itk.estimate_sensor_noise() takes anything with a shape (t, y, x), a dtype and slices along time: datasets of h5py and
-arrays of zarr, dask and xarray as they are. What has none of them is wrapped in a class of five lines.
+itk.estimate_sensor_noise() accepts any object with a shape (t, y, x), a dtype and slices along time: datasets of h5py
+and arrays of zarr, dask and xarray. Other sources are wrapped in a class of five lines.
 """
 
 import sys
@@ -21,7 +21,7 @@ import numpy as np
 
 
 class Images:
-    """Image files, one a frame, as cv2 reads them."""
+    """Image files with one frame each, as cv2 reads them."""
 
     def __init__(self, names: list[str]) -> None:
         first = read_grey(names[0])
@@ -32,8 +32,7 @@ class Images:
 
 
 class Video:
-    """The first channel of a video, as cv2 reads it. Seeking is exact where every frame is a key frame, as in raw
-    videos."""
+    """First channel of a video, as cv2 reads it. Seeking is exact if every frame is a key frame, as in raw videos."""
 
     def __init__(self, name: str) -> None:
         import cv2
@@ -51,7 +50,7 @@ class Video:
 
 
 def read_grey(name: str) -> np.ndarray:
-    """The codes of an image file of grey values."""
+    """Returns the grey values of an image file [DN]."""
     import cv2
 
     image = cv2.imread(name, cv2.IMREAD_UNCHANGED)
@@ -61,7 +60,7 @@ def read_grey(name: str) -> np.ndarray:
 
 
 def open_lazily(names: list[str]) -> object:
-    """Frames that are read as they are sliced."""
+    """Returns frames that are read when they are sliced."""
     ending = Path(names[0]).suffix.lower()
     if ending == ".npy":
         return np.load(names[0], mmap_mode="r")

@@ -1,34 +1,35 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Measures how well the estimator does, in one table that two commits can compare.
+"""Measures the errors of the estimator in one table that can be compared between two commits.
 
     measure_acceptance.py --bin build/bin --quick --results before.jsonl
     measure_acceptance.py --bin build/bin --quick --results after.jsonl
     measure_acceptance.py --compare before.jsonl after.jsonl
 
-A line is a kind of burst: those of acceptance_lines.py, which simulate-sensor-noise makes, the cases of
-measure-cases, and the bursts that NumPy makes (situations.py). Of each line:
+A line is a kind of burst: the lines of acceptance_lines.py, which simulate-sensor-noise makes, the cases of
+measure-cases, and the bursts that NumPy makes (situations.py). The columns of a line are:
 
-    error %    mean error of the gain without its sign; more than 100 % counts as 100 %
-    /bound     rms error of the gain over its Cramér-Rao bound, where that is known
-    /EMVA      rms error of the gain over that of EMVA 1288's photon transfer of the same frames: exposures/*
-    held       95 % intervals that hold the truth, of the identified quantities: gain, offset, read noise, and the
+    error %    mean absolute error of the gain; more than 100 % counts as 100 %
+    /bound     rms error of the gain over its Cramér-Rao bound, if the bound is known
+    /EMVA      rms error of the gain over the rms error of EMVA 1288's photon transfer of the same frames: exposures/*
+    held       95 % intervals that contain the truth, of the identified quantities: gain, offset, read noise, and the
                linearity error
-    named      frames unlike the others that the report leaves out, of those that there are
+    named      frames unlike the others that the report leaves out, of all such frames
     refused    stacks whose gain is not identified
-    wrong      stacks with an identified quantity that is off by more than 4 standard errors and a smallest size
+    wrong      stacks with an identified quantity whose error exceeds 4 standard errors and a smallest size
     silent     wrong stacks whose report has no warning of the severity warning or error
     s          processor seconds of the estimate; of a study: with the simulation
-    faults     what the line should not show; a refusal is a fault where a gain is expected; above EMVA: errors greater
-               than EMVA's beyond chance
+    faults     results that the line should not show. A gain that is not identified is a fault if one is expected.
+               above EMVA: the errors exceed EMVA's by more than chance
 
-Seeds are fixed and every estimate has one thread, so that two programs have the same stacks. The comparison has the
-mean of new less old over the same stacks, with its standard error. A line is better or worse where that exceeds chance
-and a smallest size (acceptance_compare.py). Exit code: 0; with --compare 1 if a line is worse; 2 if a program failed.
+Seeds are fixed and every estimate has one thread, so that two programs get the same stacks. The comparison shows the
+mean of new less old over the same stacks, with its standard error. A line is better or worse if this difference exceeds
+chance and a smallest size (acceptance_compare.py). Exit code: 0; with --compare 1 if a line is worse; 2 if a program
+failed.
 
---results: the stacks, one job a line. What the file has of the same programs is not run again: the same command goes on
-after an end. --lines: names or patterns, such as 'illumination/*'. --estimator-bin: the estimator and the studies of
-another build, such as one of an older commit, on the stacks of the simulator in --bin.
+--results: file of the stacks, with one job per line. A job that the file has with the same programs is not run again:
+the same command continues an interrupted run. --lines: names or patterns, such as 'illumination/*'. --estimator-bin:
+the estimator and the studies of another build, such as an older commit, on the stacks of the simulator in --bin.
 """
 
 import argparse
@@ -89,7 +90,7 @@ def is_chosen(line, patterns):
 
 
 def run_jobs(jobs, results, processes):
-    """Runs jobs some at a time and files each when it is done; the errors of those that failed."""
+    """Runs jobs in parallel, and files each finished job. Returns the errors of the failed jobs."""
     start = said = time.monotonic()
     errors = []
     with ThreadPoolExecutor(processes) as pool:

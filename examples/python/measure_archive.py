@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""An archive of simulated cameras, measured session by session: are small steps found by the reports' own errors?
+"""Simulates an archive of cameras, measures it session by session, and tests whether small steps are found.
 
     measure_archive.py                                 # 100 cameras, 12 sessions each
-    measure_archive.py --cameras 12 --size 96          # a look at it
-    measure_archive.py --output archive.jsonl          # goes on there, if it was stopped
+    measure_archive.py --cameras 12 --size 96          # a short run
+    measure_archive.py --output archive.jsonl          # continues an interrupted run
 
-Every second camera has one step of 0.5 %, by turns of its gain, offset or read noise, up or down, with two sessions or
-more before and behind it. Each burst is simulated where it is measured, with light, motion and noise of its own.
-itk_sensornoise.distributed.find_steps() then knows only the values and errors of the reports. Needs pandas and Dask:
-pip install itk-sensornoise[distributed] pandas.
+Every second camera has one step of 0.5 %, up or down, in turn of its gain, offset or read noise. There are at least two
+sessions before and after the step. Each burst is simulated by the worker that measures it, with its own illumination,
+motion and noise. itk_sensornoise.distributed.find_steps() then gets only the values and errors of the reports. Needs
+pandas and Dask: pip install itk-sensornoise[distributed] pandas.
 """
 
 import argparse
@@ -36,7 +36,7 @@ LIGHT = {"electrons": 1000, "flicker_sd": 0.1}
 
 
 def cameras_of(count, sessions):
-    """Of each camera: its parameters, and its step as (quantity, session, relative change) or None."""
+    """Returns the parameters of each camera, and its step as (quantity, session, relative change) or None."""
     random = np.random.default_rng(20)
     cameras = []
     for number in range(count):
@@ -52,7 +52,7 @@ def cameras_of(count, sessions):
 
 
 def burst(camera, session, seed, size, frames):
-    """The frames of one session."""
+    """Returns the frames of one session."""
     parameters, step = dict(camera[0]), camera[1]
     if step is not None and session >= step[1]:
         parameters[step[0]] *= 1 + step[2]
@@ -60,7 +60,7 @@ def burst(camera, session, seed, size, frames):
 
 
 def sources_of(cameras, options):
-    """A function for each burst, by the numbers of camera and session."""
+    """Returns a function for each burst, by the numbers of camera and session."""
     return {
         f"{number} {session}": functools.partial(
             burst, cameras[number], session, 1 + number * options.sessions + session, options.size, options.frames
@@ -70,7 +70,7 @@ def sources_of(cameras, options):
 
 
 def measured(sources, workers, output=None):
-    """The table, and the seconds that it took with so many workers of one thread each."""
+    """Returns the table, and the seconds that it took with this number of workers of one thread each."""
     with (
         LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=":0") as cluster,
         Client(cluster) as client,
@@ -81,7 +81,8 @@ def measured(sources, workers, output=None):
 
 
 def print_times(sources, count):
-    """Seconds of a burst, of its simulation and its measurement, and of `count` bursts with one worker and two."""
+    """Prints the seconds of the simulation and the measurement of a burst, and of `count` bursts with one and two
+    workers."""
     some = dict(list(sources.items())[:count])
     start = time.perf_counter()
     stacks = [each() for each in list(some.values())[:10]]
@@ -99,14 +100,14 @@ def print_times(sources, count):
 
 
 def chance_to_see(errors, at, change, threshold):
-    """The chance that a step is seen at its place, if the errors are what they say."""
+    """Returns the probability that a step is detected at its place, if the errors are right [1]."""
     weights = errors**-2.0
     z = change / math.sqrt(1 / weights[:at].sum() + 1 / weights[at:].sum())
     return NormalDist().cdf(abs(z) - threshold)
 
 
 def judge(quantity, cameras, table, sessions, rate):
-    """What find_steps() made of a quantity of all cameras, by the names of print_row()."""
+    """Returns the results of find_steps() for a quantity of all cameras, by the names of print_row()."""
     value, error = (table[name].to_numpy().reshape(len(cameras), sessions) for name in COLUMNS[quantity])
     counts = Counter()
     for values, errors, (parameters, step) in zip(value, error, cameras, strict=True):

@@ -1,13 +1,14 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the parts of a burst whose gain nobody knows have one gain: chi-square per degree of freedom.
+"""Tests whether the parts of a burst of unknown gain have the same gain: chi-square per degree of freedom.
 
     measure_consistency.py build/bin/estimate-sensor-noise FRAMES...
 
-The gain of the quadrants of the frame, and of halves and quarters of the burst, is measured by itself (--roi,
---frames). With g_k and their standard errors e_k, chi-square is the sum of ((g_k - g) / e_k)^2 about their weighted
-mean g, and has one degree of freedom fewer than there are parts. It is about 1 if the parts have one gain and the
-errors are right; far above 1, they have not, or the errors are too small; far below 1, the errors are too large.
+The gain is measured separately in the quadrants of the frame, and in halves and quarters of the burst (--roi,
+--frames). With the gains g_k and their standard errors e_k, chi-square is the sum of ((g_k - g) / e_k)^2 about their
+weighted mean g. It has one degree of freedom fewer than there are parts. It is about 1 if the parts have the same gain
+and the errors are right. If it is far above 1, the gains differ or the errors are too small. If it is far below 1, the
+errors are too large.
 """
 
 import argparse
@@ -19,13 +20,14 @@ FEWEST_PARTS = 2
 
 
 def report_of(program, frames, *options):
-    """The report of some of the frames or pixels; empty if there is none."""
+    """Returns the report of some of the frames or pixels; empty if there is none."""
     done = subprocess.run([program, *frames, *options, "--json", "-", "--quiet"], capture_output=True, check=False)
     return json.loads(done.stdout) if done.stdout else {}
 
 
 def chi_square(gains):
-    """Chi-square per degree of freedom of gains and standard errors about their weighted mean; None: too few."""
+    """Returns chi-square per degree of freedom of gains with standard errors about their weighted mean; None: too few
+    gains."""
     if len(gains) < FEWEST_PARTS:
         return None
     weights = [error**-2 for _, error in gains]
@@ -34,13 +36,13 @@ def chi_square(gains):
 
 
 def rois(width, height):
-    """Quadrants, as options."""
+    """Returns the quadrants of the frame, as options."""
     w, h = width // 2, height // 2
     return [("--roi", f"{x},{y},{w},{h}") for y in (0, height - h) for x in (0, width - w)]
 
 
 def spans(frames, parts):
-    """So many parts of the burst, as options."""
+    """Returns the burst in this number of parts, as options."""
     edges = [frames * k // parts for k in range(parts + 1)]
     return [("--frames", f"{first}:{last}") for first, last in pairwise(edges)]
 

@@ -1,20 +1,20 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Programs that others wrote, with the report's numbers and with those of their own calibration.
+"""Runs programs of other authors with the numbers of the report and with their own calibration.
 
     measure_consumers.py --ndsafir VENV/bin/python --anscombe-transform VENV/bin/python [--camera A] [--size 128]
 
-`ndsafir` (BSD) is a denoiser that takes a gain and an offset: the report's variance_slope and total_intercept.
-`anscombe-transform` (MIT) codes films; it takes a conversion gain and a zero level: variance_slope and
--total_intercept / variance_slope. Each runs in an environment of its own, where `pip install` of its name put it; the
-data go by .npz files.
+`ndsafir` (BSD) is a denoiser that takes a gain and an offset: variance_slope and total_intercept of the report.
+`anscombe-transform` (MIT) encodes films. It takes a conversion gain and a zero level: variance_slope and
+-total_intercept / variance_slope. Each program runs in a separate environment, into which `pip install` of its name put
+it. The data are passed as .npz files.
 
-Bursts of a smooth ramp and of a texture that flicker by 0, 0.2, 1 and 5 % are measured by the report and by each
-program. Then come other frames, without flicker, and per band of their light: the temporal variance once transformed,
-which should be the law's, and what the brightness of the result departs from the truth [e-]. ndsafir keeps its
-transform to itself: its variance is that of the formula it is known for with its numbers, its brightness the mean of
-its denoised frames. The codes' own rounding is taken off the variance of anscombe-transform; its brightness is the mean
-code, led back by its table.
+Bursts of a smooth ramp and of a texture with flicker of 0, 0.2, 1 and 5 % are measured by the report and by each
+program. Other frames without flicker follow. Two results are printed for each band of their signal. The first is the
+temporal variance after the transform, which should equal the variance of the Poisson-Gaussian law. The second is the
+brightness of the result less the truth [e-]. ndsafir does not return its transform: its variance is computed with the
+formula of its method and its numbers, and its brightness is the mean of its denoised frames. The rounding of the codes
+is subtracted from the variance of anscombe-transform. Its brightness is the mean code, decoded with its table.
 """
 
 import argparse
@@ -28,7 +28,7 @@ import numpy as np
 from measure_held_out import STILL, band_means, bands_of, held_out, law, model_of, stabilised, true_model
 
 FLICKERS = (0.0, 0.002, 0.01, 0.05)
-EDGES = (0, 10, 50, 200, 500)  # of the bands [e-]
+EDGES = (0, 10, 50, 200, 500)  # edges of the signal bands [e-]
 
 NDSAFIR = """
 import sys
@@ -71,7 +71,7 @@ np.savez(sys.argv[2], **found)
 
 
 def run(python, program, data):
-    """What the program makes of the data, in its own environment."""
+    """Returns the results of the program for the data. It runs in its own environment."""
     with tempfile.TemporaryDirectory() as folder:
         given, made = Path(folder, "given.npz"), Path(folder, "made.npz")
         np.savez(given, **data)
@@ -89,7 +89,7 @@ def cells(values, bands, form):
 
 
 def measure(options, scene):
-    """Prints a scene's rows."""
+    """Prints the rows of a scene."""
     common = {"camera": options.camera, "reference": scene, "size": (options.size, options.size)}
     if scene == "ramp":
         common["reference"] = np.tile(np.linspace(0, 1, options.size) ** 2, (options.size, 1))

@@ -1,15 +1,16 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What a measured noise model is worth to a denoiser, on frames that it was not measured on.
+"""Measures the benefit of a measured noise model for a denoiser, on frames that were not used for the model.
 
     measure_denoising.py [--denoiser nlm|itk|scikit-image] [--size 256] [--frames 60]
 
-For the cameras A, B and C of Sur & Grédiac 2015 and two scenes, PSNR [dB, against the range of the levels] and SSIM of
-one frame: noisy; through the denoiser alone, at the strength that is best by the truth; through it between transform
-and inverse, with the report of a burst; and with the true parameters. The burst is of condition 3, which flickers.
+For the cameras A, B and C of Sur & Grédiac 2015 and two scenes, it prints PSNR (relative to the range of the levels)
+[dB] and SSIM of four versions of one frame: the noisy frame; the denoiser alone, at the strength that is best according
+to the truth; the denoiser between transform and inverse, with the report of a burst; and the same with the true
+parameters. The burst is of condition 3, which has flicker.
 
-Then the bias: the mean of each picture less the truth per band of the light [e-]. That of the noisy frame is chance,
-which the others share.
+The bias follows: the mean of each version less the truth, for each band of the signal [e-]. The bias of the noisy frame
+is due to chance, and the other versions contain it as well.
 """
 
 import argparse
@@ -18,14 +19,14 @@ from itertools import pairwise
 import itk
 import numpy as np
 
-STRENGTHS = 0.4 * 1.15 ** np.arange(14)  # of the denoiser alone, in units of the noise at the mean level
-EDGES = np.array([0, 10, 30, 100, 300, 1000, 3100, 10100])  # of the bands [e-]
+STRENGTHS = 0.4 * 1.15 ** np.arange(14)  # strengths of the denoiser alone, in units of the noise at the mean level
+EDGES = np.array([0, 10, 30, 100, 300, 1000, 3100, 10100])  # edges of the signal bands [e-]
 FEWEST_PIXELS = 100
 HEAD = ("noisy", "denoiser alone", "our report", "true parameters")
 
 
 def box(image, size=7):
-    """Means over size x size pixels that lie within the image."""
+    """Returns means over size x size pixels that lie within the image."""
     sums = np.pad(image.cumsum(0).cumsum(1), ((1, 0), (1, 0)))
     return (sums[size:, size:] - sums[:-size, size:] - sums[size:, :-size] + sums[:-size, :-size]) / size**2
 
@@ -35,7 +36,7 @@ def psnr(image, truth):
 
 
 def ssim(image, truth):
-    """Z. Wang et al., IEEE Trans. Image Process. 13(4), 2004, with windows of 7 x 7 pixels."""
+    """Returns the SSIM of Z. Wang et al., IEEE Trans. Image Process. 13(4), 2004, with windows of 7 x 7 pixels."""
     a, b = box(image), box(truth)
     variances = box(image**2) - a**2 + box(truth**2) - b**2
     covariance = box(image * truth) - a * b
@@ -50,20 +51,20 @@ def total_variation(strength):
 
 
 def named(denoiser, strength=1.0):
-    """What takes noise of standard deviation 1 out of an array (y, x)."""
+    """Returns the denoiser of this name, for noise of standard deviation 1 in an array (y, x)."""
     from itk_sensornoise._denoise import named_denoiser
 
     return total_variation(strength) if denoiser == "scikit-image" else named_denoiser(denoiser, strength)
 
 
 def biases(image, truth, light):
-    """Mean error per band of the light [DN]; None where a band has few pixels."""
+    """Returns the mean error for each band of the signal [DN]; None for a band with few pixels."""
     bands = [(light >= low) & (light < high) for low, high in pairwise(EDGES)]
     return [(image - truth)[band].mean() if band.sum() >= FEWEST_PIXELS else None for band in bands]
 
 
 def alone(noisy, truth, slope, intercept, denoiser):
-    """The denoiser on the levels themselves, divided by the noise at their mean, at the best strength."""
+    """Returns the denoised frame without transform: levels divided by the noise at their mean, at the best strength."""
     sigma = np.sqrt(slope * truth.mean() + intercept)
     scaled = (noisy / sigma).astype(np.float32)
     results = (sigma * named(denoiser, float(strength))(scaled) for strength in STRENGTHS)

@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What itk_sensornoise.distributed.estimate_sensor_noise() takes: time, memory and bytes, beside one process.
+"""Measures time, memory and bytes of itk_sensornoise.distributed.estimate_sensor_noise() and of one process.
 
     measure_distributed.py --size 2048 --frames 400 --workers 2 --repeat 3
 
-Simulated frames (camera B, condition 3) are written to files, one a frame. Then one process with as many threads as
-there are workers, and workers of one thread each, measure them by turns, each in a fresh interpreter, so that its peak
-memory is its own. Starting the cluster is not counted. With --model a cluster of 64 workers is reckoned from what a
-frame, a merge and the end of a pass take here, see documentation/distributed.md.
+Simulated frames (camera B, condition 3) are written to files, one frame per file. They are measured in turn by one
+process with as many threads as there are workers, and by workers of one thread each. Each measurement has a fresh
+interpreter, so that the peak memory is its own. The start of the cluster is not counted. --model computes the time of a
+cluster of 64 workers from the measured time of a frame, a merge and the end of a pass, see
+documentation/distributed.md.
 """
 
 import argparse
@@ -26,20 +27,20 @@ MIB = 1 << 20
 
 
 def peak_mib(line_of: str = "VmHWM") -> float:
-    """The most memory that this process had at a time; with "VmRSS", what it has now."""
+    """Returns the peak memory of this process, or with "VmRSS" its present memory [MiB]."""
     lines = Path("/proc/self/status").read_text(encoding="utf-8").splitlines()
     return next(int(line.split()[1]) for line in lines if line.startswith(line_of)) / 1024
 
 
 def run_one(names: list[str], threads: int) -> dict[str, object]:
-    """One process."""
+    """Measures the frames in one process."""
     began = time.perf_counter()
     report = itk.estimate_sensor_noise(names, threads=threads, bayer="none")
     return {"seconds": time.perf_counter() - began, "peak_mib": peak_mib(), "report": report.to_json()}
 
 
 class Rounds(logging.Handler):
-    """Keeps what a run says of its rounds."""
+    """Handler that keeps the log records of the rounds of a run."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -50,7 +51,7 @@ class Rounds(logging.Handler):
 
 
 def run_workers(names: list[str], workers: int, memory_limit: str) -> dict[str, object]:
-    """Workers of one thread each."""
+    """Measures the frames with workers of one thread each."""
     from distributed import Client, LocalCluster
     from itk_sensornoise.distributed import estimate_sensor_noise
 
@@ -77,14 +78,14 @@ def run_workers(names: list[str], workers: int, memory_limit: str) -> dict[str, 
 
 
 def load() -> None:
-    """On a worker: what every worker does once. A module of ITK's that comes with the function has nothing loaded."""
+    """Loads the module of ITK on a worker, once. A module that arrives with a function is not loaded."""
     import itk
 
     itk.SensorNoiseSums[itk.Image[itk.US, 3]].New()
 
 
 def in_fresh_process(names: list[str], *arguments: object) -> dict[str, object]:
-    """What run_one() or run_workers() found."""
+    """Returns the result of run_one() or run_workers() in a fresh interpreter."""
     command = [sys.executable, __file__, "--child", *map(str, arguments)]
     done = subprocess.run(command, input=json.dumps(names), capture_output=True, text=True, check=False)
     if done.returncode != 0:
@@ -94,7 +95,7 @@ def in_fresh_process(names: list[str], *arguments: object) -> dict[str, object]:
 
 
 def write_frames(folder: str, size: int, frames: int, pixels: str) -> list[str]:
-    """Simulated frames on files."""
+    """Writes simulated frames to files. Returns the file names."""
     stack = itk.simulate_sensor_noise(camera="B", condition=3, frames=frames, size=(size, size), seed=1)[0]
     names = [f"{folder}/{number:05}.mha" for number in range(frames)]
     for name, frame in zip(names, stack, strict=True):
@@ -103,7 +104,7 @@ def write_frames(folder: str, size: int, frames: int, pixels: str) -> list[str]:
 
 
 def compare(names: list[str], workers: int, repeat: int, memory_limit: str) -> None:
-    """Both, by turns."""
+    """Runs both measurements in turn, and prints their results."""
     ratios = []
     for turn in range(repeat):
         one = in_fresh_process(names, "one", workers)

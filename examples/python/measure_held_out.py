@@ -1,22 +1,24 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a burst's report stabilises frames that it was not made from, and leads their means back.
+"""Tests whether the report of a burst stabilises other frames of the camera, and whether the inverse is unbiased.
 
     measure_held_out.py [--size 256] [--frames 100] [--cameras ABC] [--scenes target,texture]
 
-For the cameras A, B and C of Sur & Grédiac 2015, two scenes, light and floor of conditions 1 to 3 and a steady light on
-a still floor, which leaves the offset unknown: one burst, its report by both methods. Then other frames of the same
-camera, without flicker, in the same light and in a dim one of 40 electrons at most. Per band of the light:
+The cameras are A, B and C of Sur & Grédiac 2015, with two scenes. The conditions are 1 to 3, and steady illumination
+without vibration, in which the offset is not identifiable. One burst gives a report for each of the two methods. Other
+frames of the same camera follow, without flicker, at the same illumination and at a low one of at most 40 electrons.
+Two deviations are printed for each band of the signal:
 
-- the temporal variance of the transformed frames less what the Poisson-Gaussian law gives for the true parameters; it
-  holds within 0.02 or 3 standard errors;
-- the mean over the frames of the transformed levels, led back, less the true light [e-]; it holds within 0.5 %, 0.02 e-
-  or 3 standard errors.
+- the temporal variance of the transformed frames less the variance of the Poisson-Gaussian law for the true parameters;
+  it may be 0.02 or 3 standard errors;
+- the inverse of the mean over the transformed frames less the true signal [e-]; it may be 0.5 %, 0.02 e- or 3 standard
+  errors.
 
-The variance's standard error has two parts: that of the held-out frames, and the report's own, which its covariance of
-slope and intercept makes of the variance at the band's level (0 for the published method, which tells no errors). The
-mean's is that of the held-out frames, as it hardly hangs on the model. * marks what does not hold, ~ what holds by the
-report's own error alone.
+The standard error of the variance has two parts. The first is from the held-out frames. The second is from the report:
+the covariance of slope and intercept gives the error of the variance at the level of the band. It is 0 for the
+published method, which reports no errors. The standard error of the mean is from the held-out frames, as the mean
+hardly depends on the model. * marks a deviation that is too large. ~ marks a deviation that is allowed only because of
+the errors of the report.
 """
 
 import argparse
@@ -27,14 +29,14 @@ from itertools import pairwise
 import itk
 import numpy as np
 
-EDGES = np.array([0, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10002])  # of the bands [e-]
+EDGES = np.array([0, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10002])  # edges of the signal bands [e-]
 DIM_ELECTRONS = 40.0
 STILL = {"flicker_sd": 0.0, "vibration_sd": (0.0, 0.0)}
 FEWEST_PIXELS = 30
 
 
 def variance_after(light, read_noise):
-    """After the transform with the true parameters, at a mean of `light` and with a read noise [e-]."""
+    """Returns the variance after the transform with the true parameters, for a mean signal and a read noise [e-]."""
     spread = 9 * np.sqrt(light) + 30
     electrons = np.arange(max(0, int(light - spread)), int(light + spread))
     factorials = np.concatenate(([0.0], np.cumsum(np.log(np.arange(1, electrons[-1] + 1)))))[electrons]
@@ -47,18 +49,19 @@ def variance_after(light, read_noise):
 
 
 def law(light, record):
-    """The same at every light [e-] of an array; the codes' rounding is noise, too."""
+    """Returns this variance for an array of mean signals [e-]. The quantization noise is part of the read noise."""
     read_noise = np.sqrt(record["read_noise"] ** 2 + 1 / 12) / record["gain"]
     grid = np.geomspace(1e-3, light.max(), 80)
     return np.interp(np.log(light), np.log(grid), [variance_after(value, read_noise) for value in grid])
 
 
 def held_out(common, frames, seed=1000):
-    """Frames without flicker in two lights, the mean light of their pixels [e-], and the camera's record."""
+    """Returns frames without flicker at two illuminations, the mean signal of their pixels [e-], and the record of the
+    camera."""
     stacks, lights = [], []
     for electrons in ({}, {"electrons": DIM_ELECTRONS}):
         stack, record = itk.simulate_sensor_noise(**{**common, **STILL, **electrons}, frames=frames, seed=seed)
-        # The same with a billion electrons, unrounded, has no noise to speak of.
+        # The same scene with a billion electrons, unrounded, has negligible noise.
         bright = {"electrons": 1e9, "gain": record["electrons"] / 1e9 * record["gain"], "read_noise": 0.0}
         truth = itk.simulate_sensor_noise(**{**common, **STILL, **bright}, frames=1, dtype="float64")[0][0]
         stacks.append(stack)
@@ -72,28 +75,30 @@ def true_model(record):
 
 
 def model_of(report):
-    """What the transform needs of a report; None where that is missing."""
+    """Returns the noise model that the transform needs from a report; None if it is missing or has no positive slope."""
     model = {name: report[name]["value"] for name in ("variance_slope", "total_intercept")}
     usable = None not in model.values() and model["variance_slope"] > 0
     return model if usable else None
 
 
 def own_error(report, model, level):
-    """What the report's errors make of the variance after the transform at a level [DN]; 0 where it tells none.
+    """Returns the error of the variance after the transform at a level [DN], from the errors of the report; 0 without
+    errors.
 
-    There the transform divides the noise by sqrt(a x + 3/8 a^2 + b): a the slope, b the total intercept."""
+    The transform divides the noise at the level x by sqrt(a x + 3/8 a^2 + b), with the slope a and the total intercept
+    b."""
     matrix = report["covariance"]["matrix"] if report else None
     if matrix is None:
         return 0.0
     (of_slope, both), (_, of_intercept) = (row[:2] for row in matrix[:2])
     slope = model["variance_slope"]
-    by_slope = level + 0.75 * slope  # derivatives of what is under the root; that by b is 1
+    by_slope = level + 0.75 * slope  # derivative of the argument of the root by a; by b it is 1
     error = np.sqrt(of_slope * by_slope**2 + 2 * both * by_slope + of_intercept)
     return error / (slope * level + 0.375 * slope**2 + model["total_intercept"])
 
 
 def bands_of(light, record, edges=EDGES):
-    """The pixels of each band that lie clear of the clip levels."""
+    """Returns the pixels of each band whose levels are at least 6 standard deviations from the clip levels."""
     noise = np.sqrt(record["gain"] ** 2 * light + record["read_noise"] ** 2)
     level = record["gain"] * light + record["offset"]
     clear = (level > 6 * noise) & (level + 6 * noise < 2 ** record["bit_depth"] - 1)
@@ -101,7 +106,7 @@ def bands_of(light, record, edges=EDGES):
 
 
 def band_means(values, bands):
-    """Mean and standard error per band; None where a band has few pixels."""
+    """Returns mean and standard error for each band; None for a band with few pixels."""
     return [
         (values[band].mean(), values[band].std(ddof=1) / np.sqrt(band.sum())) if band.sum() >= FEWEST_PIXELS else None
         for band in bands
@@ -109,16 +114,16 @@ def band_means(values, bands):
 
 
 def stabilised(stacks, model):
-    """Variance and mean over the frames of the transformed levels, all pixels in one row."""
+    """Returns variance and mean over the frames of the transformed levels, with all pixels in one row."""
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # a few pixels in the dark become 0, and the law says how many
+        warnings.simplefilter("ignore")  # a few dark pixels become 0, as the law predicts
         values = [itk.generalized_anscombe_image_filter(stack, **model, dtype="float64") for stack in stacks]
     variance = np.concatenate([value.var(axis=0, ddof=1).ravel() for value in values])
     return variance, np.concatenate([value.mean(axis=0).ravel() for value in values])
 
 
 def measure(stacks, light, record, model, report, expected):
-    """Per quantity and band: the departure, its standard error, by how much it may and the report's own error."""
+    """Returns for each quantity and band the deviation, its standard error, its limit, and the error of the report."""
     variance, mean = stabilised(stacks, model)
     bands = bands_of(light, record)
     levels = [record["gain"] * light[band].mean() + record["offset"] if band.any() else 0.0 for band in bands]
@@ -147,7 +152,7 @@ def text_of(cell):
 
 
 def models_of(common, frames):
-    """The reports and their models by condition and method."""
+    """Yields the reports and their models by condition and method."""
     for condition in (1, 2, 3, "steady"):
         light = STILL if condition == "steady" else {"condition": condition}
         burst, _ = itk.simulate_sensor_noise(**common, **light, frames=frames, seed=1)

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The vibration behind a mosaic against the truth: of each plane, and of all four together.
+"""Compares the vibration from a mosaic with the truth, for each channel and for all four channels together.
 
-Simulated mosaics: cameras A, B, C, conditions 1 to 3, a chart and a texture. A line a stack, and at the end how far off
-the standard deviations are, and how often their 95 % intervals hold. Two minutes.
+The mosaics are simulated: cameras A, B and C, conditions 1 to 3, a chart and a texture. One line per stack is printed.
+The last lines give the rms error of the standard deviations, and how many of their 95 % intervals contain the truth. It
+takes two minutes.
 """
 
 import argparse
@@ -15,7 +16,7 @@ import itk
 
 
 def departures(quantity: dict[str, Any], truth: float) -> tuple[float, float] | None:
-    """What the quantity is off by, relative to the truth and in its standard errors; None: it has no value."""
+    """Returns the error of the quantity, relative to the truth and in its standard errors; None: it has no value."""
     if quantity["value"] is None:
         return None
     difference = quantity["value"] - truth
@@ -46,7 +47,7 @@ def main() -> None:
             for axis, sd in zip("xy", truth["realised_vibration_sd"], strict=True):
                 name = f"sd_{axis}"
                 of_all = (reports["joint_vibration"] or {}).get(name)
-                found = departures(of_all, sd / 2) if of_all else None  # in pixels of a plane
+                found = departures(of_all, sd / 2) if of_all else None  # in pixels of a channel
                 if found:
                     joint.append(found)
                     line += f"   {name} {100 * found[0]:+6.2f} %, {found[1]:+5.2f} errors"

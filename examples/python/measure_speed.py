@@ -1,19 +1,19 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What the estimates cost, in one run: the table of documentation/performance.md.
+"""Measures the cost of the estimates in one run: the table of documentation/performance.md.
 
     measure_speed.py --bin build/bin [--parts passes,threads,files,frames,programs] [--opencv VENV/bin/python] ...
 
 Parts:
-    passes     TemporalStatistics, ITK's projections and whole estimates, in passes over the stack that read sample by
-               sample. By SensorNoiseBenchmark, as the next three
+    passes     TemporalStatistics, ITK's projections and whole estimates, in units of a pass that reads the stack sample
+               by sample. SensorNoiseBenchmark measures this part and the next three
     threads    two threads against one
     files      100 TIFFs against the same frames in memory
-    frames     the cost as fixed (in frames) and per sample, from 50 to 400 frames; --large-frames: of 4096 x 3072, the
-               most there are, 25 MB each; 0: none
-    programs   what others wrote, on the same frames (speed_programs.py)
+    frames     the cost as a fixed part (in frames) and a part per sample, from 50 to 400 frames; --large-frames: number
+               of frames of 4096 x 3072 pixels, 25 MB each, the most there are; 0: none
+    programs   programs of other authors on the same frames (speed_programs.py)
 
-Whatever is compared is run in turn: each number is the median of these runs, with the lowest and the highest behind it.
+Programs that are compared run in turn. Each number is the median of the runs, followed by the lowest and the highest.
 """
 
 import argparse
@@ -42,7 +42,7 @@ COUNTERS = {
 
 
 def counters_of(program, pattern):
-    """The counters of the benchmarks that fit the pattern, by their names without what they were run with."""
+    """Returns the counters of the benchmarks that fit the pattern, by their names without the number of iterations."""
     command = [program, f"--benchmark_filter={pattern}", "--benchmark_format=json"]
     done = subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     return {run["name"].split("/iterations")[0]: run for run in json.loads(done.stdout)["benchmarks"]}
@@ -59,7 +59,7 @@ def print_ratios(program, part):
 
 
 def line_through(frames, cost):
-    """Slope and fixed cost of the line through a cost over the number of frames, each of the same relative error."""
+    """Returns slope and fixed cost of a line through the cost over the number of frames, with equal relative errors."""
     weights = 1 / cost
     design = np.column_stack([frames, np.ones(len(frames))])
     slope, constant = np.linalg.lstsq(design * weights[:, None], np.ones(len(frames)), rcond=None)[0]
@@ -67,7 +67,7 @@ def line_through(frames, cost):
 
 
 def print_fits(program, large_frames):
-    """The cost over the number of frames, fitted, for each method and size."""
+    """Prints the fit of the cost over the number of frames, for each method and size."""
     sizes = [("1376", "1040", "400")]
     if large_frames:
         sizes.append(("4096", "3072", str(large_frames)))

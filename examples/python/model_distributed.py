@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""A cluster, reckoned from what the steps take on one thread: see documentation/distributed.md."""
+"""Computes the time of a cluster from the time of its steps on one thread: see documentation/distributed.md."""
 
 import math
 import time
@@ -11,32 +11,32 @@ import itk
 import numpy as np
 from itk_sensornoise import SensorNoiseSums
 
-FAN = 8  # sums that a task merges
-LINK = 10e9 / 8  # bytes a second, of each worker
-SAMPLE = 32 << 20  # bytes of the noise sample of pass 3, at most
-READ = LINK  # frames come over the same link
+FAN = 8  # number of sums that a task merges
+LINK = 10e9 / 8  # network bandwidth of each worker [byte/s]
+SAMPLE = 32 << 20  # largest noise sample of pass 3 [byte]
+READ = LINK  # frames are read over the same link [byte/s]
 
 
 @dataclass
 class Steps:
-    """Of each pass, on one thread."""
+    """Time and size of the steps of each pass, on one thread."""
 
     pixels: int
-    add: list[float]  # a frame [s]
-    merge: list[float]  # sums of a part handed on and merged, whatever their size [s]
-    merge_byte: list[float]  # and of each byte [s]
-    end: list[tuple[float, float]]  # [s], and of each frame of the whole [s]
-    fixed: list[float]  # bytes of a part's sums, whatever its frames
-    per_frame: list[float]  # and of each frame; in pass 3, of those that are sampled
+    add: list[float]  # time of a frame [s]
+    merge: list[float]  # time to send and merge the sums of a part, independent of their size [s]
+    merge_byte: list[float]  # additional time of each byte [s]
+    end: list[tuple[float, float]]  # time of the end of a pass [s], and additional time of each frame [s]
+    fixed: list[float]  # size of the sums of a part, independent of its frames [byte]
+    per_frame: list[float]  # additional size of each frame [byte]; in pass 3, of each sampled frame
 
     def bytes_of(self, number: int, frames: float) -> float:
-        """Of the sums over so many frames."""
+        """Returns the size of the sums over this number of frames [byte]."""
         of_frames = self.per_frame[number] * frames
         return self.fixed[number] + (min(of_frames, SAMPLE) if number == 2 else of_frames)
 
 
 def measure_steps(size: int, frames: int) -> Steps:
-    """With simulated frames in memory: what is left of reading is a copy."""
+    """Measures the steps with simulated frames in memory, which are read by copying."""
     stack = itk.simulate_sensor_noise(camera="B", condition=3, frames=frames, size=(size, size), seed=1)[0]
     one, two = (SensorNoiseSums(stack.shape, stack.dtype, bayer="none", threads=1) for _ in range(2))
     steps = Steps(size * size, [], [], [], [], [], [])
@@ -54,7 +54,7 @@ def measure_steps(size: int, frames: int) -> Steps:
         two.from_bytes(one.to_bytes())
         two.end_pass()
         one.end_pass()
-    little = merges[1][0]  # of pass 2, whose sums are small
+    little = merges[1][0]  # the merge of pass 2, whose sums are small
     steps.merge = [little] * 3
     steps.merge_byte = [max(0.0, seconds - little) / count for seconds, count in merges]
     steps.merge_byte[1] = steps.merge_byte[0]
@@ -66,7 +66,7 @@ def measure_steps(size: int, frames: int) -> Steps:
 
 
 def _ends(stack: np.ndarray) -> list[float]:
-    """Seconds to end each pass."""
+    """Returns the seconds of the end of each pass."""
     sums = SensorNoiseSums(stack.shape, stack.dtype, bayer="none", threads=1)
     sums.drop_history()
     found = []
@@ -83,7 +83,8 @@ def _seconds(work: Callable[[], object]) -> float:
 
 
 def seconds_of(steps: Steps, frames: int, workers: int, fan: int) -> dict[str, list[float]]:
-    """Of each pass. A worker reads and adds at the same time; merges wait for the last of their sums."""
+    """Returns the seconds of the steps of each pass. A worker reads and adds at the same time; a merge waits for its
+    last sums."""
     found: dict[str, list[float]] = {"read, add": [], "merge": [], "broadcast": [], "end": []}
     tasks = 2 * workers
     depth = math.ceil(math.log(tasks, fan)) if tasks > 1 else 0
@@ -99,7 +100,7 @@ def seconds_of(steps: Steps, frames: int, workers: int, fan: int) -> dict[str, l
             of_part = min(of_part * together, frames)
         found["merge"].append(waited)
         whole = steps.bytes_of(number, frames)
-        # Those who have it hand it on: twice as many each time. After pass 3 the driver alone gets it.
+        # Workers with the sums send them on: their number doubles each time. After pass 3 only the driver gets them.
         found["broadcast"].append(whole / LINK * (math.ceil(math.log2(workers + 1)) if number < 2 else 1))
         counted = frames if number < 2 else min(frames, SAMPLE / max(1.0, steps.per_frame[number]))
         found["end"].append(steps.end[number][0] + counted * steps.end[number][1])
@@ -107,7 +108,7 @@ def seconds_of(steps: Steps, frames: int, workers: int, fan: int) -> dict[str, l
 
 
 def print_model(steps: Steps, frames: int = 60000) -> None:
-    """The steps, 64 workers in all detail, and other numbers of workers."""
+    """Prints the steps, 64 workers in detail, and other numbers of workers."""
     print(f"frames of {steps.pixels / 1e6:.1f} Mpx, one thread: pass 1, 2, 3")
     for name, values, unit in [
         ("add a frame", [1e3 * value for value in steps.add], "ms"),

@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The published method filter by filter, as an ITK pipeline that streams from files.
+"""Runs the published method filter by filter, as an ITK pipeline that streams from files.
 
     reader -> TemporalStatistics -> VibrationMask -> FlickerCorrection(reader) -> TemporalStatistics -> NoiseRegression
 
-This is Figure 2 of F. Sur, M. Gredi'ac, SIAM J. Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035, and what
-examples/pipeline.cxx does in C++. itk.estimate_sensor_noise(method="published") gives the same numbers in fewer passes
-over the files.
+This is Figure 2 of F. Sur, M. Gredi'ac, SIAM J. Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035. The same
+pipeline in C++ is examples/pipeline.cxx. itk.estimate_sensor_noise(method="published") gives the same numbers with
+fewer passes over the files.
 
     pipeline.py                      # on frames that it simulates and writes into a temporary folder
-    pipeline.py frames/*.tif         # on 2-D raw frames in time order, of one component
+    pipeline.py frames/*.tif         # on 2-D raw frames in time order, with one component
 """
 
 import argparse
@@ -36,13 +36,13 @@ def measure(names: list[str]) -> tuple[dict[str, Any], list[int]]:
 
     Returns a report with gain, offset, read noise and intercept, and the number of frames of each read, in order.
     """
-    # A source has one pixel type; any will do to ask which one the files have.
+    # A source has one pixel type. Any type can query the component type of the files.
     component = itk.SensorNoiseFrameListSource[itk.Image[itk.US, 3]].ReadComponentType(names)
     pixel = itk.ctype(itk.ImageIOBase.GetComponentTypeAsString(component).replace("_", " "))
     stack = itk.Image[pixel, 3]
     reader = itk.SensorNoiseFrameListSource[stack].New(file_names=names)
 
-    # A filter of ITK's own between reader and chain, which hands the image on and notes what was asked for.
+    # This filter of ITK passes the image on and records the requested regions.
     monitor = itk.PipelineMonitorImageFilter[stack].New(reader.GetOutput())
     monitor.ClearPipelineOnGenerateOutputInformationOff()
 
@@ -66,7 +66,7 @@ def measure(names: list[str]) -> tuple[dict[str, Any], list[int]]:
         mask=mask.GetOutput(),
         offset_input=flicker.GetOffsetOutput(),
     )
-    regression.Update()  # nothing was read before this line
+    regression.Update()  # the pixels are read here, not before
 
     reads = [region.GetSize()[2] for region in monitor.GetUpdatedRequestedRegions()]
     return json.loads(regression.GetReportAsJson()), reads

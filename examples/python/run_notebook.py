@@ -5,8 +5,8 @@
 
     run_notebook.py executed.ipynb
 
-Writes the notebook with its pictures and ends with exit code 1 if a cell raises, or if a cell tagged "figure" shows
-none. Needs nbclient, nbformat, ipykernel and matplotlib.
+Writes the notebook with its pictures. The exit code is 1 if a cell raises an exception, or if a cell tagged "figure"
+shows no picture. Needs nbclient, nbformat, ipykernel and matplotlib.
 """
 
 import argparse
@@ -20,7 +20,7 @@ from nbclient.exceptions import CellExecutionError
 
 
 def cells_without_figure(notebook: nbformat.NotebookNode) -> list[int]:
-    """The numbers of the cells that are tagged "figure" and show no picture."""
+    """Returns the numbers of the cells that are tagged "figure" but show no picture."""
     return [
         number
         for number, cell in enumerate(notebook.cells)

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Measures the noise of a camera by several processes, each of which reads a part of the frames.
+"""Measures the noise of a camera with several processes. Each process reads a part of the frames.
 
-    several_processes.py frames/*.tif      # or nothing: a simulated burst
+    several_processes.py frames/*.tif      # or no files: a simulated burst
 
-The report has the bits of itk.estimate_sensor_noise(). On one machine that one function is faster: this shows what
-programs for many machines, with MPI, Spark or a queue of jobs, have to do. With Dask it is done already:
-itk_sensornoise.distributed.
+The report has the same bits as the report of itk.estimate_sensor_noise(). On one machine that function is faster. This
+example shows the steps for programs on many machines, with MPI, Spark or a job queue. For Dask they are already
+implemented: itk_sensornoise.distributed.
 """
 
 import multiprocessing
@@ -23,17 +23,18 @@ PROCESSES = 3
 
 
 def sums_of(sums: SensorNoiseSums, names: list[str], first: int) -> bytes:
-    """In another process, which has been sent a copy of `sums` as it was when the pass began."""
-    for number in range(first, len(names), PROCESSES):  # frames may come in any order, or in runs
+    """Returns the sums of a part of the frames. It runs in another process, on a copy of `sums` from the start of the
+    pass."""
+    for number in range(first, len(names), PROCESSES):  # frames may be added in any order, or in runs
         sums.add([names[number]], number)
     return sums.to_bytes()
 
 
 def measure(names: list[str]) -> object:
-    """The report of frames on files."""
+    """Returns the report of frames in files."""
     first = itk.array_from_image(itk.sensor_noise_frame_list_source(names[:1]))
     sums = SensorNoiseSums((len(names), *first.shape[1:]), first.dtype, first_frame=first[0])
-    # Not by fork(): it copies no threads, and ITK has some.
+    # Processes are not forked: fork() does not copy the threads of ITK.
     with ProcessPoolExecutor(PROCESSES, multiprocessing.get_context("spawn")) as pool:
         while not sums.is_done:
             for part in pool.map(sums_of, repeat(sums), repeat(names), range(PROCESSES)):
