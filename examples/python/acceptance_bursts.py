@@ -56,7 +56,7 @@ class Camera:
         return read_frames(name)[0][0]
 
     def expose(self, electrons, shape, gain=None):
-        """Returns a frame with this number of expected electrons, with the gain of the camera or a given gain [DN/e-]."""
+        """Returns a frame with these expected electrons, with the gain of the camera or a given gain [DN/e-]."""
         levels = self.offset + (gain or self.gain) * self.random.poisson(electrons, shape)
         levels = levels + self.random.normal(0.0, self.read_noise, shape)
         return np.clip(np.rint(levels), 0, self.highest)

@@ -46,7 +46,7 @@ def one_frame(frames, place, factor, others):
 
 
 def unlike(name, *replaced, **further):
-    """Returns a line with replaced frames. The other frames of a flat field are steady and need not determine the gain."""
+    """Returns a line with replaced frames. The rest of a flat field is steady and may not determine the gain."""
     return Line(f"unlike/{name}", expected_of_flat=MAY_REFUSE, replaced=replaced, **further)
 
 

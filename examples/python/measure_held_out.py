@@ -75,7 +75,7 @@ def true_model(record):
 
 
 def model_of(report):
-    """Returns the noise model that the transform needs from a report; None if it is missing or has no positive slope."""
+    """Returns the noise model of a report for the transform; None if it is missing or has no positive slope."""
     model = {name: report[name]["value"] for name in ("variance_slope", "total_intercept")}
     usable = None not in model.values() and model["variance_slope"] > 0
     return model if usable else None

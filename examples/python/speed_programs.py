@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Programs that others wrote, beside this one, on the same simulated frames: what they take and what they find.
+"""Measures the time and the gain of programs of other authors and of this project on the same simulated frames.
 
-Each runs in an environment of its own and is run in turn with the others, round by round. A function is called in a
-process that holds the frames; a whole process reads them, too, from one .npy file, this project's tool from 100 TIFFs.
+Each program runs in a separate environment, in turn with the others, round by round. A function is called in a process
+that holds the frames. A whole program also reads the frames, from one .npy file. The tool of this project reads them
+from 100 TIFFs or from one .mha file.
 """
 
 import json
@@ -16,7 +17,7 @@ import numpy as np
 
 FRAMES = 100
 
-# Each defines run(), which gives the gain [DN/e-].
+# Each of these programs defines run(), which returns the gain [DN/e-].
 LINE = """
 def gain_of(mean, variance):
     return np.polyfit(np.ravel(mean), np.ravel(variance), 1)[0]
@@ -75,7 +76,7 @@ print("gain", 1 / nip.cal_readnoise(np.load(sys.argv[1]), np.load(sys.argv[2]), 
 
 
 class Found(NamedTuple):
-    """What a program took in each round, and the gain that it found in the last one."""
+    """Seconds of a program in each round, and the gain that it found in the last round [DN/e-]."""
 
     name: str
     seconds: list[float]
@@ -83,7 +84,7 @@ class Found(NamedTuple):
 
 
 class Server:
-    """A process that holds the frames and calls a function when it is told to."""
+    """Process that holds the frames and calls a function on request."""
 
     def __init__(self, name, python, program, data):
         self.found = Found(name, [], np.nan)
@@ -113,7 +114,7 @@ class Server:
 
 
 class Process:
-    """A command that is run as a whole; the last word that it prints is the gain, or a report is written."""
+    """Command that runs as a whole. The gain is in its report, or without a report the last word that it prints."""
 
     def __init__(self, name, command, report=None):
         self.found = Found(name, [], np.nan)
@@ -131,7 +132,8 @@ class Process:
 
 
 def simulated(folder, tools, size):
-    """Frames under flickering light and dark ones: their .npy files, the .mha file, the TIFFs, and the gain."""
+    """Makes frames under flickering illumination, and dark frames. Returns their .npy files, the .mha file, the TIFFs
+    and the gain."""
     import itk
 
     made = []
@@ -150,7 +152,7 @@ def simulated(folder, tools, size):
 
 
 def measure_programs(tools, pythons, size, rounds, folder):
-    """The gain that is true, and what each program took and found; `pythons` are interpreters by the program's name."""
+    """Returns the true gain, and time and gain of each program. `pythons` are interpreters by program name."""
     folder = Path(folder)
     (frames, dark), stack, tiffs, truth = simulated(folder, Path(tools), size)
     tool = Path(tools, "estimate-sensor-noise")

@@ -1,7 +1,10 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The table of the check study: how many noise models fit another burst of their camera, how many models with a slope
-that is 5 % too steep do not fit, and the range of variance over model."""
+"""Prints the table of the check study.
+
+It shows how many noise models fit another burst of their camera, how many models with a slope that is 5 % too steep do
+not fit, and the range of the variance over the model.
+"""
 
 from study_records import by_case, case_of, text_of_fraction
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Demands on the stacks of each line of the sensor study."""
+"""Lists the demands on the stacks of each line of the sensor study."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -8,17 +8,20 @@ from typing import NamedTuple
 from acceptance_stacks import holds
 from study_records import case_of, estimate_of, warnings_of
 
-LEAST_COVERAGE = 0.9  # of 95 % intervals, of a line
+LEAST_COVERAGE = 0.9  # least coverage of the 95 % intervals of a line [1]
 LEAST_BOUNDS = 0.95
 MOST_STACKS = 0.97
 LEAST_FAILED = 0.95
-SAME_GAIN = 1e-9  # of the gain [1]
-MAP_COVERAGE = (0.93, 0.97)  # of the 95 % intervals of a map's pixels
+SAME_GAIN = 1e-9  # largest relative difference of gains that count as equal [1]
+MAP_COVERAGE = (0.93, 0.97)  # coverage of the 95 % intervals of the pixels of a map [1]
 
 
 class Demand(NamedTuple):
-    """what: the demand in words; test: whether a stack meets it, None if it does not count; least: fraction of the
-    stacks that have to; is_coverage: it is of 95 % intervals, so that a single improbable setting is shown, too."""
+    """Demand on the stacks of a line.
+
+    what: the demand in words; test: whether a stack meets it, None if the stack does not count; least: fraction of the
+    stacks that must meet it; is_coverage: it is about 95 % intervals, so that a single improbable setting is shown as
+    well."""
 
     what: str
     test: Callable[[dict], bool | None]
@@ -192,5 +195,5 @@ DEMANDS = {
 
 
 def demands_on(line):
-    """The demands on a line of settings; those on a plain measurement for other lines."""
+    """Returns the demands on a line of settings. Lines without an entry have the demands on a plain measurement."""
     return DEMANDS.get(line, [NOT_FAILED, gain_within(0.01), coverage("gain")])

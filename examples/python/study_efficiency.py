@@ -1,17 +1,17 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The table of the efficiency study: how close the estimates come to the Cramér-Rao bound.
+"""Prints the table of the efficiency study: how close the estimates come to the Cramér-Rao bound.
 
-bias: mean error, in % of the truth. rms/lim: rms of error over limit, where 1 is the best that an unbiased estimate can
-reach. cover: fraction of the 95 % intervals that contain the truth. z-rms: rms of error over standard error, which
-should be 1. n/N: stacks whose quantity is identified.
+bias: mean error, in % of the truth. rms/lim: rms of error over limit; 1 is the best value of an unbiased estimate.
+cover: fraction of the 95 % intervals that contain the truth. z-rms: rms of error over standard error, which should be
+1. n/N: stacks whose quantity is identified.
 """
 
 from study_records import by_case, case_of, estimate_of, mean, rms, text_of, used_fraction
 
 QUANTITIES = ("gain", "intercept", "offset", "read_noise", "flicker_sd", "vibration_sd_x", "vibration_sd_y")
-IDENTIFIABLE_LIMIT = 0.05  # limit of the offset, over the signal range, below which it should be identified [1]
-# Errors of the vibration are shown over the larger of these: relative [1] and absolute [pixels].
+IDENTIFIABLE_LIMIT = 0.05  # the offset should be identified if its limit over the signal range is smaller [1]
+# Errors of the vibration are printed relative to the larger of these: relative [1] and absolute [pixel].
 VIBRATION_ERROR = (0.03, 0.0005)
 
 
@@ -58,7 +58,8 @@ def row(label, name, records, is_pooled):
 
 
 def print_rows(label, records, is_pooled=False):
-    """One row for each quantity. Over several experiments the rms error is relative, and there is no one truth."""
+    """Prints one row for each quantity. Over several experiments the rms error is relative, as their true values
+    differ."""
     for name in QUANTITIES if records else ():
         print(row(label if name == "gain" else "", name, records, is_pooled))
 

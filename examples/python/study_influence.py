@@ -1,12 +1,13 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Measures what half and double of the most influential constants of the refined method do, as a table in Markdown.
+"""Measures the effect of half and twice the most influential constants of the refined method, as a Markdown table.
 
     cmake -S . -B build -DSensorNoise_BUILD_INFLUENCE=ON && cmake --build build --target measure-varied-cases
     python examples/python/study_influence.py --bin build/bin
 
-A cell: mean error of the gain [%] ± mean standard error, largest error over standard error, stacks within 3 of them /
-stacks whose gain is identified; "=": no report changes. About half a second a stack, constant, value and processor.
+A cell has the mean error of the gain [%] ± the mean standard error, the largest error over its standard error, and the
+number of stacks within 3 standard errors / the number of stacks whose gain is identified. "=" means that no report
+changes. The run takes about half a second for each stack, constant, value and processor.
 """
 
 import argparse
@@ -23,7 +24,7 @@ LARGEST_Z = 3.0  # [standard errors]
 
 
 def measure(program, case, options, *more):
-    """The records of a case, by their seeds."""
+    """Returns the records of a case, by their seeds."""
     command = [program, f"robustness/{case}/{options.scene}", "--seeds", options.seeds, "--size", options.size, *more]
     return [json.loads(line) for line in run(command).output.splitlines()]
 
@@ -39,7 +40,7 @@ def cell(records):
 
 
 def constants_of(program, names):
-    """Name and value of the constants, as the program lists them."""
+    """Returns name and value of the constants that the program lists."""
     lines = run([program, "--list-constants"]).output.splitlines()
     known = {line.split()[0]: float(line.split()[1]) for line in lines}
     missing = set(names) - set(known)

@@ -1,15 +1,18 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The efficiency study beside Tables 2 and 3 of Sur & Grédiac 2015: mean and twice the standard deviation over the
-seeds, and what the paper prints for its method. Figure 6 is the same of --frames 10, 20, 50 and so on."""
+"""Prints the efficiency study next to Tables 2 and 3 of Sur & Grédiac 2015.
+
+The columns are the mean and twice the standard deviation over the seeds, and the numbers of the paper for its method.
+Figure 6 is the same with --frames 10, 20, 50 and so on.
+"""
 
 from statistics import fmean, stdev
 
 from study_records import by_case, case_of, estimate_of, mean, present, text_of
 
 QUANTITIES = ("gain", "offset", "read_noise", "intercept", "flicker_sd", "vibration_sd_x", "vibration_sd_y")
-# Mean and twice the standard deviation over 50 runs, in the order of QUANTITIES. Table 2 is of the paper's synthetic
-# target, Table 3 of its image Boat. Cells that the available text of the paper leaves unreadable are empty.
+# Mean and twice the standard deviation over 50 runs, in the order of QUANTITIES. Table 2 is for the synthetic target of
+# the paper, Table 3 for its image Boat. Cells that are not readable in the available text of the paper are empty.
 TABLES = {
     "target": {
         "A1": "5.00±0.03 200.1±0.6 15.2±0.4 -769.6±15.7 0.10±0.01 0.35±0.07 0.23±0.04",
@@ -40,7 +43,7 @@ def print_experiment(records):
     for name, figure in zip(QUANTITIES, paper, strict=True):
         estimates = [estimate_of(record, name) for record in records]
         values = present(one.value for one in estimates)
-        # The paper compares with the standard deviations that were asked for, the study with those that the stack has.
+        # The paper compares with the nominal standard deviations, the study with the realised ones of the stack.
         truth = fmean(one.truth for one in estimates)
         average = mean(values)
         print(

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The records that measure-cases prints, one a line of JSON, and how an estimate compares with its truth.
+"""Reads the records that measure-cases prints, one per line of JSON, and compares estimates with their truth.
 
-A record has case ("study/name/scene"), seed, truth (a number for each quantity, or null), report, and what the tables
-of its study need. An estimate counts if its status is identified.
+A record has case ("study/name/scene"), seed, truth (a number or null for each quantity), report, and the numbers that
+the tables of its study need. An estimate counts if its status is identified.
 """
 
 import json
@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from acceptance_stacks import holds, is_identified
 
-# Places in the report of what is not a member of it by its own name.
+# Paths in the report of quantities that are not members of it under their own name.
 PLACES = {
     "vibration_sd_x": ("vibration", "sd_x"),
     "vibration_sd_y": ("vibration", "sd_y"),
@@ -25,19 +25,19 @@ PLACES = {
 
 
 def read_records(names):
-    """The records of files, in their order."""
+    """Returns the records of files, in their order."""
     lines = [line for name in names for line in Path(name).read_text(encoding="utf-8").splitlines()]
     return [json.loads(line) for line in lines if line.strip()]
 
 
 def case_of(record):
-    """Study, name and scene of the record's case. The name may hold slashes."""
+    """Returns study, name and scene of the case of a record. The name may contain slashes."""
     study, rest = record["case"].split("/", 1)
     return study, *rest.rsplit("/", 1)
 
 
 def by_case(records):
-    """The records of each case, in the order of their first ones. Planes of a mosaic are cases of their own."""
+    """Returns the records of each case, in the order of their first records. Mosaic channels are separate cases."""
     groups = defaultdict(list)
     for record in records:
         groups[record["case"], record.get("plane")].append(record)
@@ -45,8 +45,9 @@ def by_case(records):
 
 
 class Estimate(NamedTuple):
-    """A quantity of a report, its truth and its status. value, standard_error, interval and bounds may be None, as the
-    truth where the stack has no one value."""
+    """Quantity of a report, its truth and its status.
+
+    value, standard_error, interval and bounds may be None. truth is None if the stack has no single true value."""
 
     truth: float | None
     value: float | None
@@ -57,22 +58,22 @@ class Estimate(NamedTuple):
 
     @property
     def error(self):
-        """Value less truth; None if it is not identified."""
+        """Value less truth; None if the quantity is not identified or has no truth."""
         return self.value - self.truth if self.status == "identified" and self.truth is not None else None
 
     @property
     def z(self):
-        """The error in standard errors."""
+        """Error in units of the standard error; None if one of them is missing."""
         return self.error / self.standard_error if self.error is not None and self.standard_error else None
 
     @property
     def is_held(self):
-        """Whether the 95 % interval contains the truth; None if the quantity is not identified."""
+        """Whether the 95 % interval contains the truth; None if the quantity is not identified or has no truth."""
         return None if self.error is None else bool(self.interval) and holds(self.interval, self.truth)
 
     @property
     def is_below_limit(self):
-        """Whether the truth is at most the upper limit; None for another status, or without a truth."""
+        """Whether the truth is at most the upper limit; None for another status or without a truth."""
         limit = self.bounds or self.interval
         if self.status != "upper-limit" or self.truth is None:
             return None
@@ -80,18 +81,18 @@ class Estimate(NamedTuple):
 
     @property
     def is_within_bounds(self):
-        """Whether the bounds contain the truth; None where there are none, or no truth."""
+        """Whether the bounds contain the truth; None if there are no bounds or no truth."""
         return None if not self.bounds or self.truth is None else holds(self.bounds, self.truth)
 
     def is_within(self, fraction):
-        """Whether the error is at most so large a fraction of the truth, or three standard errors."""
+        """Returns whether the error is at most this fraction of the truth, or at most three standard errors."""
         return self.error is not None and (
             abs(self.error) <= fraction * abs(self.truth) or abs(self.z or math.inf) <= 3
         )
 
 
 def estimate_of(record, name):
-    """The estimate of a quantity."""
+    """Returns the estimate of a quantity."""
     quantity = record["report"]
     for member in PLACES.get(name, (name,)):
         quantity = (quantity or {}).get(member) or {}
@@ -106,7 +107,7 @@ def estimate_of(record, name):
 
 
 def warnings_of(record):
-    """The codes of the report's warnings, each once, in the report's order."""
+    """Returns the distinct codes of the warnings of the report, in their order."""
     return list(dict.fromkeys(warning["code"] for warning in record["report"]["warnings"]))
 
 
@@ -116,30 +117,30 @@ def used_fraction(record):
 
 
 def present(values):
-    """The values that are not None."""
+    """Returns the values that are not None."""
     return [value for value in values if value is not None]
 
 
 def mean(values):
-    """The mean of the values that are there; None if there is none."""
+    """Returns the mean of the values that are not None; None if there is no such value."""
     values = present(values)
     return fmean(values) if values else None
 
 
 def rms(values):
-    """The root mean square of the values that are there; None if there is none."""
+    """Returns the root mean square of the values that are not None; None if there is no such value."""
     values = present(values)
     return math.sqrt(fmean(value * value for value in values)) if values else None
 
 
 def count_met(verdicts):
-    """(met, count) of verdicts; None does not count."""
+    """Returns (met, count) of verdicts. A verdict None does not count."""
     verdicts = [verdict for verdict in verdicts if verdict is not None]
     return sum(map(bool, verdicts)), len(verdicts)
 
 
 def text_of(value, form, width=0):
-    """A number in a column; a dash where there is none."""
+    """Returns a number as text of a column; a dash for None."""
     return f"{'-' if value is None else format(value, form):>{width}}"
 
 

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The table of the robustness study: bursts with faults of recording and processing.
+"""Prints the table of the robustness study: bursts with faults of recording and processing.
 
-One row a case: over the seeds, mean error and rms z of gain, intercept and offset; stacks whose offset is identified;
-fraction of the pixels used; and a verdict. A gain is right within 1 %, or, where the response is non-linear, if its
-95 % interval contains the mean gain; an intercept is right within 3 standard errors.
+Each case has one row over its seeds: mean error and rms z of gain, intercept and offset; stacks whose offset is
+identified; fraction of the pixels used; and a verdict. A gain is right within 1 %. If the response is non-linear, it is
+right if its 95 % interval contains the mean gain. An intercept is right within 3 standard errors.
 """
 
 from study_records import (
@@ -19,12 +19,12 @@ from study_records import (
     warnings_of,
 )
 
-LARGEST_GAIN_ERROR = 0.01  # of the truth [1]
-LARGEST_Z = 3.0  # of intercept and offset [standard errors]
+LARGEST_GAIN_ERROR = 0.01  # largest relative error of the gain [1]
+LARGEST_Z = 3.0  # largest error of intercept and offset [standard errors]
 
 
 def find_fault(record):
-    """Returns the fault of a stack; empty if it has none, or if its case may end in any result."""
+    """Returns the fault of a stack. It is empty if there is none, or if any result is right for the case."""
     expectation, gain = record["expectation"], estimate_of(record, "gain")
     if expectation == "processed":
         return ""
@@ -46,7 +46,7 @@ def verdict_of(group, fault):
 
 
 def print_group(group):
-    """Prints the row of a case and returns what is wrong with its first faulty stack."""
+    """Prints the row of a case. Returns the fault of its first faulty stack."""
     _, name, scene = case_of(group[0])
     gain, intercept, offset = ([estimate_of(one, key) for one in group] for key in ("gain", "intercept", "offset"))
     fault = next(filter(None, map(find_fault, group)), "")

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The table of the sensor study: sensors that deviate from the noise model as real ones do.
+"""Prints the table of the sensor study: sensors that deviate from the noise model as real sensors do.
 
-A row is a setting: n stacks; failed gains; 95 % intervals that contain the truth, of what is identified, for gain g,
+A row is a setting: n stacks; failed gains; 95 % intervals that contain the truth, of identified quantities, for gain g,
 offset mu, flicker fl and read noise rn; rms and mean of error over standard error; mean standard error and mean error
-of the gain [%]; p: probability of so few intervals or fewer, if each contains the gain with 95 %; upper limits above
-the flicker where it is not distinguished from 0; bounds that contain the offset; warnings with the number of stacks.
-Last, all settings of a line together, and what study_demands.py demands of them.
+of the gain [%]; p: probability of so few intervals or fewer, at a coverage of 95 % for each gain;
+upper limits above the flicker if it is not distinguished from 0; bounds that contain the offset; warnings with the
+number of stacks. The last row has all settings of a line together. The demands of study_demands.py on them follow.
 """
 
 from collections import Counter, defaultdict
@@ -25,14 +25,14 @@ from study_records import (
     warnings_of,
 )
 
-IMPROBABLE_SETTING = 0.001  # probability below which a single setting is counted
-LARGEST_COVERAGE = 0.99  # above it intervals are wider than need be; no fault
-ENOUGH_STACKS = 200  # from which on too wide intervals are no chance
+IMPROBABLE_SETTING = 0.001  # probability below which a single setting is counted as improbable
+LARGEST_COVERAGE = 0.99  # above it intervals are wider than necessary, which is no fault
+ENOUGH_STACKS = 200  # number of stacks from which too wide intervals are not due to chance
 SUMMARISED = ("gain", "offset", "flicker_sd", "read_noise")
 
 
 def line_of(record):
-    """The line of settings that a record belongs to, and the setting."""
+    """Returns the line of settings of a record, and its setting."""
     return case_of(record)[1].split("/", 1)
 
 

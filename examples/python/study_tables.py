@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Prints the tables of the studies, from the lines that measure-cases printed.
+"""Prints the tables of the studies from the lines that measure-cases printed.
 
     build/bin/measure-cases 'efficiency/*/target' --seeds 24 >efficiency.jsonl
     python examples/python/study_tables.py efficiency.jsonl
@@ -11,8 +11,8 @@
     build/bin/measure-cases 'efficiency/*/target' --method published --seeds 20 >table2.jsonl
     python examples/python/study_tables.py --paper table2.jsonl
 
-Each study has its table: study_efficiency.py, study_robustness.py, study_sensors.py and study_check.py say what its
-columns are; --paper sets the efficiency study beside Tables 2 and 3 of Sur & Grédiac 2015 (study_paper.py).
+Each study has its own table. Its columns are explained in study_efficiency.py, study_robustness.py, study_sensors.py
+and study_check.py. --paper prints the efficiency study next to Tables 2 and 3 of Sur & Grédiac 2015 (study_paper.py).
 """
 
 import argparse
