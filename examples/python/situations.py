@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Bursts that NumPy makes, with a camera model of its own: lines of measure_acceptance.py.
+"""Makes bursts with NumPy, with an independent camera model: lines of measure_acceptance.py.
 
 A situation is a function that makes a burst with known true values. Each module situations_*.py has the situations of
 one kind in SITUATIONS. situations_all.py lists the modules.
@@ -15,20 +15,20 @@ from acceptance_lines import MEASURED
 SHAPE = (200, 240)  # rows and columns [pixels]
 FRAMES = 60
 GAIN, READ_NOISE = 0.5, 3.0  # [DN/e-], [DN]
-OFFSET = {12: 100.0, 16: 4000.0}  # by the bits of the converter [DN]
-ELECTRONS = 5000.0  # of the brightest pixel [e-]
+OFFSET = {12: 100.0, 16: 4000.0}  # dark offset by the bits of the converter [DN]
+ELECTRONS = 5000.0  # expected electrons of the brightest pixel [e-]
 FLICKER = 0.01  # standard deviation of the illumination factor [1]
-DARKEST = 0.02  # signal of the darkest pixel of a scene over that of the brightest [1]
+DARKEST = 0.02  # signal of the darkest pixel of a scene over the signal of the brightest pixel [1]
 
 
 class Burst(NamedTuple):
-    """A burst and its truth. A quantity that the situation does not define is None, and is not compared."""
+    """Burst and its true values. A quantity that the situation does not define is None, and is not compared."""
 
-    frames: np.ndarray  # (t, y, x), of the type in which the estimator gets them
+    frames: np.ndarray  # (t, y, x), in the pixel type that the estimator gets
     gain: float | None = GAIN  # [DN/e-]
     offset: float | None = None  # [DN]
     read_noise: float | None = None  # without quantization noise [DN]
-    linearity_error: float | None = None  # by the exposures that options give [%]
+    linearity_error: float | None = None  # linearity error by the exposures in options [%]
     unlike_frames: tuple[int, ...] | None = None  # frames to be left out; None: not compared
     signal_range: float = GAIN * ELECTRONS  # brightest signal less the offset [DN]
     dark: np.ndarray | None = None  # dark frames (t, y, x)
@@ -36,41 +36,43 @@ class Burst(NamedTuple):
 
 
 class Situation(NamedTuple):
-    """A line of the table. make gets the random generator and the expected electrons of the scene (y, x), of 0 to 1
-    times ELECTRONS; None of a situation without a scene of SCENES."""
+    """Line of the table.
+
+    make gets the random generator and the expected electrons of the scene (y, x), from 0 to ELECTRONS. They are None
+    for a situation without a scene of SCENES."""
 
     name: str  # kind/strength, such as dark/planet-4%
     make: Callable[[np.random.Generator, np.ndarray | None], Burst]
     expected: str = MEASURED
-    scenes: tuple[str, ...] = ()  # of SCENES; none: the situation has its own
+    scenes: tuple[str, ...] = ()  # names in SCENES; none: the situation makes its scene
 
 
 def smooth(image, radius):
-    """The image with a periodic Gaussian blur of this standard deviation [pixels]."""
+    """Returns the image with a periodic Gaussian blur of this standard deviation [pixels]."""
     y, x = (np.fft.fftfreq(size) for size in image.shape)
     transfer = np.exp(-2 * (np.pi * radius) ** 2 * (y[:, None] ** 2 + x[None, :] ** 2))
     return np.fft.ifft2(np.fft.fft2(image) * transfer).real
 
 
 def scaled(image, lowest=DARKEST, highest=1.0):
-    """The image, stretched linearly to these limits."""
+    """Returns the image, scaled linearly to these limits."""
     low, high = image.min(), image.max()
     return lowest + (highest - lowest) * (image - low) / (high - low)
 
 
 def texture(random, shape=SHAPE):
-    """A texture with structure of all sizes, smooth over 3 pixels."""
+    """Returns a texture with structure of all sizes from 1.5 to 40 pixels [1]."""
     return scaled(sum(scaled(smooth(random.normal(size=shape), radius)) for radius in (1.5, 4.0, 12.0, 40.0)))
 
 
 def patches(random, shape=SHAPE):
-    """A chart of even patches, 20 pixels wide, with soft edges."""
+    """Returns a chart of uniform tiles, 20 pixels wide, with soft edges [1]."""
     levels = random.uniform(size=(-(-shape[0] // 20), -(-shape[1] // 20)))
     return scaled(smooth(np.kron(levels, np.ones((20, 20)))[: shape[0], : shape[1]], 1.0))
 
 
 def ramp(_random, shape=SHAPE):
-    """A brightness that rises across the frame."""
+    """Returns a brightness that increases across the frame [1]."""
     y, x = np.indices(shape)
     return scaled(x / shape[1] + 0.3 * y / shape[0])
 
@@ -79,17 +81,17 @@ SCENES = {"texture": texture, "patches": patches, "ramp": ramp}
 
 
 def electrons_of(scene, random, electrons=ELECTRONS):
-    """The expected electrons (y, x) of a scene of SCENES."""
+    """Returns the expected electrons (y, x) of a scene of SCENES."""
     return electrons * SCENES[scene](random)
 
 
 def illumination(random, frames=FRAMES, flicker=FLICKER):
-    """Illumination factors of the frames, normal about 1."""
+    """Returns the illumination factors of the frames, normal with the mean 1."""
     return 1 + flicker * random.normal(size=frames)
 
 
 def expose(random, electrons, factors, gain=GAIN, offset=OFFSET[12], read_noise=READ_NOISE):
-    """Frames (t, y, x) in DN, not yet rounded: gain x Poisson electrons + offset + normal read noise.
+    """Returns frames (t, y, x) in DN before rounding: gain x Poisson electrons + offset + normal read noise.
 
     electrons: expected electrons (y, x); factors: illumination factor of each frame; gain, offset and read_noise may be
     images (y, x)."""
@@ -99,12 +101,12 @@ def expose(random, electrons, factors, gain=GAIN, offset=OFFSET[12], read_noise=
 
 
 def digitise(frames, bits=12, dtype=np.uint16):
-    """The frames as whole numbers of a converter that clips at 0 and at 2^bits - 1 [DN]."""
+    """Returns the frames as whole numbers of a converter that clips at 0 and at 2^bits - 1 [DN]."""
     return np.clip(np.rint(frames), 0, 2**bits - 1).astype(dtype)
 
 
 def plain(random, electrons, bits=12):
-    """A burst of a good camera, the one that all situations vary."""
+    """Returns a burst of a good camera, which the other situations vary."""
     frames = expose(random, electrons, illumination(random, FRAMES), offset=OFFSET[bits])
     return Burst(digitise(frames, bits), offset=OFFSET[bits], read_noise=READ_NOISE, unlike_frames=())
 

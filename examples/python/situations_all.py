@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Measures the situations of all situations_*.py: one stack each, as the other lines of measure_acceptance.py."""
+"""Measures the situations of all situations_*.py, one stack each, like the other lines of measure_acceptance.py."""
 
 import hashlib
 import tempfile
@@ -48,7 +48,7 @@ TYPES = {
     "int16": "MET_SHORT",
     "float32": "MET_FLOAT",
     "float64": "MET_DOUBLE",
-}  # of MetaImage, by NumPy's name
+}  # element types of MetaImage, by NumPy's names
 
 
 def all_situations():
@@ -56,14 +56,14 @@ def all_situations():
 
 
 def quantity_at(report, path):
-    """The quantity at a path of a report; empty where the report does not have it."""
+    """Returns the quantity at a path of a report; empty if the report does not have it."""
     for name in path:
         report = report.get(name) or {}
     return report
 
 
 def write_stack(name, frames):
-    """Writes frames (t, y, x) of a type of TYPES as an uncompressed MetaImage."""
+    """Writes frames (t, y, x) with a pixel type of TYPES as an uncompressed MetaImage."""
     size = " ".join(map(str, frames.shape[::-1]))
     words = f"ObjectType = Image\nNDims = 3\nDimSize = {size}\nElementType = {TYPES[frames.dtype.name]}\n"
     words += "BinaryData = True\nBinaryDataByteOrderMSB = False\nElementDataFile = LOCAL\n"
@@ -73,13 +73,13 @@ def write_stack(name, frames):
 
 
 def make(situation, scene, number):
-    """Makes the burst of a situation: stack `number` of this scene."""
+    """Returns the burst of a situation: stack `number` of this scene."""
     random = np.random.default_rng(stream_of(f"{situation.name} {scene}", number))
     return situation.make(random, situations.electrons_of(scene, random) if scene else None)
 
 
 def measure(programs, situation, scene, number):
-    """Makes a burst, estimates it, and judges the report."""
+    """Makes a burst, estimates its noise, and tests the report."""
     burst = make(situation, scene, number)
     with tempfile.TemporaryDirectory(prefix="situation-") as folder:
         stack, dark = Path(folder, "burst.mha"), Path(folder, "dark.mha")
@@ -99,7 +99,7 @@ def measure(programs, situation, scene, number):
 
 
 def bursts(seeds):
-    """All situations with their scenes and seeds, from 1."""
+    """Returns all situations with their scenes and the seeds from 1 to `seeds`."""
     return [
         (situation, scene, seed)
         for situation in all_situations()
@@ -109,6 +109,6 @@ def bursts(seeds):
 
 
 def recipe():
-    """What determines the bursts beside situation, scene and seed: the source of the modules that make them."""
+    """Returns the hash of the modules that make the bursts. With situation, scene and seed it determines them."""
     sources = b"".join(Path(module.__file__).read_bytes() for module in MODULES)
     return f"situations {hashlib.sha256(sources).hexdigest()[:12]}"

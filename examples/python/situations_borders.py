@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Borders that are no part of the scene: optical-black columns and rows, masked regions, test rows.
+"""Makes bursts with borders that are not part of the scene: optical-black columns and rows, masked regions, test rows.
 
-The true values are those of the pixels of the scene.
+The true values are for the pixels of the scene.
 """
 
 import numpy as np
@@ -12,7 +12,7 @@ BITS = 12
 
 
 def bordered(random, electrons, cover):
-    """A burst whose border cover(light, offset, noise) changes in place: images (y, x)."""
+    """Returns a burst with a border. cover(light, offset, noise) changes these images (y, x) in place."""
     light = electrons.copy()
     offset = np.full(light.shape, OFFSET[BITS])
     noise = np.full(light.shape, READ_NOISE)
@@ -22,7 +22,7 @@ def bordered(random, electrons, cover):
 
 
 def black_columns(columns, below):
-    """Optical-black columns at the left, so many DN below the pixels without light."""
+    """Covers optical-black columns at the left. They are `below` DN below the pixels without signal."""
 
     def cover(light, offset, _noise):
         light[:, :columns] = 0
@@ -32,7 +32,7 @@ def black_columns(columns, below):
 
 
 def black_frame(columns, rows, below):
-    """Masked regions at both sides, above and below."""
+    """Covers masked regions at both sides, at the top and at the bottom."""
 
     def cover(light, offset, _noise):
         masked = np.ones(light.shape, bool)
@@ -44,7 +44,7 @@ def black_frame(columns, rows, below):
 
 
 def test_rows(rows, level):
-    """Rows at the bottom that hold a test level with a noise of their own, and no light."""
+    """Makes rows at the bottom that hold a test level with its own noise, and no signal."""
 
     def cover(light, offset, noise):
         light[-rows:] = 0

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Two amplifiers of one pixel: dual-gain sCMOS and HDR sensors, which read bright samples with less amplification.
+"""Makes bursts of pixels with two amplifiers: dual-gain sCMOS and HDR sensors, which amplify bright samples less.
 
-The true gain is the mean over the pixels, offset and read noise are those of the amplifier of the dark levels.
+The true gain is the mean over the pixels. True offset and read noise are for the amplifier of the dark levels.
 """
 
 import numpy as np
@@ -14,9 +14,9 @@ BRIGHT_NOISE = 12.0  # read noise of the amplifier of the bright levels [DN]
 
 
 def branches(random, electrons, mismatch, switch, bright_noise=BRIGHT_NOISE):
-    """Samples above a level come from the second amplifier, whose signal differs.
+    """Returns a burst in which samples above a level come from the second amplifier, whose signal deviates.
 
-    mismatch: by how much, relative to the signal; switch: fraction of the pixels below."""
+    mismatch: relative deviation of its signal; switch: fraction of the pixels below the level."""
     factors = illumination(random)
     signal = GAIN * random.poisson(factors[:, None, None] * electrons[None])
     level = GAIN * np.quantile(electrons, switch)

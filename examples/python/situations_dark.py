@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Scenes of which most is dark: a small illuminated part on a background of little or no signal, without motion."""
+"""Makes mostly dark scenes: a small illuminated part on a background of little or no signal, without motion."""
 
 import numpy as np
 from situations import (
@@ -20,11 +20,11 @@ from situations import (
 )
 
 BITS = 12
-PRNU, DSNU_DN = 0.007, 1.0  # fixed pattern of the pixels: relative gain [1], offset [DN]
+PRNU, DSNU_DN = 0.007, 1.0  # fixed-pattern noise: PRNU [1], DSNU [DN]
 
 
 def disc(random, area):
-    """A disc of this relative area, darker towards its limb, with a texture: a planet."""
+    """Returns a textured disc of this relative area that darkens towards its limb: a planet [1]."""
     y, x = np.indices(SHAPE)
     radius = np.sqrt(area * SHAPE[0] * SHAPE[1] / np.pi)
     distance = np.hypot(y - SHAPE[0] / 2, x - SHAPE[1] / 2) / radius
@@ -33,7 +33,7 @@ def disc(random, area):
 
 
 def displays(random, area):
-    """Four displays of different brightness, with dark lines of text."""
+    """Returns four displays of different brightness, with dark lines of text [1]."""
     image = np.zeros(SHAPE)
     height, width = (int(size * np.sqrt(area / 4)) for size in SHAPE)
     for top in (0.2, 0.6):
@@ -46,7 +46,7 @@ def displays(random, area):
 
 
 def bands(random, area):
-    """Bright bands of a gel, with smooth profiles across its lanes."""
+    """Returns bright bands of a gel, with smooth profiles across its lanes [1]."""
     image = np.zeros(SHAPE)
     y = np.arange(SHAPE[0])
     for lane in range(6):
@@ -58,7 +58,7 @@ def bands(random, area):
 
 
 def square_and_wedge(random, area):
-    """One bright square, and a grey wedge of 2 % of the frame."""
+    """Returns one bright square, and a grey wedge of 2 % of the frame [1]."""
     image = np.zeros(SHAPE)
     side = int(np.sqrt(area * SHAPE[0] * SHAPE[1]))
     image[30 : 30 + side, 40 : 40 + side] = 1.0
@@ -67,14 +67,14 @@ def square_and_wedge(random, area):
 
 
 def stars(random, count):
-    """Stars of very different brightness."""
+    """Returns stars of very different brightness."""
     image = np.zeros(SHAPE)
     image[random.integers(0, SHAPE[0], count), random.integers(0, SHAPE[1], count)] = random.pareto(1.2, count)
     return np.minimum(smooth(image, 2.0), np.quantile(image, 0.998))
 
 
 def dark_scene(random, scene, floor, electrons=ELECTRONS, flicker=0.01):
-    """A burst of a scene over a floor of this fraction of the maximum, with the fixed pattern of the pixels."""
+    """Returns a burst of a scene on a background of this fraction of the maximum, with fixed-pattern noise."""
     illuminated = electrons * scaled(np.maximum(scene, 0.0), floor, 1.0) * (1 + PRNU * random.normal(size=SHAPE))
     offset = OFFSET[BITS] + DSNU_DN * random.normal(size=SHAPE)
     factors = illumination(random, FRAMES, flicker)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Bursts with frames unlike the others, and exposure series of a camera whose response is not linear."""
+"""Makes bursts with frames unlike the others, and exposure series of a camera with a non-linear response."""
 
 from functools import partial
 
@@ -22,19 +22,19 @@ from situations import (
 )
 
 BITS = 12
-HIGHEST = 2**BITS - 1  # [DN]
-OTHER_GAIN, OTHER_OFFSET_DN = 1.5, 40.0  # of frames that were read in another way: factor, and DN above the offset
-DIP_DEPTH, DIP_RADIUS = 0.12, 0.3  # of the illumination [1], and its standard deviation over the frame's width
+HIGHEST = 2**BITS - 1  # highest digital number [DN]
+OTHER_GAIN, OTHER_OFFSET_DN = 1.5, 40.0  # of frames read differently: factor [1], and increase of the offset [DN]
+DIP_DEPTH, DIP_RADIUS = 0.12, 0.3  # decrease of the illumination [1], standard deviation over the frame width [1]
 SHADOW = 0.6  # illumination factor in a shadow that covers a quarter of the frame [1]
 
 
 def another_scene(random, electrons):
-    """Another texture, as after a shutter or a filter wheel moved."""
+    """Returns another texture, as after a movement of a shutter or a filter wheel."""
     return expose(random, electrons_of("patches", random), [1.0])[0]
 
 
 def dip(random, electrons):
-    """An illumination of another shape: a smooth dip in the middle."""
+    """Returns a frame with an illumination of another shape: a smooth dip in the middle."""
     y, x = np.indices(electrons.shape)
     squared = (x - electrons.shape[1] / 2) ** 2 + (y - electrons.shape[0] / 2) ** 2
     factor = 1 - DIP_DEPTH * np.exp(-squared / (2 * (DIP_RADIUS * electrons.shape[1]) ** 2))
@@ -42,14 +42,14 @@ def dip(random, electrons):
 
 
 def shadow(random, electrons):
-    """A shadow with a sharp edge."""
+    """Returns a frame with a sharp shadow over a quarter of it."""
     factor = np.ones(electrons.shape)
     factor[: electrons.shape[0] // 2, : electrons.shape[1] // 2] = SHADOW
     return expose(random, electrons * factor, [1.0])[0]
 
 
 def another_camera(random, electrons, **settings):
-    """The scene by a camera of other settings."""
+    """Returns a frame of the scene from a camera with other settings."""
     return expose(random, electrons, [1.0], **settings)[0]
 
 
@@ -65,7 +65,7 @@ UNLIKE = {
 
 
 def with_unlike(random, electrons, kind, count):
-    """A burst in which `count` frames at any place are of a kind of UNLIKE."""
+    """Returns a burst in which `count` frames at random places are of a kind of UNLIKE."""
     frames = expose(random, electrons, illumination(random))
     places = sorted(int(place) for place in random.choice(FRAMES, count, replace=False))
     for place in places:
@@ -74,7 +74,7 @@ def with_unlike(random, electrons, kind, count):
 
 
 def linearity_error(levels, exposures, dark, saturation):
-    """EMVA 1288's linearity error [%] (Release 4.0 Linear, equations 62 and 63), of levels without noise."""
+    """Returns EMVA 1288's linearity error [%] (Release 4.0 Linear, equations 62 and 63) of levels without noise."""
     signal = levels - dark
     used = (signal >= 0.05 * (saturation - dark)) & (signal <= 0.95 * (saturation - dark))
     design = np.stack([np.ones(used.sum()), exposures[used]], axis=1) / signal[used, None]
@@ -84,7 +84,7 @@ def linearity_error(levels, exposures, dark, saturation):
 
 
 def exposure_series(random, bend, has_dark):
-    """Eight exposures of five frames of a flat field. The signal is compressed by `bend` [1] at saturation."""
+    """Returns eight exposures of five frames of a flat field. The signal is compressed by `bend` [1] at saturation."""
     full = (HIGHEST - OFFSET[BITS]) / GAIN
     steps = np.linspace(0.0 if has_dark else 0.08, 0.88, 8)
     exposures = np.repeat(steps, 5)

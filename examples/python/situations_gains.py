@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Bursts whose frames have several gains or dark offsets, or were interpolated between their neighbours."""
+"""Makes bursts whose frames have several gains or dark offsets, or are interpolated between their neighbours."""
 
 import numpy as np
 from acceptance_lines import MAY_REFUSE, MEASURED, MUST_REFUSE
@@ -17,24 +17,25 @@ from situations import (
     illumination,
 )
 
-BITS = 16  # frames of four times the gain do not saturate
+BITS = 16  # frames with four times the gain do not saturate
 HALF = np.arange(FRAMES) >= FRAMES // 2
 EVERY_SECOND = np.arange(FRAMES) % 2 == 1
-WEIGHTS = {"even": (0.5, 0.5), "uneven": (0.3, 0.7)}  # of the frames before and after an interpolated one
-CLEAR_STEP_DN = 10.0  # of the dark offset
-GROUP = FRAMES // 2  # frames of another dark offset, of those that are too many to be left out
+WEIGHTS = {"even": (0.5, 0.5), "uneven": (0.3, 0.7)}  # weights of the frames before and after an interpolated frame
+CLEAR_STEP_DN = 10.0  # step of the dark offset [DN]
+GROUP = FRAMES // 2  # frames with another dark offset that are too many to be left out
 
 
 def some(random, count):
-    """Whether a frame is one of so many at any place."""
+    """Returns a mask of `count` frames at random places."""
     chosen = np.zeros(FRAMES, bool)
     chosen[random.choice(FRAMES, count, replace=False)] = True
     return chosen
 
 
 def with_gains(random, electrons, other, gain, exposure, is_named=False):
-    """Frames `other` have so many times the gain and the exposure. The true gain is the mean over the frames that
-    count. One frame of another level has all of the flicker and leaves no residual: it need not be named."""
+    """Returns a burst in which the frames `other` have multiples of the gain and the exposure. The true gain is the
+    mean over the frames that count. A single frame of another level contains the whole flicker and leaves no residual,
+    so it need not be named."""
     factors = illumination(random) * np.where(other, exposure, 1.0)
     frames = expose(random, electrons, factors, gain=GAIN * np.where(other, gain, 1.0)[:, None, None], offset=0.0)
     frames += OFFSET[BITS]
@@ -48,7 +49,7 @@ def with_gains(random, electrons, other, gain, exposure, is_named=False):
 
 
 def interpolated(random, electrons, every, weights):
-    """Every so many frames one is a weighted mean of its neighbours."""
+    """Returns a burst in which one of every so many frames is a weighted mean of its neighbours."""
     frames = expose(random, electrons, illumination(random), offset=OFFSET[BITS])
     places = tuple(range(1, FRAMES - 1, every))
     for place in places:
@@ -58,8 +59,8 @@ def interpolated(random, electrons, every, weights):
 
 
 def with_offsets(random, electrons, other, offset):
-    """Frames `other` have a dark offset that is so many DN higher. They need not be named if they are many, or the step
-    is within the noise of a scene without dark places."""
+    """Returns a burst in which the dark offset of the frames `other` is increased [DN]. They need not be named if they
+    are many, or if the step is within the noise of a scene without dark places."""
     shift = offset * other
     few = other.sum() <= FRAMES // 5
     is_named = few and offset >= CLEAR_STEP_DN
@@ -126,7 +127,7 @@ SITUATIONS = (
         situation(
             f"offsets/{count}-frames-{offset:g}",
             lambda r, e, count=count, offset=offset: with_offsets(r, e, some(r, count), offset),
-            scenes=("texture", "patches"),  # on a ramp motion changes all levels alike, as an offset does
+            scenes=("texture", "patches"),  # on a ramp, motion changes all levels equally, like an offset
         )
         for count in (1, 3, 8, GROUP)
         for offset in (5.0, 15.0, 40.0)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Good cameras that are easily refused: lamps that pulse, interlaced read-out, interference, 8 bits, haze, patterns."""
+"""Makes bursts of good cameras that are easily rejected: pulsing lamps, interlaced read-out, interference, haze."""
 
 import numpy as np
 from acceptance_lines import MAY_REFUSE, MEASURED
@@ -25,20 +25,21 @@ BITS = 12
 
 
 def burst(frames, bits=BITS, **truth):
-    """The frames as a converter reads them, with the usual truth."""
+    """Returns the frames as a converter reads them, with the default true values."""
     return Burst(digitise(frames, bits), **({"offset": OFFSET[bits], "read_noise": READ_NOISE} | truth))
 
 
 def expose_each(random, rates, **camera):
-    """Frames of a camera, each with its own expected electrons (t, y, x)."""
+    """Returns frames of a camera, each with its own expected electrons (t, y, x)."""
     return np.concatenate([expose(random, rate, [1.0], **camera) for rate in rates])
 
 
 def rolling_shutter(random, electrons, strength, period=0.37):
-    """Rows that are exposed one after the other under a lamp that is on for half of its period: hard bands.
+    """Returns frames whose rows are exposed one after the other under a lamp that is on for half of its period. They
+    have sharp bands.
 
-    strength: change of the illumination from the one state of a row to the other, relative; period: of the lamp, over
-    the time from the first row to the last."""
+    strength: relative change of the illumination between the two states of a row; period: period of the lamp, over the
+    time from the first row to the last."""
     rows = np.arange(SHAPE[0]) / SHAPE[0]
     phase = random.uniform(size=FRAMES)
     state = ((rows[None] / period + phase[:, None]) % 1 < 0.5) - 0.5
@@ -47,13 +48,14 @@ def rolling_shutter(random, electrons, strength, period=0.37):
 
 
 def turned(random, electrons, strength):
-    """The frames of rolling_shutter() after a quarter turn, as of a camera that was held upright."""
+    """Returns the frames of rolling_shutter() after a quarter turn, as from a camera that was held upright."""
     lying = rolling_shutter(random, electrons, strength)
     return lying._replace(frames=np.ascontiguousarray(lying.frames.transpose(0, 2, 1)))
 
 
 def interlaced(random, electrons, flicker):
-    """Even rows are exposed at another moment than odd ones: two fields, each with its own illumination factor."""
+    """Returns frames of two fields: even and odd rows are exposed at different moments, with independent illumination
+    factors."""
     factors = np.empty((FRAMES, SHAPE[0], 1))
     factors[:, 0::2, 0] = illumination(random, flicker=flicker)[:, None]
     factors[:, 1::2, 0] = illumination(random, flicker=flicker)[:, None]
@@ -61,7 +63,8 @@ def interlaced(random, electrons, flicker):
 
 
 def interference(random, electrons, strength):
-    """Pickup of one frequency: diagonal stripes of another phase in each frame, of this rms over the read noise."""
+    """Returns frames with diagonal stripes of one frequency and a random phase in each frame, of this rms over the read
+    noise [1]."""
     y, x = np.indices(SHAPE)
     phase = random.uniform(0, 2 * np.pi, FRAMES)
     stripes = np.sin(2 * np.pi * (0.173 * x + 0.091 * y)[None] + phase[:, None, None])
@@ -70,8 +73,8 @@ def interference(random, electrons, strength):
 
 
 def eight_bits(random, electrons, highest):
-    """A camera of machine vision: 8 bits, so many electrons a digital number that the noise of dark pixels is below
-    half a step.
+    """Returns a burst of a machine-vision camera with 8 bits. It has so many electrons per digital number that the
+    noise of dark pixels is below half a quantization step.
 
     highest: electrons of the brightest pixel [e-]."""
     gain, bright = 220 / highest, highest / ELECTRONS * electrons
@@ -80,14 +83,15 @@ def eight_bits(random, electrons, highest):
 
 
 def shifted(image, dx, dy):
-    """The image, moved by dx and dy, by Fourier's shift theorem [pixels]."""
+    """Returns the image, moved by dx and dy with the Fourier shift theorem [pixels]."""
     y, x = (np.fft.fftfreq(size) for size in image.shape)
     spectrum = np.fft.fft2(image) * np.exp(-2j * np.pi * (y[:, None] * dy + x[None, :] * dx))
     return np.fft.ifft2(spectrum).real
 
 
 def haze(random, electrons, rms):
-    """Heat haze: every place is moved by its own random path, smooth over 30 pixels [pixels rms]."""
+    """Returns a burst in heat haze. Each frame has an independent random displacement of this rms [pixels], which is
+    smooth over 15 pixels (standard deviation of a Gaussian)."""
     by, bx = np.gradient(electrons)
     factors, frames = illumination(random), []
     for factor in factors:
@@ -98,7 +102,7 @@ def haze(random, electrons, rms):
 
 
 def fixed_pattern(random, _electrons, strength):
-    """Offsets of the pixels that differ by this standard deviation over the read noise, under a signal of 15 e-."""
+    """Returns a burst with a DSNU of this standard deviation over the read noise [1]; the signal is at most 15 e-."""
     offsets = OFFSET[BITS] + strength * READ_NOISE * random.normal(size=SHAPE)
     return faint(random, _electrons, offset=offsets)
 
@@ -111,19 +115,19 @@ def faint(random, electrons, offset=OFFSET[BITS], highest=15.0):
 
 
 def half_noisier(random, electrons, ratio):
-    """The right half of the sensor has this many times the read noise of the left one."""
+    """Returns a burst in which the right half of the sensor has this multiple of the read noise of the left half."""
     read_noise = np.where(np.arange(SHAPE[1])[None] < SHAPE[1] // 2, READ_NOISE, ratio * READ_NOISE)
     return burst(expose(random, electrons, illumination(random), read_noise=read_noise), read_noise=None)
 
 
 def counting(random, electrons, highest):
-    """A detector that counts: whole photons from 0 on, no offset, no read noise."""
+    """Returns a burst of a photon-counting detector: whole photons from 0 on, without offset and read noise."""
     counts = expose(random, highest / ELECTRONS * electrons, illumination(random), gain=1.0, offset=0.0, read_noise=0.0)
     return Burst(digitise(counts, 16), gain=1.0, offset=None, signal_range=highest)
 
 
 def text(random, highest):
-    """A page of text: black strokes on white paper, at the limit of the optics."""
+    """Returns a page of text: black strokes on white paper, at the limit of the optics."""
     page = np.ones(SHAPE)
     for top in range(8, SHAPE[0] - 12, 16):
         for left in range(8, SHAPE[1] - 10, 9):

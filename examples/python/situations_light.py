@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Illumination of more independent components than the estimator projects out, and scenes that are none.
+"""Makes illuminations with more independent components than the estimator projects out, and scenes that are not static.
 
-Cells that flash one by one, light-emitting diodes that pulse in bands of a few states, rain, caustics, and frames with
-skipped blocks.
+They are cells that flash one by one, light-emitting diodes that pulse in bands of a few states, rain, caustics, and
+frames with skipped blocks.
 """
 
 import numpy as np
@@ -13,14 +13,15 @@ BITS = 12
 
 
 def changing(random, light):
-    """A burst of the expected electrons (t, y, x)."""
+    """Returns a burst of the expected electrons (t, y, x)."""
     signal = GAIN * random.poisson(light)
     frames = signal + OFFSET[BITS] + READ_NOISE * random.normal(size=signal.shape)
     return Burst(digitise(frames, BITS), offset=OFFSET[BITS], read_noise=READ_NOISE)
 
 
 def calcium(random, electrons, amplitude):
-    """A quarter of the area in cells of 8 pixels, each with transients of its own, which decay over 8 frames."""
+    """Returns a burst in which cells of 8 pixels cover a quarter of the area. Each cell has transients that decay over
+    8 frames."""
     light = illumination(random)[:, None, None] * electrons[None]
     y, x = np.indices(SHAPE)
     kernel = np.exp(-np.arange(FRAMES) / 8.0)
@@ -33,7 +34,8 @@ def calcium(random, electrons, amplitude):
 
 
 def bands(random, electrons, depth):
-    """Light-emitting diodes in three states, whose bands move at random under a rolling shutter."""
+    """Returns a burst under light-emitting diodes with three states, whose bands move at random under a rolling
+    shutter."""
     rows = np.arange(SHAPE[0])
     factors = []
     for _ in range(FRAMES):
@@ -43,7 +45,7 @@ def bands(random, electrons, depth):
 
 
 def rain(random, electrons, drops):
-    """Streaks of rain, which brighten other pixels in every frame."""
+    """Returns a burst with streaks of rain, which brighten other pixels in every frame."""
     light = illumination(random)[:, None, None] * electrons[None]
     for t in range(FRAMES):
         streaks = np.zeros(SHAPE)
@@ -55,7 +57,8 @@ def rain(random, electrons, drops):
 
 
 def caustics(random, electrons, rms):
-    """Illumination through moving water: a pattern of 6 pixels, another one in every frame, of this relative rms."""
+    """Returns a burst under moving water: a pattern of 6 pixels that is independent in every frame, with this relative
+    rms."""
     light = illumination(random)[:, None, None] * electrons[None]
     for t in range(FRAMES):
         pattern = smooth(random.normal(size=SHAPE), 3.0)
@@ -64,7 +67,7 @@ def caustics(random, electrons, rms):
 
 
 def skipped(random, electrons, fraction):
-    """A video coder that repeats blocks of 8 x 8 pixels of the frame before, this fraction of them."""
+    """Returns a burst of a video coder that repeats this fraction of the 8 x 8 blocks of the previous frame."""
     burst = changing(random, illumination(random)[:, None, None] * electrons[None])
     frames = burst.frames.copy()
     for t in range(1, FRAMES):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Sensors of unlike parts: amplifiers, stitched blocks, two cameras, mosaics given as mono, divided vignetting.
+"""Makes bursts of sensors with unlike parts: amplifiers, stitched blocks, two cameras, mosaics given as mono.
 
 The true gain is the mean over the pixels.
 """
@@ -20,11 +20,11 @@ from situations import (
     illumination,
 )
 
-BITS = 16  # gains of twice the usual one do not saturate
+BITS = 16  # twice the usual gain does not saturate
 
 
 def burst(random, electrons, relative, offset=0.0):
-    """A burst of a sensor whose gain is GAIN times the image relative; offset: by how much that differs [DN]."""
+    """Returns a burst of a sensor whose gain is GAIN times the image relative; offset: deviation of the offset [DN]."""
     relative = relative / relative.mean()
     frames = expose(
         random,
@@ -38,50 +38,51 @@ def burst(random, electrons, relative, offset=0.0):
 
 
 def blocks(values, shape=SHAPE):
-    """The values (rows, columns), each over a block of the frame."""
+    """Returns the values (rows, columns) as an image, each over a block of the frame."""
     y, x = np.indices(shape)
     values = np.asarray(values, float)
     return values[y * values.shape[0] // shape[0], x * values.shape[1] // shape[1]]
 
 
 def phases(values, shape=SHAPE):
-    """The values (rows, columns), repeated over the frame."""
+    """Returns the values (rows, columns) as an image, repeated over the frame."""
     values = np.asarray(values, float)
     y, x = np.indices(shape)
     return values[y % values.shape[0], x % values.shape[1]]
 
 
 def quadrants(random, electrons, strength):
-    """Four amplifiers of other gains and offsets."""
+    """Returns a burst with four amplifiers of different gains and offsets."""
     relative = 1 + strength * np.array([[-5, 4], [1, -2]]) / 100
     return burst(random, electrons, blocks(relative), blocks([[0, 3], [-2, 1]]))
 
 
 def stitched(random, electrons, rms):
-    """Stitched 4 x 4 blocks, whose gains differ by this standard deviation."""
+    """Returns a burst of 4 x 4 stitched blocks whose gains differ by this standard deviation [1]."""
     return burst(random, electrons, blocks(1 + rms * random.normal(size=(4, 4))))
 
 
 def stereo(random, electrons, difference):
-    """Two cameras side by side."""
+    """Returns a burst of two cameras side by side."""
     return burst(random, electrons, blocks([[1, 1 + difference]]))
 
 
 def balanced(random, electrons, strength):
-    """A white-balanced mosaic of a grey scene: equal levels, amplified by unlike factors."""
+    """Returns a white-balanced mosaic of a grey scene: equal levels that are amplified by unlike factors."""
     factors = 1 + strength * np.array([[0.5, 0.0], [0.0, 0.9]])
     return burst(random, electrons / phases(factors), phases(factors))
 
 
 def autofocus(random, electrons, factor):
-    """One pixel of 4 x 4 has another gain."""
+    """Returns a burst in which one pixel of each 4 x 4 pixels has another gain."""
     factors = np.ones((4, 4))
     factors[1, 2] = factor
     return burst(random, electrons, phases(factors))
 
 
 def vignetting(random, electrons, fall):
-    """Vignetting that was divided out: the corners lose this fraction of the light, and the frames get it back."""
+    """Returns a burst with corrected vignetting: the corners lose this fraction of the signal, and the frames are
+    divided by it."""
     y, x = np.indices(SHAPE)
     square = ((x / SHAPE[1] - 0.5) ** 2 + (y / SHAPE[0] - 0.5) ** 2) / 0.5
     light = 1 - fall * square

@@ -1,10 +1,9 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Noise that neighbours share: filtered before and after the read-out, several counts an event, enlarged and
-demosaiced frames.
+"""Makes bursts with spatially correlated noise: filters before and after the read-out, enlarged and demosaiced frames.
 
-A filter whose weights sum to 1 keeps the sum of the covariances over all lags; true values are those before it. In
-enlarged frames there are fewer samples than pixels, and the frames do not determine the gain.
+A filter whose weights sum to 1 keeps the total covariance over lags. The true values are the values before the filter.
+Enlarged frames have fewer samples than pixels, and do not determine the gain.
 """
 
 import numpy as np
@@ -25,17 +24,17 @@ from situations import (
     smooth,
 )
 
-BITS = 16  # fine steps: what the rounding adds is not filtered
+BITS = 16  # fine steps: the quantization noise is not filtered
 
 
 def gaussian(frames, radius):
-    """The frames with a periodic Gaussian blur of this standard deviation [pixels]."""
+    """Returns the frames with a periodic Gaussian blur of this standard deviation [pixels]."""
     return np.stack([smooth(frame, radius) for frame in frames])
 
 
 def filtered(random, electrons, radius, after):
-    """Frames that are blurred between two parts of the read noise, of which `after` is the later one's variance over
-    that of both [1]."""
+    """Returns frames that are blurred between two parts of the read noise. `after` is the variance of the later part
+    over the variance of both [1]."""
     before = np.sqrt(1 - after) * READ_NOISE
     frames = expose(random, electrons, illumination(random), offset=OFFSET[BITS], read_noise=before)
     frames = gaussian(frames, radius) + np.sqrt(after) * READ_NOISE * random.normal(size=frames.shape)
@@ -43,7 +42,8 @@ def filtered(random, electrons, radius, after):
 
 
 def intensified(random, electrons, counts, radius):
-    """Each event releases Poisson `counts` quanta, spread by a Gaussian: the sum over lags is the gain of an event."""
+    """Returns frames in which each event releases a Poisson number of quanta with the mean `counts`, spread by a
+    Gaussian. The total covariance over lags gives the gain of an event."""
     factors = illumination(random)
     events = random.poisson(factors[:, None, None] * electrons / counts)
     expected = np.maximum(gaussian(counts * events, radius), 0)
@@ -60,7 +60,7 @@ def tent(distance):
 
 
 def cubic(distance):
-    """The kernel of Keys 1981 with a = -1/2."""
+    """Returns the kernel of Keys 1981 with a = -1/2."""
     d = np.abs(distance)
     return np.where(d < 1, 1.5 * d**3 - 2.5 * d**2 + 1, np.where(d < 2, -0.5 * d**3 + 2.5 * d**2 - 4 * d + 2, 0.0))
 
@@ -69,7 +69,7 @@ KERNELS = {"nearest": nearest, "bilinear": tent, "cubic": cubic}
 
 
 def weights_of(kernel, size, ratio, aligned):
-    """The matrix (pixels, samples) that enlarges one axis to `size` pixels."""
+    """Returns the matrix (pixels, samples) that enlarges one axis to `size` pixels."""
     pixels = np.arange(size)
     places = pixels / ratio if aligned else (pixels + 0.5) / ratio - 0.5
     weights = KERNELS[kernel](places[:, None] - np.arange(-2, np.ceil(size / ratio) + 2)[None])
@@ -77,7 +77,7 @@ def weights_of(kernel, size, ratio, aligned):
 
 
 def enlarged(random, scene, kernel, ratios, aligned=False):
-    """Frames of fewer pixels, enlarged by `ratios` (y, x)."""
+    """Returns frames with fewer pixels, enlarged by `ratios` (y, x)."""
     y, x = (weights_of(kernel, size, ratio, aligned) for size, ratio in zip(SHAPE, ratios, strict=True))
     electrons = ELECTRONS * SCENES[scene](random, (y.shape[1], x.shape[1]))
     frames = expose(random, electrons, illumination(random, FRAMES), offset=OFFSET[BITS])
@@ -89,7 +89,7 @@ def neighbours(frames, offsets):
 
 
 def demosaiced(random, electrons, channel):
-    """One channel of a Bayer mosaic, whose missing pixels are the mean of the nearest ones of that channel."""
+    """Returns one channel of a Bayer mosaic. Its missing pixels are the mean of the nearest pixels of that channel."""
     frames = expose(random, electrons, illumination(random), offset=OFFSET[BITS])
     y, x = np.indices(SHAPE)
     cross = neighbours(frames, [(0, 1), (0, -1), (1, 0), (-1, 0)])
@@ -108,7 +108,7 @@ def line(name, make, *given, expected="measured"):
 
 
 def of_samples(kernel, ratios, aligned=False):
-    """The lines of an enlargement: one for each scene, as the samples are fewer than the pixels."""
+    """Returns the lines of an enlargement, one for each scene, which has fewer samples than the frame has pixels."""
     size = "x".join(f"{ratio:g}" for ratio in ratios)
     return [
         Situation(

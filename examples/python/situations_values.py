@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Dark frames that do not belong to the burst, stuck pixels beyond the saturation level, and types of pixels."""
+"""Makes bursts with dark frames of another camera setting, stuck pixels beyond saturation, and other pixel types."""
 
 import numpy as np
 from situations import (
@@ -22,12 +22,12 @@ DARK_FRAMES = 30
 
 
 def dark_frames(random, offset=OFFSET[12], read_noise=READ_NOISE):
-    """Frames of a closed shutter, of another camera setting where offset or read noise differ [DN]."""
+    """Returns dark frames. They are of another camera setting if offset or read noise deviates [DN]."""
     return digitise(expose(random, np.zeros(SHAPE), np.ones(DARK_FRAMES), offset=offset, read_noise=read_noise))
 
 
 def with_dark(random, electrons, dark):
-    """A burst with these dark frames. What it measures of its own is true; the offset of others is not."""
+    """Returns a burst with these dark frames. Its own offset is the true one, even if the dark frames have another."""
     frames = expose(random, electrons, illumination(random))
     return Burst(digitise(frames), offset=OFFSET[12], read_noise=READ_NOISE, dark=dark)
 
@@ -41,13 +41,13 @@ def other_gain(random, electrons, ratio):
 
 
 def bright_as_dark(random, electrons, share):
-    """Frames of the same scene with less light, given as dark frames."""
+    """Returns a burst with frames of the same scene at less illumination, which are given as dark frames."""
     frames = expose(random, share * electrons, illumination(random, DARK_FRAMES))
     return with_dark(random, electrons, digitise(frames))
 
 
 def saturated(random, electrons, top, stuck):
-    """A scene whose brightest fifth saturates at a level below that of the converter, and stuck pixels."""
+    """Returns a scene whose brightest fifth saturates below the highest level of the converter, with stuck pixels."""
     frames = np.minimum(expose(random, 1.5 * electrons, illumination(random)), top)
     for _ in range(stuck):
         frames[:, random.integers(SHAPE[0]), random.integers(SHAPE[1])] = 4095
@@ -57,7 +57,7 @@ def saturated(random, electrons, top, stuck):
 
 
 def of_type(random, electrons, dtype, offset):
-    """The same values in another type. An offset below 0 needs a type with a sign."""
+    """Returns the same burst in another pixel type. An offset below 0 needs a signed type."""
     frames = np.rint(expose(random, electrons, illumination(random, FRAMES), offset=offset))
     return Burst(frames.astype(dtype), offset=offset, read_noise=READ_NOISE)
 
