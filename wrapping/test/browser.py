@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""A page in a real browser: Debian's Chromium, without a window, told what to do through a pair of pipes.
+"""Shows a page in a real browser: Debian's Chromium without a window, controlled through a pair of pipes.
 
-The protocol is Chromium's own, of version 1.3 (https://chromedevtools.github.io/devtools-protocol/1-3/): records of
-JSON, each ended by a zero byte. Nothing is installed for it, no port is open, and no browser is downloaded.
+The protocol is Chromium's DevTools protocol 1.3 (https://chromedevtools.github.io/devtools-protocol/1-3/): records of
+JSON, each followed by a zero byte. It needs no driver program, no open port and no download of a browser.
 """
 
 import base64
@@ -24,11 +24,11 @@ NAMES = ("chromium", "chromium-browser", "google-chrome")
 FLAGS = (
     "--headless=new",
     "--remote-debugging-pipe",
-    "--no-sandbox",  # containers have no user namespaces, and the pages are the test's own
+    "--no-sandbox",  # containers have no user namespaces, and the pages come from the test
     "--disable-gpu",
     "--disable-dev-shm-usage",
-    "--hide-scrollbars",  # as on a telephone
-    "--disable-lcd-text",  # letters without coloured edges: smaller pictures, the same on every screen
+    "--hide-scrollbars",  # telephones show no scroll bars
+    "--disable-lcd-text",  # no coloured edges of letters: smaller pictures, equal on every screen
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
@@ -37,7 +37,7 @@ FLAGS = (
     "--no-proxy-server",
     "--force-color-profile=srgb",
 )
-# The browser reads its descriptor 3 and writes 4, whatever numbers the pipes have here.
+# The browser reads from descriptor 3 and writes to 4. The pipes have other numbers here.
 AS_3_AND_4 = """
 import os, sys
 os.dup2(int(sys.argv[1]), 3)
@@ -47,17 +47,17 @@ os.execvp(sys.argv[3], sys.argv[3:])
 
 
 class BrowserError(Exception):
-    """The browser did not start, did not answer in time, or refused."""
+    """Error of a browser that did not start, did not answer in time, or rejected a command."""
 
 
 def chromium() -> str | None:
-    """The browser's path: SENSORNOISE_CHROMIUM, else of the system; None: there is none."""
+    """Returns the path of the browser: SENSORNOISE_CHROMIUM, else the system's; None: there is none."""
     given = os.environ.get("SENSORNOISE_CHROMIUM")
     return shutil.which(given) if given else next(filter(None, map(shutil.which, NAMES)), None)
 
 
 class Browser:
-    """One page of one browser. Every event since the last `open` is in `events`, by its method."""
+    """One page of one browser. `events` has every event since the last `open`, as (method, parameters)."""
 
     def __init__(self, program: str, profile: Path, seconds: float = 60.0):
         self.seconds = seconds
@@ -81,7 +81,7 @@ class Browser:
             self.send(f"{domain}.enable")
 
     def send(self, method: str, **parameters: object) -> dict[str, Any]:
-        """What the browser answers to a command."""
+        """Sends a command. Returns the answer of the browser."""
         self._number += 1
         record: dict[str, object] = {"id": self._number, "method": method, "params": parameters}
         if self._session:
@@ -98,7 +98,7 @@ class Browser:
                 return answer["result"]
 
     def _next(self, what: str) -> dict[str, Any]:
-        """The next record; events are kept."""
+        """Returns the next record. Events are added to `events`."""
         end = time.monotonic() + self.seconds
         while b"\0" not in self._rest:
             if not select.select([self._read], [], [], max(end - time.monotonic(), 0.0))[0]:
@@ -119,7 +119,7 @@ class Browser:
         return self._log.read()[-500:]
 
     def open(self, file: Path, width: int, scheme: str, height: int = 800) -> float:
-        """Shows a file in a window `width` CSS pixels wide, "light" or "dark"; the seconds until all of it is there."""
+        """Shows a file in a window `width` CSS pixels wide, "light" or "dark". Returns the seconds of loading."""
         self.events.clear()
         self.send("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
         self.send("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
@@ -130,14 +130,14 @@ class Browser:
         return time.monotonic() - begin
 
     def run(self, expression: str) -> Any:
-        """The value of a JavaScript expression in the page."""
+        """Returns the value of a JavaScript expression in the page."""
         answer = self.send("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
         if "exceptionDetails" in answer:
             raise BrowserError(f"{expression[:80]}: {answer['exceptionDetails']}")
         return answer["result"].get("value")
 
     def picture(self, file: Path, top: float = 0, height: float | None = None) -> None:
-        """A PNG of the page as it is shown: all of it, or `height` CSS pixels from `top` on."""
+        """Writes a PNG of the page as shown: the whole page, or `height` CSS pixels from `top` on."""
         size = self.run("({w: document.documentElement.scrollWidth, h: document.documentElement.scrollHeight})")
         clip = {"x": 0, "y": top, "width": size["w"], "height": height or size["h"] - top, "scale": 1}
         answer = self.send("Page.captureScreenshot", format="png", captureBeyondViewport=True, clip=clip)
@@ -159,7 +159,7 @@ class Browser:
 
 @contextlib.contextmanager
 def started(program: str, profile: Path) -> Iterator[Browser]:
-    """A browser that is ended at the end."""
+    """Yields a browser, and closes it afterwards."""
     browser = Browser(program, profile)
     try:
         yield browser

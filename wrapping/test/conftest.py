@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What the tests share: small stacks with known content, the command-line tools, fresh interpreters."""
+"""Fixtures of the tests: small stacks with known content, the command-line tools, fresh interpreters."""
 
 import os
 import subprocess
@@ -16,11 +16,11 @@ PIXEL_TYPES = ["uint8", "uint16", "int16", "float32", "float64"]
 ITK_TYPES = {"uint8": itk.UC, "uint16": itk.US, "int16": itk.SS, "float32": itk.F, "float64": itk.D}
 
 
-# Dask's LocalCluster looks 15 s after it first lost a worker, and closes for good what it does not see in that moment:
-# a worker that is killed again and again, on a slow machine.
+# Dask's LocalCluster looks for a lost worker 15 s after its loss, and closes it for good if it is not there at that
+# moment. On a slow machine this happens to a worker that is killed repeatedly.
 os.environ.setdefault("DASK_DISTRIBUTED__DEPLOY__LOST_WORKER_TIMEOUT", "1h")
 
-# Every module that SWIG makes warns of SWIG's own types; as an error that ends the interpreter.
+# Every module that SWIG makes warns of SWIG's types. As an error this warning ends the interpreter.
 SWIG_WARNING = "ignore:builtin type:DeprecationWarning"
 
 
@@ -34,7 +34,7 @@ def pytest_addoption(parser) -> None:
 
 @pytest.fixture(scope="session")
 def screenshots(request) -> Path | None:
-    """The folder for pictures of pages; None: none are wanted."""
+    """Returns the folder for pictures of pages; None: no pictures are wanted."""
     folder = request.config.getoption("--screenshots")
     if folder is not None:
         folder.mkdir(parents=True, exist_ok=True)
@@ -43,13 +43,13 @@ def screenshots(request) -> Path | None:
 
 @pytest.fixture(params=PIXEL_TYPES)
 def pixel(request) -> str:
-    """Each pixel type of the filters."""
+    """Returns each pixel type of the filters."""
     return request.param
 
 
 @pytest.fixture(scope="session")
 def codes() -> np.ndarray:
-    """A stack (40, 64, 96) whose codes fit every pixel type."""
+    """Returns a stack (40, 64, 96) whose grey values fit every pixel type [DN]."""
     stack, _ = itk.simulate_sensor_noise(
         frames=40, size=(96, 64), dtype="uint8", gain=0.07, offset=12, read_noise=1.2, seed=3
     )
@@ -58,31 +58,31 @@ def codes() -> np.ndarray:
 
 @pytest.fixture
 def stack(codes, pixel) -> np.ndarray:
-    """The same numbers in each pixel type."""
+    """Returns the same grey values in each pixel type."""
     return codes.astype(pixel)
 
 
 @pytest.fixture(scope="session")
 def burst() -> np.ndarray:
-    """A stack (60, 96, 128) of camera B in condition 3."""
+    """Returns a stack (60, 96, 128) of camera B in condition 3."""
     return itk.simulate_sensor_noise(frames=60, size=(128, 96), seed=5)[0]
 
 
 @pytest.fixture(scope="session")
 def bursts() -> dict[str, np.ndarray]:
-    """Three small bursts for estimate_many()."""
+    """Returns three small bursts for estimate_many()."""
     return {name: itk.simulate_sensor_noise(frames=30, size=(96, 64), seed=n)[0] for n, name in enumerate(NAMES)}
 
 
 @pytest.fixture(scope="session")
 def reports(bursts):
-    """What each of them measures by itself."""
+    """Returns the report of each burst of `bursts`, measured alone."""
     return {name: itk.estimate_sensor_noise(frames) for name, frames in bursts.items()}
 
 
 @pytest.fixture
 def burst_files(bursts, tmp_path) -> list[str]:
-    """They as files."""
+    """Writes `bursts` to files. Returns the file names."""
     names = [os.fspath(tmp_path / f"{name}.mha") for name in bursts]
     for name, frames in zip(names, bursts.values(), strict=True):
         itk.imwrite(itk.image_view_from_array(frames), name)
@@ -91,13 +91,14 @@ def burst_files(bursts, tmp_path) -> list[str]:
 
 @pytest.fixture(scope="session")
 def dark() -> np.ndarray:
-    """Frames (12, 96, 128) of the camera of `burst` without light: mu = 100 DN, sigma = 8 DN."""
+    """Returns dark frames (12, 96, 128) of the camera of `burst`: mu = 100 DN, sigma = 8 DN."""
     return itk.simulate_sensor_noise(frames=12, size=(128, 96), electrons=1e-9, seed=6)[0]
 
 
 @pytest.fixture(scope="session")
 def tool():
-    """Runs a command-line tool of the same checkout: SENSORNOISE_BIN, else build/bin; the text it prints."""
+    """Returns a function that runs a command-line tool of the same checkout and returns the text that it prints. The
+    tools are in SENSORNOISE_BIN, else in build/bin."""
     root = Path(__file__).resolve().parents[2]
     folder = Path(os.environ.get("SENSORNOISE_BIN", root / "build" / "bin"))
     if not (folder / "estimate-sensor-noise").exists():
@@ -112,7 +113,8 @@ def tool():
 
 @pytest.fixture(scope="session")
 def fresh():
-    """Runs code in an interpreter of its own, where every warning is an error; what it prints."""
+    """Returns a function that runs code in a new interpreter, where every warning is an error, and returns what it
+    prints."""
 
     def run(code: str, *arguments) -> str:
         command = [sys.executable, "-W", "error", "-W", SWIG_WARNING, "-c", code, *map(str, arguments)]

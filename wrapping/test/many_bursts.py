@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What estimate_many() made of many bursts: its table, and the file of what was measured."""
+"""Reads the results of estimate_many(): its table, and the file of measured bursts."""
 
 import json
 
@@ -8,7 +8,7 @@ NAMES = ["a", "b", "c"]
 
 
 def rows_of(table):
-    """The rows as dicts, whatever holds them."""
+    """Returns the rows of the table as dicts, for any type of table."""
     if isinstance(table, list):
         return table
     rows = table.astype(object).where(table.notna(), None).to_dict("records")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The acceptance suite: what it calls wrong, sums up, compares and runs again, and one line with the built programs."""
+"""Tests the acceptance suite: verdicts, sums, comparisons, continued runs, and one line with the built programs."""
 
 import math
 import os
@@ -68,7 +68,7 @@ def test_a_gain_that_cannot_be_determined_is_wrong_if_identified():
 
 
 def stacks_of(gains, line="a", **options):
-    """Results of a line, one stack a seed."""
+    """Returns the results of a line, one stack per seed."""
     return {
         (line, "target", "", n, "r"): judged(gain, **options) | {"bound": 0.002, "seconds": 1.0} for n, gain in gains
     }
@@ -81,7 +81,7 @@ def test_a_line_is_summed_up():
     stacks.append({**judged(status="failed"), "bound": 0.002, "seconds": 3.0})
     row = summarise(stacks)
     assert row["stacks"] == 4 and row["refused"] == row["wrong"] == row["silent"] == 1
-    assert row["error"] == pytest.approx((0.004 + 0.006 + 1.0) / 3)  # the last one is 900 % off
+    assert row["error"] == pytest.approx((0.004 + 0.006 + 1.0) / 3)  # the error of the last stack is 900 %
     assert row["over_bound"] == pytest.approx(math.sqrt((2**2 + 3**2 + 4500**2) / 3))
     assert row["held"]["gain"] == (2, 3) and row["held"]["offset"] == (4, 4)
     assert row["seconds"] == 1.5
@@ -90,7 +90,7 @@ def test_a_line_is_summed_up():
 
 @pytest.mark.parametrize(("ours", "is_fault"), [(0.001, False), (0.002, False), (0.005, True)])
 def test_a_line_is_held_against_emvas_errors(ours, is_fault):
-    """Of 10 stacks, the ratio 2.96 of rms errors is exceeded with a probability of 0.001: F(10, 10) = 8.75."""
+    """The ratio 2.96 of rms errors of 10 stacks is exceeded with a probability of 0.001: F(10, 10) = 8.75."""
     from acceptance_compare import summarise
 
     emva = {"emva_error": 0.0015, "seconds": 1.0, "bound": None}
@@ -118,7 +118,7 @@ def test_students_distribution_is_the_closed_form(dof):
 def test_chance_needs_more_standard_errors_of_few_stacks():
     from acceptance_compare import student_factor
 
-    assert student_factor(2) == pytest.approx(19.2, abs=0.05)  # 0.27 % of 2 degrees of freedom
+    assert student_factor(2) == pytest.approx(19.2, abs=0.05)  # 0.27 % quantile for 2 degrees of freedom
     assert student_factor(10_000) == pytest.approx(3.0, abs=0.01)
 
 
@@ -164,7 +164,7 @@ def test_all_lines_of_a_kind_are_compared_together():
     from acceptance_compare import compare
 
     old, new = {}, {}
-    for line in ("kind/a", "kind/b", "kind/c"):  # too few stacks, each by itself
+    for line in ("kind/a", "kind/b", "kind/c"):  # each line alone has too few stacks
         old |= stacks_of([(n, (0.5, 0.001)) for n in range(4)], line, offset=(150, 1))
         new |= stacks_of([(n, (0.5, 0.001)) for n in range(4)], line)
     verdicts = {name: (line["verdict"], line["silent"]) for name, line in compare(old, new).items()}
@@ -180,7 +180,7 @@ def test_settings_that_share_a_seed_count_as_a_group():
     alone = [(n, float(n // 8)) for n in range(16)]
     shared = [(n // 8, float(n // 8)) for n in range(16)]
     assert scatter_of(alone) == pytest.approx(math.sqrt(4 / 15) / 4)
-    assert scatter_of(shared) == pytest.approx(0.5)  # two means that differ by 1
+    assert scatter_of(shared) == pytest.approx(0.5)  # half the difference of the two means, which is 1
 
 
 def test_what_the_file_has_is_not_run_again(tmp_path):
@@ -190,17 +190,17 @@ def test_what_the_file_has_is_not_run_again(tmp_path):
     jobs = [Job("a", "target", seed, "size 9", program, list) for program in ("old", "new") for seed in (1, 2)]
     append_result(name, jobs[0], [{"setting": "x"}, {"setting": "y"}])
     with name.open("a") as file:
-        file.write('{"line": "a", "vari')  # the machine stopped
+        file.write('{"line": "a", "vari')  # incomplete line, as after a crash
     assert missing_jobs(jobs, read_results(name)) == jobs[1:]
     append_result(name, jobs[3], [{"setting": "x"}])
     records = read_results(name)
     assert missing_jobs(jobs, records) == jobs[1:3]
-    assert list(stacks_of(records)) == [("a", "target", "x", 2, "size 9")]  # of the last program
+    assert list(stacks_of(records)) == [("a", "target", "x", 2, "size 9")]  # the result of the last program
     assert len(stacks_of(records, jobs[:2])) == 2
 
 
 def record(case, gain, status="identified", **members):
-    """A line of measure-cases, of a true gain of 0.5 DN/e-."""
+    """Returns a record of measure-cases with a true gain of 0.5 DN/e-."""
     report = {"gain": quantity(*gain, status), "offset": quantity(101.0, 0.4), "warnings": []}
     return {"case": case, "truth": {"gain": 0.5, "offset": 100.0}, "report": report} | members
 
@@ -219,7 +219,7 @@ def test_a_robustness_case_is_judged_by_what_is_expected_of_it(expectation, stat
 
     stack = judge_record(record("robustness/a/target", (0.51, 0.001), status, expectation=expectation))
     assert {name: stack[name] for name in expected} == expected
-    assert stack["covered"]["offset"] is False and stack["setting"] == ""  # 2.5 standard errors, of an interval of 2
+    assert stack["covered"]["offset"] is False and stack["setting"] == ""  # 2.5 standard errors, interval of 2
 
 
 def test_the_offset_of_a_study_has_no_size_to_be_held_against():
@@ -248,7 +248,7 @@ def test_one_line_is_measured_once(tmp_path):
     assert again.stdout == first.stdout and "0 jobs" in again.stderr
     steady, series, dark = (line.split() for line in first.stdout.splitlines()[1:4])
     assert steady[:2] == ["illumination/steady", "6"] and dark[:2] == ["unlike/dark-first", "6"]
-    assert float(steady[2]) < 1 and steady[11] == "0"  # error in %, wrong
-    assert series[:2] == ["exposures/5x2", "6"] and steady[4] == "-" and float(series[4]) < 10  # ratio to EMVA's errors
+    assert float(steady[2]) < 1 and steady[11] == "0"  # error [%] and number of wrong stacks
+    assert series[:2] == ["exposures/5x2", "6"] and steady[4] == "-" and float(series[4]) < 10  # error over EMVA's
     done = subprocess.run([*script, "--compare", str(name), str(name)], capture_output=True, text=True, check=False)
     assert done.returncode == 0 and done.stdout.endswith("0 better, 6 same, 0 worse\n")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The Cramér-Rao bound of the gain, by closed forms."""
+"""Tests the Cramér-Rao bound of the gain with closed forms."""
 
 import math
 from pathlib import Path
@@ -17,10 +17,9 @@ def examples(monkeypatch):
 
 
 def test_the_bound_is_that_of_sample_variances():
-    """With many electrons and little change of the illumination, a pixel's mean says nothing of its variance: sample
-    variances of T frames have the relative variance 2 / T, and the line through them the error of weighted least
-    squares.
-    A change of the illumination by 2 % adds its square, 4e-4."""
+    """With many electrons and little change of the illumination, the mean of a pixel contains no information about its
+    variance. Sample variances of T frames have the relative variance 2 / T, and the line through them has the error of
+    weighted least squares. A change of the illumination by 2 % adds its square, 4e-4."""
     from acceptance_bound import gain_bound
 
     gain, variance, frames = 0.5, 9.0, 100

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""EMVA 1288's photon transfer of exposure series, by closed forms and by a simulated flat field."""
+"""Tests EMVA 1288's photon transfer of exposure series with closed forms and a simulated flat field."""
 
 import itertools
 from pathlib import Path
@@ -18,7 +18,7 @@ def examples(monkeypatch):
 
 
 def variance_of_difference(first, second):
-    """Equation 29 of EMVA 1288, release 3.1, less the change of the mean level."""
+    """Returns equation 29 of EMVA 1288, release 3.1, less the change of the mean level [DN^2]."""
     return 0.5 * ((first - second) ** 2).mean() - 0.5 * (first.mean() - second.mean()) ** 2
 
 
@@ -39,7 +39,7 @@ def test_the_slope_is_that_of_the_levels_up_to_70_percent_of_saturation(has_dark
 
     signals = np.array([0.0, 200.0, 400.0, 700.0, 900.0, 1000.0, 1050.0])
     variances = GAIN * signals + READ_NOISE**2
-    variances[4] += 30  # above 70 % of the level of the greatest variance, as are the rest
+    variances[4] += 30  # this level and the brighter ones are above 70 % of the level of the largest variance
     variances[6] = 10  # saturated
     assert fit_photon_transfer(OFFSET + signals, variances, has_dark) == pytest.approx(GAIN)
 
@@ -63,7 +63,7 @@ def test_a_line_needs_two_levels():
 
 
 def series(has_dark, pixels, highest):
-    """An exposure series of 8 levels of 4 frames, with flicker and pixels of unequal brightness."""
+    """Returns an exposure series of 8 levels of 4 frames, with flicker and pixels of unequal brightness [DN]."""
     random = np.random.default_rng(2)
     factors = np.repeat(np.linspace(0.0 if has_dark else 0.05, 1.0, 8), 4) * random.normal(1, 0.002, 32)
     electrons = factors[:, None, None] * np.linspace(200, 2000, pixels)[None, None, :]
@@ -72,9 +72,9 @@ def series(has_dark, pixels, highest):
 
 
 @pytest.mark.parametrize("has_dark", [True, False])
-@pytest.mark.parametrize("highest", [4095, 900])  # 900 DN: pixels of more than 1,500 electrons clip
+@pytest.mark.parametrize("highest", [4095, 900])  # at 900 DN, pixels with more than 1,500 electrons clip
 def test_the_gain_of_a_simulated_series_is_found(has_dark, highest):
-    """The standard deviation of the error of K, over seeds, is at most 0.8 %: 4 % are 5 of them."""
+    """The standard deviation of the error of K over seeds is at most 0.8 %: the limit of 4 % is 5 times as large."""
     from acceptance_emva import system_gain
 
     frames = series(has_dark, 20_000, highest)

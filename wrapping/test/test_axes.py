@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""(t, y, x) of NumPy is (x, y, t) of ITK, and arrays in any order of memory give the same numbers."""
+"""Tests that (t, y, x) in NumPy is (x, y, t) in ITK, and that the memory order of arrays does not matter."""
 
 import itk
 import numpy as np
@@ -9,7 +9,7 @@ import pytest
 
 @pytest.fixture
 def skew() -> np.ndarray:
-    """A stack (7, 5, 4) no two of whose axes can be swapped unseen."""
+    """Returns a stack (7, 5, 4) in which an exchange of any two axes changes the result."""
     t, y, x = np.meshgrid(np.arange(7), np.arange(5), np.arange(4), indexing="ij")
     return (100 * x + 10 * y**2 + t**3).astype(np.uint16)
 
@@ -78,8 +78,8 @@ def test_pixel_types_that_hold_the_same_codes_agree(stack, codes, pixel):
     report = itk.estimate_sensor_noise(stack, rolling_shutter="off", clip=(0, 255), step=1)
     expected = itk.estimate_sensor_noise(codes, rolling_shutter="off", clip=(0, 255), step=1)
     assert report["pixels"] == expected["pixels"]
-    # Integers: sums in another order, far below 1e-9. Means of floating-point numbers end in other bits, so that pixels
-    # on the edge of a set fall to the other side: 1e-4 is a fortieth of the gain's standard error, about
-    # sqrt(2 / 40 / 3000 pixels) = 0.4 %.
+    # With integers the sums are in another order: errors far below 1e-9. Means of floating-point numbers differ in
+    # their last bits, so that pixels at the limits of a set may change sides. The limit 1e-4 is a fortieth of the
+    # standard error of the gain, about sqrt(2 / 40 / 3000 pixels) = 0.4 %.
     rel = 1e-4 if pixel.startswith("float") else 1e-9
     assert report["gain"]["value"] == pytest.approx(expected["gain"]["value"], rel=rel)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Bursts behind a Bayer mosaic: a report for each channel."""
+"""Tests bursts with a Bayer mosaic: one report for each channel."""
 
 import json
 import pickle
@@ -11,7 +11,7 @@ import pytest
 from itk_sensornoise import ChannelReports, Report
 
 MOSAIC = {"size": (96, 96), "frames": 24, "bayer": "GRBG", "transmission": (0.6, 1.0, 0.4)}
-CORNERS = {"R": (0, 1), "G1": (0, 0), "G2": (1, 1), "B": (1, 0)}  # (y, x) of GRBG
+CORNERS = {"R": (0, 1), "G1": (0, 0), "G2": (1, 1), "B": (1, 0)}  # corner (y, x) of each channel of GRBG
 
 
 @pytest.fixture(scope="module")

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Pages of `estimate-sensor-noise --plot`, of one report and of several that are compared, in a real browser, as people
-see them: on a telephone and on a wide screen, light and dark. `pytest test_browser.py --screenshots DIR` keeps pictures
-of all of them; `-k documentation --screenshots documentation` makes those of the documentation."""
+"""Tests pages of `estimate-sensor-noise --plot`, of one report and of several compared reports, in a real browser.
+
+The pages are shown on a telephone and on a wide screen, light and dark. `pytest test_browser.py --screenshots DIR`
+keeps pictures of all pages. `-k documentation --screenshots documentation` makes the pictures of the documentation.
+"""
 
 import json
 import os
@@ -18,10 +20,10 @@ CHECKS = (Path(__file__).parent / "page_checks.js").read_text()
 WIDTHS = {"telephone": 390, "desk": 1280}
 SCHEMES = ("light", "dark")
 
-# What the simulator is asked for, and the exit code of the estimator: 3 where there is no gain.
+# Options of the simulator, and the exit code of the estimator: 3 if there is no gain.
 SITUATIONS = {
     "good": ("--size 256x192 --frames 60", 0),
-    "failed": ("--size 96x64 --frames 12 --clip 0,300", 3),  # nearly all of it is saturated
+    "failed": ("--size 96x64 --frames 12 --clip 0,300", 3),  # nearly all pixels are saturated
     "flat-field": ("--size 256x192 --frames 60 --reference flat --prnu 0.3", 3),
     "bayer": ("--size 384x256 --frames 60 --bayer RGGB", 0),
     "bayer-failed": ("--size 192x128 --frames 12 --bayer RGGB --clip 0,300", 0),  # two channels have no gain
@@ -30,14 +32,14 @@ SITUATIONS = {
     "warnings": ("--size 256x192 --frames 15 --repeat 2 --flicker-sd 0 --response shoulder,0.2 --coupling 0.02", 3),
 }
 
-# What the simulator is asked for, report by report, where stored ones are compared.
+# Options of the simulator for each stored report that is compared.
 SMALL = "--size 128x96 --frames 40"
 COMPARED = {
     "compared-six": [f"{SMALL} --seed {seed} --gain {1 + 0.1 * (seed // 4)}" for seed in range(1, 7)],
     "compared-mosaics": [f"--size 192x128 --frames 40 --bayer RGGB --seed {seed}" for seed in (1, 2)],
     "compared-failed": [f"{SMALL} --seed 1", SITUATIONS["failed"][0], f"{SMALL} --seed 2"],
 }
-NAME = "camera_0123456789abcdef_exposure_000010_ms_at_" * 4  # of a report: nothing in it where a line could end
+NAME = "camera_0123456789abcdef_exposure_000010_ms_at_" * 4  # name of a report that cannot be broken into lines
 
 
 @pytest.fixture(scope="session")
@@ -53,7 +55,7 @@ def chrome(tmp_path_factory):
 
 
 def code_of(tool, *arguments) -> int:
-    """What the estimator ends with."""
+    """Runs the estimator. Returns its exit code."""
     try:
         tool("estimate-sensor-noise", *arguments, "--quiet")
     except subprocess.CalledProcessError as error:
@@ -62,7 +64,7 @@ def code_of(tool, *arguments) -> int:
 
 
 def measured(tool, folder: Path, name: str, flags: str, code: int = 0) -> Path:
-    """The page of a simulated burst."""
+    """Returns the page of a simulated burst."""
     stack, page = folder / f"{name}.mha", folder / f"{name}.html"
     tool("simulate-sensor-noise", "--output", stack, *flags.split())
     assert code_of(tool, stack, "--plot", page) == code
@@ -71,7 +73,7 @@ def measured(tool, folder: Path, name: str, flags: str, code: int = 0) -> Path:
 
 
 def compared(tool, folder: Path, name: str, bursts: list[str], ending: str = "html") -> Path:
-    """The page of simulated bursts' reports, with their hashes."""
+    """Returns the page of the reports of simulated bursts, with their hashes."""
     stack, page, reports = folder / f"{name}.mha", folder / f"{name}.{ending}", []
     for number, flags in enumerate(bursts):
         tool("simulate-sensor-noise", "--output", stack, *flags.split())
@@ -83,7 +85,7 @@ def compared(tool, folder: Path, name: str, bursts: list[str], ending: str = "ht
 
 @pytest.fixture(scope="session")
 def pages(tool, tmp_path_factory):
-    """One page of each situation."""
+    """Returns one page of each situation."""
     folder = tmp_path_factory.mktemp("pages")
     single = {name: measured(tool, folder, name, *what) for name, what in SITUATIONS.items()}
     return single | {name: compared(tool, folder, name, bursts) for name, bursts in COMPARED.items()}
@@ -104,13 +106,13 @@ def test_title_has_the_files_and_their_date(tool, tmp_path):
 
 
 def outside(browser: Browser, file: Path) -> list[str]:
-    """What the page asked others for: neither itself nor "data:"."""
+    """Returns the addresses that the page requests, except its own and "data:"."""
     asked = [event["request"]["url"] for method, event in browser.events if method == "Network.requestWillBeSent"]
     return [url for url in asked if url != file.resolve().as_uri() and not url.startswith("data:")]
 
 
 def complaints(browser: Browser) -> list[str]:
-    """What the browser says of errors in the page."""
+    """Returns the errors in the page that the browser reports."""
     kinds = ("Runtime.exceptionThrown", "Runtime.consoleAPICalled", "Log.entryAdded")
     return [f"{method}: {event}" for method, event in browser.events if method in kinds]
 
@@ -136,7 +138,7 @@ def test_page_is_whole_and_readable(chrome, pages, situation, screen, scheme, sc
 
 @pytest.mark.parametrize("situation", ["good", "flat-field", "smoothed", "gamma", "warnings"])
 def test_first_screen_has_verdict_key_numbers_and_curve(chrome, pages, situation):
-    """Of a screen of 1280 x 800 pixels. On a telephone it has the verdict and the key numbers."""
+    """The screen has 1280 x 800 pixels. On a telephone the verdict and the key numbers are on the first screen."""
     bottoms = "[...document.querySelectorAll('WHAT')].map((part) => part.getBoundingClientRect().bottom)"
     for screen, what in (("telephone", ".verdict, .keys"), ("desk", ".verdict, .keys, .two svg[role=img]")):
         chrome.open(pages[situation], WIDTHS[screen], "light")
@@ -164,7 +166,7 @@ def test_sections_open_by_the_keyboard(chrome, pages):
 
 
 def every_warning() -> list[tuple[str, str]]:
-    """Code and sentence of each, as the library has them."""
+    """Returns code and sentence of each warning in the library."""
     header = Path(__file__).resolve().parents[2] / "module/include/sensornoise/WarningCodes.h"
     kinds = re.findall(r'"([a-z-]+)",\s*Severity::\w+,((?:\s*"[^"]*")+) }', header.read_text())
     return [(code, "".join(re.findall(r'"([^"]*)"', parts))) for code, parts in kinds]
@@ -172,10 +174,10 @@ def every_warning() -> list[tuple[str, str]]:
 
 @pytest.mark.parametrize("screen", WIDTHS)
 def test_every_warning_fits(chrome, pages, screen):
-    """No simulated burst has them all: the page's first warning is repeated with their words."""
+    """No simulated burst has all warnings: the first warning of the page is repeated with their texts."""
     kinds = every_warning()
     assert len(kinds) > 40
-    name = "frame_" * 30  # of a file: nothing in it where a line could end
+    name = "frame_" * 30  # name of a file that cannot be broken into lines
     chrome.open(pages["warnings"], WIDTHS[screen], "light")
     chrome.run(
         f"""for (const [code, sentence] of {json.dumps(kinds)}) {{
@@ -216,15 +218,15 @@ def test_figures_of_every_page_are_xml(pages):
 
 
 def test_page_of_24_megapixels_is_small_and_opens_at_once(chrome, tool, tmp_path):
-    """Six frames, of 12 bits each: more of them make no larger page."""
+    """The burst has six frames of 12 bits. More frames do not make the page larger."""
     page = measured(tool, tmp_path, "large", "--size 6000x4000 --frames 6")
     assert page.stat().st_size < 1_000_000
-    seconds = min(chrome.open(page, 390, "light") for _ in range(2))  # of two: another program may have been in the way
+    seconds = min(chrome.open(page, 390, "light") for _ in range(2))  # another program may slow one of them
     assert seconds < 1.0
     assert faults(chrome, page) == []
 
 
-# Pictures in documentation/: what is simulated, the colours, and the words of the headings where they begin.
+# Pictures in documentation/: options of the simulator, colours, and the beginnings of the headings.
 PICTURES = {
     "page-good": ("--camera A --frames 50", "light", ("Noise of", "All quantities", "Illumination and")),
     "page-bayer": ("--size 384x256 --frames 60 --bayer RGGB", "light", ("Noise of", "What was found", "Channel B")),
@@ -234,12 +236,12 @@ PICTURES = {
         ("Noise of", "What was found", "Correlation of"),
     ),
 }
-SCREEN = (390, 800)  # of a telephone [CSS pixels]
+SCREEN = (390, 800)  # screen of a telephone [CSS pixels]
 
 
 @pytest.mark.parametrize("name", PICTURES)
 def test_pictures_of_the_documentation(chrome, tool, tmp_path, name, screenshots):
-    """Three screens of a telephone side by side, each from a heading on."""
+    """The picture has three screens of a telephone side by side, each from a heading on."""
     flags, scheme, headings = PICTURES[name]
     page = measured(tool, tmp_path, name, flags)
     chrome.open(page, SCREEN[0], scheme)
@@ -258,12 +260,12 @@ def test_pictures_of_the_documentation(chrome, tool, tmp_path, name, screenshots
     chrome.picture(file, 0, SCREEN[1] + 24)
     pillow = pytest.importorskip("PIL.Image")
     with pillow.open(file) as picture:
-        few = picture.convert("RGB").quantize(256, method=pillow.Quantize.MAXCOVERAGE, kmeans=3)  # rare colours, too
-    few.save(file, optimize=True)  # a third of the size
+        few = picture.convert("RGB").quantize(256, method=pillow.Quantize.MAXCOVERAGE, kmeans=3)  # keeps rare colours
+    few.save(file, optimize=True)  # reduces the size to a third
     assert file.stat().st_size < 200_000
 
 
-# Pages that the checks must not let pass, and a word of what they say.
+# Pages that the checks must reject, and a word of the message.
 BAD = {
     "scrolls sideways": "<p style='width:2000px'>wide</p>",
     "contrast": "<p style='color:#999'>pale</p>",

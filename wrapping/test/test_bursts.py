@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Bursts as cameras write them: SER, MRAW, multi-page TIFF, and frames without a header."""
+"""Tests bursts as cameras write them: SER, MRAW, multi-page TIFF, and frames without a header."""
 
 import os
 import struct
@@ -43,7 +43,7 @@ def folder(frames, tmp_path_factory):
 def test_the_report_is_that_of_the_metaimage(folder, name, options):
     expected = itk.estimate_sensor_noise(folder / "a.mha", bit_depth=12)
     assert expected["gain"]["value"] == pytest.approx(1.0, abs=0.1)
-    # a.ser says that it is a mosaic, which it is not
+    # the header of a.ser wrongly says that it is a mosaic
     report = itk.estimate_sensor_noise(folder / name, bit_depth=12, bayer="none", **options).to_dict()
     report.pop("camera", None)
     assert report == dict(expected)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""A report's noise model, held against frames."""
+"""Tests the comparison of the noise model of a report with frames."""
 
 import json
 import pickle

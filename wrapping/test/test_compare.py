@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Reports side by side, and their differences in units of their errors."""
+"""Tests the comparison of reports, with differences in units of their errors."""
 
 import math
 import re
@@ -26,7 +26,8 @@ def test_differences_are_in_units_of_their_errors(reports):
     assert gain.quantities == tuple(report.gain for report in reports.values()) and gain.differences[0] is None
     error = math.hypot(may.standard_error, june.standard_error)
     assert gain.differences[1] == pytest.approx((june.value - may.value) / error)
-    # The same camera: 4 standard errors are one in 16,000. Another gain: 0.2 of 0.008.
+    # For the same camera, chance exceeds 4 standard errors once in 16,000. The other gain differs by 0.2 with an error
+    # of 0.008.
     assert abs(gain.differences[1]) < 4 and gain.differences[2] > 15
 
 

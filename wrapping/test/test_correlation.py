@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What neighbours and frames share of their noise: closed forms of white and of filtered flat fields."""
+"""Tests the spatial and temporal noise correlation of white and of filtered flat fields with closed forms."""
 
 import copy
 import json
@@ -12,12 +12,12 @@ import numpy as np
 import pytest
 from conftest import ITK_TYPES
 
-# Errors are a jackknife's, from 20 tiles: Student's 99.9 % quantile for 19 is 3.9.
+# The errors are from a jackknife over 20 tiles. The 99.9 % quantile of Student's t for 19 degrees of freedom is 3.9.
 Z = 4
 
 
 def flat(kernel=(1.0,), frames=30, height=128, width=160):
-    """Frames (t, y, x) of 100 DN whose noise is normal, of 3 DN before it is filtered along x."""
+    """Returns frames (t, y, x) of 100 DN with normal noise. Its standard deviation is 3 DN before a filter along x."""
     noise = np.random.default_rng(4).normal(0, 3, (frames, height, width + len(kernel) - 1))
     return 100 + sum(weight * noise[:, :, k : k + width] for k, weight in enumerate(kernel))
 
@@ -39,7 +39,7 @@ def is_near(found, truth):
 def test_white_noise_sums_to_one(white):
     found = itk.noise_correlation_estimator(white)
     assert found.kind == "white" and is_near(found, 1)
-    # Eight neighbours, 3 for weights that fall off at the borders of tiles.
+    # The limit allows for eight neighbours, and by a factor 3 for weights that decrease at the borders of tiles.
     assert found.standard_error < 4 * 3 / np.sqrt(20480 * 28)
     value, error = found.coefficient(1, 0)
     assert abs(value) < Z * error and error < 0.004
@@ -48,7 +48,8 @@ def test_white_noise_sums_to_one(white):
 
 
 def test_smoothed_noise_sums_to_its_closed_form(smooth):
-    """Weights 1/4, 1/2, 1/4: variance 3/8 of before, lag 1 has 1/4 and lag 2 1/16 of it."""
+    """With the weights 1/4, 1/2 and 1/4, the variance is 3/8 of the original variance, lag 1 has 1/4 and lag 2 has 1/16
+    of it."""
     found = itk.noise_correlation_estimator(smooth)
     assert found.kind == "filtered" and is_near(found, 8 / 3)
     assert found.standard_error < 0.1
@@ -90,7 +91,7 @@ def test_mean_and_mask_of_the_statistics(white):
 
 
 def test_series_are_taken_out(white):
-    """A pattern that neighbours have in common and that comes and goes, with the mean 0."""
+    """A spatial pattern with a temporal component of mean 0 correlates neighbouring pixels until it is taken out."""
     series = np.where(np.arange(30) % 3 == 0, 2.0, -1.0)
     pattern = 3 * np.outer(np.cos(0.4 * np.arange(128)), np.sin(0.5 * np.arange(160)))
     stack = white + series[:, None, None] * pattern
@@ -121,7 +122,7 @@ def test_class_style(smooth, pixel):
 
 
 def test_a_sum_that_fails_is_not_a_number_in_class_style(codes):
-    """The vibration of the scene, which is not taken out here, correlates neighbours as no filter does."""
+    """The vibration of the scene is not taken out here. It correlates neighbouring pixels as no linear filter does."""
     found = itk.NoiseCorrelationEstimator[itk.Image[itk.UC, 3]].New(itk.image_view_from_array(codes), offset=12.0)
     found.Update()
     assert found.GetKind() == "not-linear" and np.isnan(found.GetSumOverLags())

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""denoise_with_noise_model(): any denoiser of unit Gaussian noise between transform and exact unbiased inverse."""
+"""Tests denoise_with_noise_model(): any denoiser of unit Gaussian noise between transform and exact inverse."""
 
 import importlib.util
 import json
@@ -16,7 +16,7 @@ has_opencv = pytest.mark.skipif(importlib.util.find_spec("cv2") is None, reason=
 
 
 def record(**more):
-    """A report of camera B without offset."""
+    """Returns a report of camera B without offset."""
     return {
         "schema": "itk-sensornoise-report/1",
         "offset": {"value": None, "status": "not-identifiable"},
@@ -31,7 +31,7 @@ def record(**more):
 
 
 def box(frame):
-    """The mean of 3 x 3 pixels."""
+    """Returns the mean of 3 x 3 pixels."""
     height, width = frame.shape
     padded = np.pad(frame, 1, mode="edge")
     return sum(padded[y : y + height, x : x + width] for y in range(3) for x in range(3)) / 9
@@ -39,7 +39,7 @@ def box(frame):
 
 @pytest.fixture(scope="module")
 def scene():
-    """A frame of camera B, and the same without noise: a hundred thousand times the electrons leave 1 in 316 of it."""
+    """Returns a frame of camera B, and the same frame with 1e5 times the electrons: 1/316 of the shot noise."""
     still = {"frames": 1, "size": (96, 96), "flicker_sd": 0.0, "vibration_sd": (0.0, 0.0), "seed": 7}
     noisy, _ = itk.simulate_sensor_noise(**still)
     truth, _ = itk.simulate_sensor_noise(**still, gain=1e-5, electrons=3e8, read_noise=0.0)
@@ -51,8 +51,8 @@ def psnr_gain(noisy, clean, truth):
 
 
 def test_mean_of_many_is_unbiased():
-    """On an even frame in the dark the mean is the inverse of the stabilised mean, 1/4 e- above that of the algebraic
-    inverse; its error is that of 10^4 pixels of variance 64 + 10: 0.09 DN."""
+    """On a uniform dark frame the result is the inverse of the stabilised mean. It is 1/4 e- above the algebraic
+    inverse. Its error is the error of the mean of 10^4 pixels of variance 64 + 10: 0.09 DN."""
     random = np.random.default_rng(1)
     levels = (100.0 + random.poisson(10.0, (100, 100)) + random.normal(0, 8, (100, 100))).astype(np.float32)
     clean = itk.denoise_with_noise_model(levels, None, lambda frame: np.full_like(frame, frame.mean()), **B)
@@ -73,7 +73,7 @@ def test_noise_that_the_denoiser_sees_is_unit_gaussian():
     noisy = (100 + random.poisson(levels - 100) + random.normal(0, 8, levels.shape)).astype(np.float32)
     seen = []
     itk.denoise_with_noise_model(noisy, record(), lambda frame: seen.append(frame.copy()) or frame)
-    variance = seen[0].var(axis=1, ddof=1)  # of 400 pixels: standard error 0.07 a row, 0.0035 of all
+    variance = seen[0].var(axis=1, ddof=1)  # of 400 pixels; standard error 0.07 of a row, 0.0035 of all
     assert seen[0].dtype == np.float32 and variance.mean() == pytest.approx(1.0, abs=0.02)
 
 
@@ -82,10 +82,10 @@ def test_psnr_rises(scene, denoiser, least):
     noisy, truth = scene
     clean = itk.denoise_with_noise_model(noisy, record(), denoiser)
     assert clean.dtype == noisy.dtype and clean.shape == noisy.shape
-    if denoiser is box:  # blurs the chart's edges: judged where it is even
+    if denoiser is box:  # it blurs the edges of the chart: only uniform areas are tested
         even = np.abs(truth - box(truth)) < 1
         noisy, clean, truth = noisy[even], clean[even], truth[even]
-        least = 6.0  # of 9.5 dB
+        least = 6.0  # the closed form is 9.5 dB
     assert psnr_gain(noisy, clean, truth) > least
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""itk_sensornoise.distributed.estimate_sensor_noise(): workers of Dask give the bits of one process."""
+"""Tests itk_sensornoise.distributed.estimate_sensor_noise(): Dask workers give the same bits as one process."""
 
 import os
 import signal
@@ -19,7 +19,7 @@ dask_array = pytest.importorskip("dask.array")
 
 @pytest.fixture(scope="module")
 def client(tmp_path_factory):
-    """Two processes on this machine."""
+    """Yields a client of two worker processes on this machine."""
     folder = str(tmp_path_factory.mktemp("dask"))
     with (
         distributed.LocalCluster(
@@ -41,7 +41,8 @@ def expected(stack):
 
 
 class Slow:
-    """Frames that pickle, and are read slowly: each slice leaves a file that tells of it, with the reader's number."""
+    """Frames that can be pickled and are read slowly. Each slice makes a file named by its start and the process
+    number."""
 
     def __init__(self, stack, folder, seconds=0.0, once=False, lose=None):
         self.stack, self.folder, self.seconds, self.once, self.lose = stack, folder, seconds, once, lose
@@ -69,7 +70,7 @@ def test_files_and_options(client, stack, tmp_path):
         itk.imwrite(itk.image_view_from_array(frame), name)
     options = {"roi": (4, 2, 80, 50), "mask": stack[0] > 20, "frame_range": (2, 38), "method": "published"}
     expected = itk.estimate_sensor_noise(names, maps=True, **options)
-    report = estimate_sensor_noise(names, frames_per_task=9, maps=True, **options)  # by the current client
+    report = estimate_sensor_noise(names, frames_per_task=9, maps=True, **options)  # uses the current client
     assert report == expected
     np.testing.assert_array_equal(report.maps["corrected_variance"], expected.maps["corrected_variance"])
     itk.imwrite(itk.image_view_from_array(stack), str(tmp_path / "stack.mha"))
@@ -118,7 +119,7 @@ def test_a_worker_that_is_killed_at_work(client, stack, expected, tmp_path):
     frames = Slow(stack, tmp_path, 0.05, once=True)
     assert estimate_sensor_noise(frames, client, frames_per_task=4, bayer="none") == expected
     readers = {mark.name.split("-")[1] for mark in tmp_path.glob("20-*")}
-    assert len(readers) > 1  # one of which is dead
+    assert len(readers) > 1  # one of these processes was killed
     client.wait_for_workers(2, timeout=60)
 
 

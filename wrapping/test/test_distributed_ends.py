@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Clusters that cannot end a measurement: a clear end, never a wait without one."""
+"""Tests that a measurement that a cluster cannot finish ends with a clear error, and does not wait forever."""
 
 import asyncio
 import os
@@ -28,19 +28,19 @@ def stack(codes):
 
 
 def cluster_of(**options):
-    """One worker, a thread of this process unless the options say otherwise."""
+    """Returns a cluster with one worker, which is a thread of this process unless the options say otherwise."""
     return distributed.LocalCluster(
         **{"n_workers": 1, "threads_per_worker": 1, "processes": False, "dashboard_address": None, **options}
     )
 
 
 def client_of(cluster):
-    """Not Dask's default: where the scheduler goes away, Dask would go on asking for it."""
+    """Returns a client that is not Dask's default. A default client would query a scheduler that is gone."""
     return distributed.Client(cluster, set_as_default=False)
 
 
 class Read:
-    """Frames that pickle; `read` is called with the first of those that are asked for."""
+    """Frames that can be pickled. `read` is called with the first frame of each slice."""
 
     def __init__(self, stack, read):
         self.stack, self.read = stack, read
@@ -69,7 +69,7 @@ def test_the_need_grows_with_pixels_frames_and_blocks():
     assert _memory.need_of_worker(2 << 20, 100, "<u2", 0) - need == 120 << 20
     assert _memory.need_of_worker(1 << 20, 101, "<u2", 0) - need == 20_000
     assert _memory.need_of_worker(1 << 20, 100, "<f4", 0) - need == 100 << 20
-    assert _memory.need_of_worker(1 << 20, 100, "<u2", 100 * MIB) - need == 36 * MIB  # beyond a chunk of files
+    assert _memory.need_of_worker(1 << 20, 100, "<u2", 100 * MIB) - need == 36 * MIB  # memory beyond a chunk of files
 
 
 def test_only_workers_with_a_limit_are_held_to_it():
@@ -81,7 +81,7 @@ def test_only_workers_with_a_limit_are_held_to_it():
 
 
 def pause(dask_worker):
-    """As Dask does near the limit; where there is none, nothing undoes it."""
+    """Pauses a worker, as Dask does near the memory limit. Without a limit nothing resumes the worker."""
     dask_worker.status = distributed.Status.paused
 
 
@@ -106,7 +106,7 @@ PAUSED, PAUSED_AT_WORK = worker_state(is_paused=True), worker_state(is_paused=Tr
 
 
 def seconds_waited(workers, monkeypatch, moves=False, at_most=100):
-    """How long a task is waited for that does not end, while others do if it `moves`."""
+    """Returns the seconds of waiting for a task that does not end. With `moves` other tasks end meanwhile."""
     clock = SimpleNamespace(now=0.0, monotonic=lambda: clock.now)
     clock.sleep = lambda seconds: setattr(clock, "now", clock.now + seconds)
     monkeypatch.setattr(_watch, "time", clock)

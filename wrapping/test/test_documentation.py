@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""help() of the classes shows the comments of their headers."""
+"""Tests that help() of the classes shows the comments of their headers."""
 
 import pydoc
 import re
@@ -16,14 +16,14 @@ HEADERS = Path(__file__).resolve().parents[2] / "filters"
 
 
 def sentence_of(name):
-    """The first words of the class's comment in its header."""
+    """Returns the first sentence of the comment of a class in its header."""
     comment = re.search(rf"\\class {name}\n \* \\brief (.*)", (HEADERS / f"itk{name}.h").read_text())
     return re.split(r"[\\(]", comment[1])[0].strip()
 
 
 def test_all_classes_are_looked_at():
     wrapped = sorted(path.stem.removeprefix("itk") for path in (HEADERS.parent / "wrapping").glob("*.wrap"))
-    assert wrapped == [name for name in NAMES if name != "SensorNoiseImageIOFactory"]  # in its ImageIO's file
+    assert wrapped == [name for name in NAMES if name != "SensorNoiseImageIOFactory"]  # shares a file with its ImageIO
     assert len(NAMES) >= 11
 
 
@@ -40,7 +40,7 @@ def test_help_is_the_header_s(name):
 def test_help_tells_of_the_parameters():
     cls = itk.SensorNoiseEstimator[itk.Image[itk.US, 3]]
     assert cls.SetBitDepth.__doc__.startswith("Bit depth of the sensor's digital numbers [bit], 1 to 16.")
-    assert "SetBitDepth(self" in cls.SetBitDepth.__doc__  # SWIG's words stay
+    assert "SetBitDepth(self" in cls.SetBitDepth.__doc__  # the text of SWIG stays
     assert cls.SetDarkQuantile.__doc__.startswith("Quantiles of the mean") and "Refined" in cls.SetMethod.__doc__
     assert itk.SensorNoiseStackSource[itk.Image[itk.US, 3]].SetPrnuSd.__doc__.startswith("Photo-response")
 

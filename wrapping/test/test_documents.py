@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The Python blocks of README.md and documentation/ run, and print what stands there."""
+"""Tests that the Python blocks of README.md and documentation/ run, and print the output that is shown there."""
 
 import os
 import re

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""One policy for errors: TypeError for types and keywords, ValueError for values, one sentence of public names."""
+"""Tests errors: TypeError for types and keywords, ValueError for values, one sentence with public names."""
 
 import pickle
 import re
@@ -16,7 +16,7 @@ from itk_sensornoise.distributed._task import reason_of
 STACK = np.arange(6 * 8 * 9, dtype=np.uint16).reshape(6, 8, 9)
 WIDE = np.full((6, 8, 9), 300, np.uint16)
 FRAME = np.ones((8, 9))
-# What only a reader of the sources knows: files, classes, addresses and types of C++.
+# Names that only a reader of the sources knows: files, classes, addresses and C++ types.
 PRIVATE = re.compile(
     r"\.[ch]xx|\bitk[A-Z]\w|\bitk::|C\+\+|\b0x[0-9a-f]|ITK ERROR|in method|ImageRegion|Settings\.|<class"
 )
@@ -105,7 +105,7 @@ WRONG_TYPES = {
 
 
 def raised_by(call, kind):
-    """The error of a call, which has one sentence and shows no other error."""
+    """Returns the error of a call. It must have one sentence and no chained error."""
     with pytest.raises(kind) as caught:
         call()
     error = caught.value
@@ -131,14 +131,14 @@ def test_a_wrong_type_is_a_type_error(case):
 
 @pytest.mark.parametrize("case", ["few frames", "clip", "error of the offset", "bit_depth", "memory_limit"])
 def test_what_was_a_runtime_error_still_is_one(case):
-    """For one release."""
+    """This compatibility lasts for one release."""
     with pytest.raises(RuntimeError):
         WRONG_VALUES[case][0]()
 
 
 @pytest.mark.parametrize("case", ["frames", "dtype", "text", "keyword of the functional filter"])
 def test_what_was_a_value_error_still_is_one(case):
-    """For one release."""
+    """This compatibility lasts for one release."""
     with pytest.raises(ValueError):
         WRONG_TYPES[case][0]()
 

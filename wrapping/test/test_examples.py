@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The example programs, as a person runs them."""
+"""Tests the example programs as a user runs them."""
 
 import json
 import re
@@ -22,7 +22,7 @@ def run(program, *arguments):
 
 @pytest.fixture(scope="module")
 def few(tmp_path_factory):
-    """A stack of so few frames that the report warns of it."""
+    """Writes a stack of so few frames that the report has a warning. Returns its file name."""
     name = tmp_path_factory.mktemp("few") / "few.mha"
     itk.imwrite(itk.image_view_from_array(itk.simulate_sensor_noise(frames=8, size=(96, 64))[0]), str(name))
     return name
@@ -73,7 +73,7 @@ def test_a_video_is_read_frame_by_frame(tmp_path):
     result = run("lazy.py", name)
     assert "20 frames of 96 x 64 pixels" in result.stdout, (
         result.stderr
-    )  # the codec's colours are not the sensor's codes
+    )  # the codec changes the grey values of the sensor
 
 
 def test_held_out_frames_are_stabilised():
@@ -96,7 +96,7 @@ def test_motion_behind_a_mosaic_is_found_by_all_planes_together():
     ]
     (plane, *_), (joint, held, of) = rows
     assert float(joint) < float(plane)
-    assert int(of) - int(held) <= 4  # of 36 at most: chance leaves 5 or more in one of 30
+    assert int(of) - int(held) <= 4  # of at most 36: 5 or more occur by chance once in 30 runs
 
 
 def test_several_processes_have_the_bits_of_one(tmp_path):
@@ -120,7 +120,7 @@ def test_steps_in_an_archive_are_judged(tmp_path):
     assert "16 bursts of 30 frames of 128 x 128 pixels, 1 workers" in result.stdout
     assert "0 without a report" in result.stdout and len(lines.read_text().splitlines()) == 16
     rows = {row[0]: row for row in map(str.split, result.stdout.splitlines()[-3:])}
-    assert [rows[name][5] for name in ("gain", "offset", "read_noise")] == ["1", "1", "0"]  # steps
+    assert [rows[name][5] for name in ("gain", "offset", "read_noise")] == ["1", "1", "0"]  # numbers of steps
     for row in rows.values():
         ratio, spread = float(row[2]), float(row[4])
-        assert abs(ratio - 1) < 4 * spread  # the errors are what they say
+        assert abs(ratio - 1) < 4 * spread  # the scatter agrees with the standard errors

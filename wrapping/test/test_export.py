@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Exports, read back by the formulas of the programs that take them."""
+"""Tests exports, which are evaluated with the formulas of the programs that read them."""
 
 import io
 import json
@@ -30,17 +30,18 @@ def mosaic():
 
 
 def variance(report, levels=LEVELS):
-    """The variance of a pixel in DN^2, as the report has it."""
+    """Returns the variance of a pixel according to the report [DN^2]."""
     return report.variance_slope.value * levels + report.total_intercept.value
 
 
 def of_profile(scale, offset):
-    """The variance in DN^2 that NoiseProfile says, sqrt(scale x + offset) with x from 0 at black to 1 at white."""
+    """Returns the variance according to NoiseProfile [DN^2]: sqrt(scale x + offset), with x from 0 at black to 1 at
+    white."""
     return (scale * (LEVELS - BLACK) / (WHITE - BLACK) + offset) * (WHITE - BLACK) ** 2
 
 
 def of_sensor(offset, electrons_per_adu, read_noise):
-    """The variance in DN^2 that a record of a sensor says."""
+    """Returns the variance according to the record of a sensor [DN^2]."""
     return ((LEVELS - offset) * electrons_per_adu + read_noise**2) / electrons_per_adu**2
 
 

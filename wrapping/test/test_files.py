@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Frames from files: read a few at a time, and refused by name before a pixel is read."""
+"""Tests frames in files: they are read a few at a time, and rejected by name before a pixel is read."""
 
 import itk
 import numpy as np
 import pytest
 
-# What the kernel counts for one process alone: ru_maxrss of a child holds its parent's peak.
+# Peak memory of one process in the kernel: ru_maxrss of a child includes the peak of its parent.
 PEAK = """
 def peak():
     with open("/proc/self/status") as status:
@@ -41,7 +41,7 @@ def names(burst, tmp_path):
 
 
 def message_of(kind, function, *arguments, **parameters):
-    """One sentence, without a place in a source and without SWIG's words."""
+    """Returns the message of an error: one sentence without a source location and without the text of SWIG."""
     with pytest.raises(kind) as error:
         function(*arguments, **parameters)
     text = str(error.value)
@@ -130,7 +130,7 @@ def test_unknown_tags_of_a_tiff_print_nothing(names, burst, capfd, tmp_path):
     file = write(tmp_path, burst[:1], "tif")[0]
     data = bytearray(file.read_bytes())
     start = int.from_bytes(data[4:8], "little")
-    # The last entry, of whatever tag, becomes one that nobody knows: libtiff warns of it.
+    # The last entry, with any tag, gets an unknown tag: libtiff warns of it.
     count = int.from_bytes(data[start : start + 2], "little")
     entry = bytes(data[start + 2 : start + 2 + 12 * count]) + b"\xf0\xff\x03\x00\x01\x00\x00\x00\x07\x00\x00\x00"
     end = len(data)
@@ -204,23 +204,24 @@ def test_dark_frames_are_read_through_the_same_door(burst, dark, tmp_path):
 
 
 def test_memory_stays_flat_for_a_list_of_files(fresh, tmp_path):
-    """512 x 512 x 2 bytes: 400 frames are 200 MiB, 100 are 50. One chunk has at most 32 MiB."""
+    """Frames of 512 x 512 x 2 bytes: 400 frames have 200 MiB, 100 frames 50 MiB. One chunk has at most 32 MiB."""
     frames = np.random.default_rng(1).integers(100, 1000, (20, 512, 512), dtype=np.uint16)
     files = write(tmp_path, frames)
     code = PEAK + (
         "import itk, sys, warnings\n"
-        "warnings.simplefilter('ignore')\n"  # the files are there several times
+        "warnings.simplefilter('ignore')\n"  # the same files are listed several times
         "itk.estimate_sensor_noise(sys.argv[2:] * int(sys.argv[1]), rolling_shutter='off')\n"
         "print(peak())"
     )
     few, many = (float(fresh(code, repeats, *files)) for repeats in (5, 20))
-    # 14 MiB more for the chunk, and as much again for what the allocator does not give back.
+    # 14 MiB more for the chunk, and as much again for memory that the allocator does not return.
     assert many - few < 28
 
 
 @pytest.mark.parametrize("make", ["stack", "list(stack)", "itk.image_view_from_array(stack)"])
 def test_array_in_memory_is_not_copied(fresh, make):
-    """A stack of 200 MiB; the memory of the estimate is taken by a first one; of a list, two chunks of up to 32 MiB."""
+    """The stack has 200 MiB. A first estimate takes the memory that estimates need. A list has two chunks of up to 32
+    MiB."""
     code = PEAK + (
         "import itk, numpy as np\n"
         "itk.estimate_sensor_noise(np.random.default_rng(1).integers(9, 90, (6, 512, 512), dtype=np.uint16))\n"
@@ -232,7 +233,7 @@ def test_array_in_memory_is_not_copied(fresh, make):
 
 @pytest.mark.parametrize("chunks", ["auto", (200, 128, 128)])
 def test_slices_of_arrays_by_dask_are_read_in_small_pieces(fresh, chunks):
-    """100 MiB in 200 frames: one chunk of ITK's has 32 MiB, a piece 8 MiB, and dask joins copies of the pieces."""
+    """200 frames have 100 MiB. A chunk of ITK has 32 MiB, a piece 8 MiB; dask concatenates copies of the pieces."""
     pytest.importorskip("dask.array")
     code = PEAK + (
         "import itk, pathlib, numpy as np, dask.array\n"
@@ -240,7 +241,7 @@ def test_slices_of_arrays_by_dask_are_read_in_small_pieces(fresh, chunks):
         "itk.estimate_sensor_noise(first, rolling_shutter='off', threads=1)\n"
         "stack = np.random.default_rng(1).integers(100, 1000, (200, 512, 512), dtype=np.uint16)\n"
         f"frames = dask.array.from_array(stack, chunks={chunks!r})\n"
-        "del stack; pathlib.Path('/proc/self/clear_refs').write_text('5')\n"  # the peak begins anew
+        "del stack; pathlib.Path('/proc/self/clear_refs').write_text('5')\n"  # resets the peak
         "before = peak(); itk.estimate_sensor_noise(frames, rolling_shutter='off', threads=1); print(peak() - before)"
     )
     assert float(fresh(code)) < 95

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Every filter in ITK's two styles, for every pixel type, against closed forms and against each other."""
+"""Tests every filter in both styles of ITK, for every pixel type, with closed forms and against each other."""
 
 import json
 
@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from conftest import ITK_TYPES
 
-# Sums of 40 numbers below 256 in double: an error of 40 x 2.2e-16, times 10 for what the variance cancels.
+# Sums of 40 numbers below 256 in double have an error of 40 x 2.2e-16, times 10 for cancellation in the variance.
 ROUNDING = 1e-13
-# Codes are summed about the middle of their range: half a unit in the last place of 2^15.
+# Grey values are summed relative to the middle of their range: the error is half a unit in the last place of 2^15.
 MIDDLE = 2.0**15 * 2.0**-53
 
 
@@ -29,7 +29,7 @@ def array(output):
 
 @pytest.fixture
 def statistics(stack):
-    """Mean, variance and valid mask in functional style: arrays in, arrays out."""
+    """Returns mean, variance and valid mask in functional style: arrays in, arrays out."""
     return itk.temporal_statistics_image_filter(stack)
 
 
@@ -46,7 +46,7 @@ def test_temporal_statistics_are_those_of_numpy(stack, statistics):
     numbers = stack.astype(np.float64)
     np.testing.assert_allclose(mean, numbers.mean(axis=0), rtol=ROUNDING, atol=MIDDLE)
     np.testing.assert_allclose(variance, numbers.var(axis=0, ddof=1), rtol=ROUNDING)
-    # The ends of the code range clip. Floating-point numbers that are all whole have the range of the integers.
+    # The ends of the DN range clip. Floating-point numbers that are all whole have the range of the integers.
     is_clipped = ((stack == 0) | (stack == 255)).any(axis=0)
     np.testing.assert_array_equal(valid[~is_clipped], 1)
 
@@ -67,7 +67,8 @@ def test_vibration_mask_in_class_style(stack, statistics, mask):
     found = itk.VibrationMaskImageFilter.New(mean, Variance=variance, ValidMask=valid, NumberOfFrames=len(stack))
     found.Update()
     np.testing.assert_array_equal(array(found.GetOutput()), mask)
-    # 2 T |grad|^2 / variance below the 99 % quantile of chi-square with 2 degrees of freedom, -2 ln 0.01.
+    # The pixels of the mask have 2 T |grad|^2 / variance below the 99 % quantile of chi-square with 2 degrees of
+    # freedom, -2 ln 0.01.
     rows, columns = np.gradient(statistics[0])
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = 2 * len(stack) * (rows**2 + columns**2) / statistics[1]
@@ -89,7 +90,7 @@ def test_flicker_correction_is_its_formula(stack, statistics, mask):
     assert gamma.shape == (len(stack),)
     assert len(found.GetBrightRatio()) == len(found.GetDarkResidual()) == len(stack)
     assert len(found.GetGammaRows()) == 0
-    # (3.18); differences of numbers below 300.
+    # Equation (3.18), with differences of numbers below 300.
     expected = stack - (1 + gamma[:, None, None]) * (statistics[0] - found.GetRawOffset())
     np.testing.assert_allclose(corrected, expected, atol=300 * ROUNDING)
 
@@ -112,7 +113,7 @@ def test_chain_by_hand_gives_the_numbers_of_the_one_call_way(stack, statistics, 
         statistics[0], variance, mask, offset=correction.GetOffset(), number_of_frames=len(stack)
     )
     whole = itk.estimate_sensor_noise(stack, method="published", rolling_shutter="off")
-    # The design's 1e-9.
+    # The limit 1e-9 is a requirement of the design.
     assert chain["gain"]["value"] == pytest.approx(whole["gain"]["value"], rel=1e-9)
     assert chain["intercept"]["value"] == pytest.approx(whole["intercept"]["value"], rel=1e-9)
     assert chain["pixels"]["used"] == whole["pixels"]["used"]
@@ -137,7 +138,7 @@ def test_vibration_covariance_recovers_a_quadratic_form():
     generator = np.random.default_rng(1)
     mean = np.cumsum(np.cumsum(generator.normal(size=(64, 96)), axis=0), axis=1)
     rows, columns = np.gradient(mean)
-    # (2.20) with Cov = ((4, 1), (1, 9)) 1e-4 and sigma_gamma^2 = 0.01.
+    # Equation (2.20) with Cov = ((4, 1), (1, 9)) 1e-4 and sigma_gamma^2 = 0.01.
     moved = 4e-4 * columns**2 + 9e-4 * rows**2 + 2 * 1e-4 * rows * columns
     variance = 1.01 * moved + 0.01 * mean**2 + 3.0 * mean + 5.0
     found = itk.vibration_covariance_estimator(mean, variance)

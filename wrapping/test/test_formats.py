@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Files of every format that Python reads by their names, made byte by byte."""
+"""Tests files of every format that Python reads by file name, written byte by byte."""
 
 import struct
 
@@ -8,11 +8,11 @@ import itk
 import numpy as np
 import pytest
 
-HEADER_BYTES = 2880  # of FITS: a multiple of them
+HEADER_BYTES = 2880  # block size of FITS: the header is a multiple of it [byte]
 
 
 def write_tiff(name, frames, description="", leave_out=()):
-    """Pages of grey values without compression; tags in `leave_out` are left out."""
+    """Writes pages of grey values without compression. Tags in `leave_out` are left out."""
     data, at_next = bytearray(b"II*\0\0\0\0\0"), 4
     for number, frame in enumerate(frames):
         pixels = frame.astype(frame.dtype.newbyteorder("<")).tobytes()
@@ -40,7 +40,7 @@ def write_tiff(name, frames, description="", leave_out=()):
 
 
 def write_fits(name, frames):
-    """Unsigned numbers of 16 bits, as FITS has them: signed ones and BZERO."""
+    """Writes unsigned 16-bit numbers as FITS stores them: signed numbers and BZERO."""
     frames_count, rows, columns = frames.shape
     cards = [
         *("SIMPLE  =                    T", "BITPIX  =                   16", "NAXIS   =                    3"),
@@ -58,7 +58,7 @@ def write_pgm(name, frame):
 
 
 def write_ser(name, frames, count):
-    """A recording whose header says that there are `count` frames."""
+    """Writes a recording whose header states `count` frames."""
     _, rows, columns = frames.shape
     header = struct.pack("<14s7i", b"LUCAM-RECORDER", 0, 0, 0, columns, rows, 16, count)
     name.write_bytes(header.ljust(178, b"\0") + frames.astype("<u2").tobytes())
@@ -92,7 +92,7 @@ def test_tiff_of_32_bits(burst, tmp_path):
 
 
 def test_tiff_without_a_tag_that_has_a_default(burst, expected, tmp_path):
-    """ImageJ wrote no Compression before 2022."""
+    """ImageJ before 2022 wrote no tag Compression."""
     write_tiff(tmp_path / "imagej.tif", burst, leave_out=(259,))
     assert itk.estimate_sensor_noise(tmp_path / "imagej.tif") == expected
 
@@ -116,5 +116,5 @@ def test_hyperstack_is_refused_with_the_way_of_python(burst, expected, tmp_path)
             f"{tmp_path}/hyper.tif: has 2 channels and 60 times; expected frames that differ in time"
         )
         assert "--" not in text and text.endswith("tifffile.imread(name)[:, 0]")
-    # The way that is named, with an array (T, C, Y, X).
+    # The error message recommends this conversion of an array (T, C, Y, X).
     assert itk.estimate_sensor_noise(both.reshape(len(burst), 2, *burst.shape[1:])[:, 0]) == expected

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What is no stack, and what is no parameter, is refused: the first line says what was found and what was expected."""
+"""Tests that invalid stacks and parameters are rejected: the first line says what was found and what was expected."""
 
 import itk
 import numpy as np

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""ITK's habits: filters stand for their outputs, results have the type of the input, and methods can be opened."""
+"""Tests ITK conventions: filters stand for their outputs, results have the input type, methods are accessible."""
 
 import itk
 import numpy as np
@@ -16,11 +16,11 @@ def labelled(burst):
     return xarray.DataArray(burst, dims=("time", "y", "x"), coords=coords)
 
 
-KEPT = []  # a filter that is gone leaves its output without pixels
+KEPT = []  # a deleted filter leaves its output without pixels
 
 
 def reader_of(image):
-    """A filter that has not run yet, whose output is the image."""
+    """Returns a filter that has not run yet, whose output is the image."""
     KEPT.append(itk.CastImageFilter[type(image), type(image)].New(image))
     return KEPT[-1]
 
@@ -112,7 +112,7 @@ def test_wrong_use_of_the_steps_is_refused(burst):
 
 
 def test_methods_can_be_opened_or_are_not_there(fresh):
-    """SWIG gives a SwigPyObject for a struct, and warns of an enumeration when that goes."""
+    """SWIG returns a SwigPyObject for a struct, and warns of an enumeration when that object is deleted."""
     code = (
         "import itk, numpy as np\n"
         "image = itk.image_view_from_array(np.random.default_rng(1).integers(9, 90, (8, 48, 64), dtype=np.uint16))\n"

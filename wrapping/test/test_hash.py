@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The SHA-256 of what was measured: the tool's of files, the array's of all else."""
+"""Tests the SHA-256 of the measured data: the tool's hash of files, and the hash of arrays for other sources."""
 
 import hashlib
 import json
@@ -12,7 +12,7 @@ import pytest
 
 
 class Lazy:
-    """Frames that are no array."""
+    """Frames that are not an array."""
 
     def __init__(self, frames, wrong=None):
         self.frames, self.shape, self.dtype, self.wrong = frames, frames.shape, frames.dtype, wrong
@@ -25,7 +25,7 @@ class Lazy:
 
 @pytest.fixture
 def folder(burst, tmp_path):
-    """The burst in files of several kinds, and dark frames."""
+    """Writes the burst to files of several kinds, and dark frames. Returns their folder."""
     itk.imwrite(itk.image_view_from_array(burst), str(tmp_path / "stack.mhd"))
     burst[:12].tofile(tmp_path / "dark.bin")
     for number, frame in enumerate(burst):
@@ -75,7 +75,7 @@ def test_files_have_the_hash_of_the_tool(tool, folder):
 
 
 def test_whatever_holds_the_pixels_they_have_one_hash(burst, monkeypatch):
-    monkeypatch.setattr("itk_sensornoise._frames._PIECE_BYTES", 7 * burst[0].nbytes)  # the last piece is shorter
+    monkeypatch.setattr("itk_sensornoise._frames._PIECE_BYTES", 7 * burst[0].nbytes)  # makes the last piece shorter
     expected = of_pixels(burst)
     for frames in (
         burst,
@@ -112,7 +112,7 @@ def test_files_that_change_meanwhile_are_refused(folder, monkeypatch):
     monkeypatch.setattr(_hash.FramesHash, "_add_file", later)
     with pytest.raises((ValueError, RuntimeError), match="stack.raw has changed since it was opened"):
         hash_of(folder / "stack.mhd")
-    # what the reader does not look at, as rawpy, or after its last reading
+    # The reader misses some changes: rawpy does not look for them, and a change may follow the last reading.
     monkeypatch.setattr(_hash.FramesHash, "_add_file", original)
     hashed = _hash.FramesHash(itk_stack(folder / "stack.mhd"))
     hashed.require_unchanged()

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""`import itk`, in any order, again, and without cost or a word."""
+"""Tests `import itk` in any order, repeatedly, without delay and without output."""
 
 import importlib
 from pathlib import Path
@@ -20,7 +20,7 @@ NAMES = [
 ]
 OURS = f"assert all(getattr(itk, name).__module__.startswith('itk_sensornoise') for name in {NAMES})\n"
 USE = {
-    # It is threaded, and so chooses TBB for every filter after it.
+    # The cast filter is threaded, and selects TBB for all filters after it.
     "wheel": "itk.cast_image_filter(np.ones((9, 9), np.float32), ttype=(itk.Image[itk.F, 2], itk.Image[itk.D, 2]))\n",
     "function": "stack, _ = itk.simulate_sensor_noise(frames=8, size=(64, 48)); itk.estimate_sensor_noise(stack)\n",
     "class": "itk.SensorNoiseSceneSource.New(width=64, height=48).Update()\n",

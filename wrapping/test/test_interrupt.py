@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Ctrl-C while a stack is measured."""
+"""Tests Ctrl-C during the measurement of a stack."""
 
 import sys
 

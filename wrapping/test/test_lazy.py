@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What has a shape, a dtype and slices along time is read a few frames at a time, whoever made it."""
+"""Tests that any object with a shape, a dtype and slices along time is read a few frames at a time."""
 
 import os
 import signal
@@ -9,7 +9,7 @@ import itk
 import numpy as np
 import pytest
 
-# What the kernel counts for one process alone: ru_maxrss of a child holds its parent's peak.
+# Peak memory of one process in the kernel: ru_maxrss of a child includes the peak of its parent.
 PEAK = """
 import sys, itk, numpy as np
 def peak():
@@ -19,7 +19,7 @@ def peak():
 
 
 class Sliced:
-    """The least that lazy frames are; `asked` holds the slices."""
+    """Lazy frames with the minimum of attributes. `asked` has the slices that were read."""
 
     def __init__(self, frames, wrong=None):
         self.frames, self.wrong, self.asked = frames, wrong, []
@@ -41,7 +41,7 @@ def of_memmap(burst, folder):
 
 
 def of_private_memmap(burst, folder):
-    """Copy on write: what was changed is in memory alone, and counts."""
+    """Returns a copy-on-write memmap. Its changes are only in memory, and must be measured."""
     np.save(folder / "a.npy", np.zeros_like(burst))
     frames = np.load(folder / "a.npy", mmap_mode="c")
     frames[...] = burst
@@ -144,7 +144,7 @@ def test_what_is_stored_together_is_read_once(burst):
     frames = Sliced(burst)
     frames.chunks = (25, 96, 128)
     itk.estimate_sensor_noise(frames)
-    assert frames.asked == [(0, 60)]  # one chunk of ITK: all three passes go over it
+    assert frames.asked == [(0, 60)]  # one chunk of ITK: all three passes use it
     frames.chunks = ((350, 50), (96,), (128,))
     itk.estimate_sensor_noise(frames)
 
@@ -210,7 +210,7 @@ def test_ctrl_c_while_a_reader_reads(burst):
         os.kill(os.getpid(), signal.SIGINT)
         return part
 
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job ignores SIGINT
     try:
         with pytest.raises(KeyboardInterrupt):
             itk.estimate_sensor_noise(Sliced(burst, interrupt))
@@ -296,7 +296,7 @@ OPEN = {
 
 @pytest.mark.parametrize("kind", OPEN)
 def test_memory_stays_flat(fresh, tmp_path, kind):
-    """100 frames are 50 MiB, 400 are 200; ITK asks for up to 64 at a time."""
+    """100 frames have 50 MiB, 400 frames 200 MiB. ITK requests up to 64 frames at a time."""
     pytest.importorskip({"memmap": "numpy", "dask": "dask.array"}.get(kind, kind))
     stored = "zarr" if kind == "dask" else kind
     pytest.importorskip({"memmap": "numpy"}.get(stored, stored))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Many bursts in one call: what the table says, and what is refused."""
+"""Tests many bursts in one call: the table, and the errors for wrong arguments."""
 
 import os
 import sys

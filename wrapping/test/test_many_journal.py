@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Many bursts in one call: what is in the file, also of a process that was stopped or killed, and how it goes on."""
+"""Tests the file of many bursts in one call, also after a stopped or killed process, and how a call continues it."""
 
 import signal
 import subprocess
@@ -22,7 +22,7 @@ def test_lines_hold_the_whole_reports(bursts, reports, tmp_path):
 
 
 class Counted:
-    """Sources that count how often they are opened; some fail."""
+    """Sources that count how often they are opened. Some of them fail."""
 
     def __init__(self, bursts, bad=()):
         self.opened = []
@@ -49,7 +49,7 @@ def test_a_run_goes_on_where_it_was(bursts, tmp_path, ending):
         "measured",
     ]
     whole = lines.read_bytes()
-    lines.write_bytes(whole[:-1] + b" " * len(whole))  # the last line has no end, as of a killed process
+    lines.write_bytes(whole[:-1] + b" " * len(whole))  # the last line is incomplete, as after a killed process
     counted.bad.clear()
     table = estimate_many(counted.sources, output=output)
     assert counted.opened == ["a", "b", "c", "b", "c"]
@@ -76,7 +76,7 @@ def test_other_settings_are_refused_before_anything_is_measured(bursts, tmp_path
         with pytest.raises(ValueError, match=r"x\.jsonl: b was measured with the settings"):
             estimate_many({"b": counted.sources["b"]}, output=tmp_path / "x.jsonl", **other)
     assert counted.opened == ["b"]
-    estimate_many({"a": counted.sources["a"]}, output=tmp_path / "x.jsonl")  # another name
+    estimate_many({"a": counted.sources["a"]}, output=tmp_path / "x.jsonl")  # the name is different
     assert [line["name"] for line in lines_of(tmp_path / "x.jsonl")] == ["b", "a"]
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Many bursts in one call, by the workers of Dask."""
+"""Tests many bursts in one call with Dask workers."""
 
 import os
 import pickle
@@ -74,7 +74,7 @@ def test_a_burst_is_not_blamed_for_what_its_neighbour_did(bursts):
         time.sleep(0.5)
         os.kill(os.getpid(), signal.SIGKILL)
 
-    def beside():  # is at work at each end of the only worker
+    def beside():  # runs whenever the only worker ends
         time.sleep(2)
         return frames
 

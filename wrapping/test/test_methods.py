@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The two methods, and an offset that is known: given, or from dark frames."""
+"""Tests the two methods, and a known offset: given, or from dark frames."""
 
 import itk
 import numpy as np
@@ -42,8 +42,9 @@ def test_refined_is_the_default_and_has_errors(burst):
 def test_dark_frames_tell_offset_and_read_noise(burst, dark):
     report = itk.estimate_sensor_noise(burst, dark=dark)
     assert is_near(report["offset"], 100) and is_near(report["read_noise"], 8)
-    # sigma / sqrt(N T), and what chance makes of a drift of the level: its variance, sigma^2 / N of noise taken off,
-    # has the relative error sqrt(2 / (T - 1)) = 0.43, three of which are 1.3; then sigma / sqrt(2 N (T - 1)).
+    # The offset has the error sigma / sqrt(N T) and an error for drift of the level. The variance of the drift, less
+    # sigma^2 / N of noise, has the relative error sqrt(2 / (T - 1)) = 0.43; three of these are 1.3. The read noise has
+    # the error sigma / sqrt(2 N (T - 1)).
     assert 0.95 < report["offset"]["standard_error"] / (8 / np.sqrt(dark.size)) < np.sqrt(1 + 1.3)
     assert report["read_noise"]["standard_error"] == pytest.approx(8 / np.sqrt(2 * 128 * 96 * 11), rel=0.1)
     assert report["settings"]["dark_frames"] == 12

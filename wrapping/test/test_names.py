@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""A pattern, a folder and a generator are the list of names that they mean."""
+"""Tests that a pattern, a folder and a generator give the same result as the list of their names."""
 
 import sys
 from pathlib import Path
@@ -12,7 +12,7 @@ import pytest
 
 @pytest.fixture
 def folder(burst, tmp_path):
-    """Frames whose alphabetical order is not theirs: frame_10 before frame_2."""
+    """Writes frames whose alphabetical order is wrong: frame_10 before frame_2. Returns their folder."""
     for number, frame in enumerate(burst[:12]):
         itk.imwrite(itk.image_from_array(frame), str(tmp_path / f"frame_{number}.png"))
     return tmp_path
@@ -39,7 +39,7 @@ MEANT = {
 
 @pytest.mark.parametrize("make", MEANT)
 def test_what_means_a_list_is_the_list_in_natural_order(folder, expected, make):
-    assert itk.estimate_sensor_noise(MEANT[make](folder)) == expected  # its flicker is in the order of the frames
+    assert itk.estimate_sensor_noise(MEANT[make](folder)) == expected  # the flicker shows the order of the frames
 
 
 def test_a_list_keeps_its_order(folder, expected):
@@ -82,7 +82,7 @@ def test_what_means_no_list_is_refused(folder, tmp_path):
     (tmp_path / "empty").mkdir()
     assert refused(tmp_path / "empty") == f"{tmp_path}/empty: is a folder without files; {each}"
     assert refused(iter(())) == "frames is an empty tuple_iterator; expected file names"
-    assert refused([folder]).startswith(f"{folder}: is a folder")  # among names it is none
+    assert refused([folder]).startswith(f"{folder}: is a folder")  # a folder within a list is rejected
 
 
 OTHERS = {

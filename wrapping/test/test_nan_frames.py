@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Frames that are NaN in every pixel are named by their indices."""
+"""Tests that frames with NaN in every pixel are named by their indices."""
 
 import warnings
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Notebooks: each result is a table of HTML and one figure, and a plot is shown once."""
+"""Tests notebooks: each result is an HTML table and one figure, and a plot is shown once."""
 
 import base64
 import html
@@ -36,7 +36,7 @@ def test_a_result_is_a_table_and_one_figure(results, name):
     text = results[name]._repr_html_()
     assert "<pre" not in text and text.count("<table>") == 1 and text.count("<figure") == 1
     assert set(re.findall("<([a-z]+)", text)) <= HEADERS
-    assert "white-space:nowrap" in text  # a number and its error stay on a line
+    assert "white-space:nowrap" in text  # a number and its error stay on one line
     pictures = re.findall(r'src="data:image/svg\+xml;base64,([^"]+)"', text)
     assert len(pictures) == (4 if name == "mosaic" else 1)
     for picture in pictures:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What OpenCV reads, as it is."""
+"""Tests that frames from OpenCV are measured without changes."""
 
 import itk
 import numpy as np
@@ -10,7 +10,7 @@ cv2 = pytest.importorskip("cv2")
 
 
 def frames_of(video):
-    """Of a cv2.VideoCapture."""
+    """Returns the frames of a cv2.VideoCapture."""
     assert video.isOpened()
     frames = []
     while (found := video.read())[0]:
@@ -20,7 +20,7 @@ def frames_of(video):
 
 @pytest.mark.parametrize("name", ["frame_%03d.png", "frame_000.png"])
 def test_video_of_images_measures_as_their_array(tmp_path, name):
-    """By the back end for images: another one may make them colour, or 8 bits."""
+    """The test uses the back end for images. Other back ends may convert frames to colour or to 8 bits."""
     stack, _ = itk.simulate_sensor_noise(frames=20, size=(64, 48), flicker_sd=0.1, seed=1)
     for index, frame in enumerate(stack):
         assert cv2.imwrite(str(tmp_path / f"frame_{index:03d}.png"), frame)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Options in the forms that Python has for them: slices for a region, a function for the progress."""
+"""Tests options in Python's forms: slices for a region, a function for the progress."""
 
 import json
 from collections import deque
@@ -81,7 +81,7 @@ def test_slices_are_settings_of_many_bursts():
 
 
 class Tensor:
-    """A tensor of another library, which NumPy knows by DLPack alone."""
+    """Tensor of another library, which NumPy can read only through DLPack."""
 
     def __init__(self, array):
         self.array = array

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The page of a report: the tool's, complete or not at all, wherever the report went."""
+"""Tests the page of a report: equal to the page of the tool, and complete or not written, for any kind of report."""
 
 import base64
 import copy
@@ -27,7 +27,7 @@ STACKS = {
 
 @pytest.fixture(scope="module", params=STACKS)
 def stack(request, tmp_path_factory):
-    """A file with frames."""
+    """Writes a file with frames. Returns its name."""
     name = tmp_path_factory.mktemp("page") / "stack.mha"
     itk.imwrite(itk.image_view_from_array(STACKS[request.param]()), str(name))
     return name
@@ -35,11 +35,11 @@ def stack(request, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def report(stack):
-    return itk.estimate_sensor_noise(stack, hash=True)  # as the tool's page always has it
+    return itk.estimate_sensor_noise(stack, hash=True)  # the page of the tool always has the hash
 
 
 def unpacked(page):
-    """The page with the pixels of its pictures: zlib packs them, ITK's in the wheel, the system's in the tool."""
+    """Returns the page with uncompressed pictures: the wheel uses ITK's zlib, the tool the system's."""
 
     def pixels(match):
         picture = base64.b64decode(match[1])
@@ -57,7 +57,7 @@ def unpacked(page):
 
 
 def assert_same(found, expected):
-    """But for the last digit of what neighbours share: of that the tool has other sums of numbers of 4 bytes."""
+    """Compares two pages. The last digit of a number may differ, as the tool adds 4-byte numbers in another order."""
     number = re.compile(r"(\d+\.\d+)")
     for ours, theirs in zip(number.split(found), number.split(expected), strict=True):
         if ours != theirs:
@@ -73,7 +73,7 @@ def test_the_page_is_the_tool_s(tool, stack, report, tmp_path):
         assert error.returncode == 3 and "nothing-to-measure" in error.stderr
     report.to_html(tmp_path / "page.html")
     ours, theirs = (unpacked((tmp_path / name).read_text(encoding="utf-8")) for name in ("page.html", "tool.html"))
-    # The tool knows the file: its name and its date.
+    # The tool knows the name and the date of the file.
     assert f"<h1>Noise of {stack.name}</h1>" in theirs and '<span class="date">' in theirs
     title = re.search(r"<h1>Noise of (.*?)</h1>", ours)[1]
     theirs = re.sub(r'<span class="date">.*?</span>', "", theirs).replace(stack.name, title)
@@ -163,7 +163,7 @@ def test_figure_data_are_those_of_the_record(burst):
     assert data["lags"] == report["noise_correlation"]["space"] + report["noise_correlation"]["time"]
     line = report["variance_slope"]["value"] * np.array(data["line_mean"]) + report["total_intercept"]["value"]
     np.testing.assert_allclose(data["line_variance"], line)
-    data["mean"].clear()  # a copy
+    data["mean"].clear()  # data is a copy
     assert report.figure_data["mean"]
     assert report.figure_data["residual_spread"] >= 1 and len(data["residual"]) == len(report["scatter"]["mean"])
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Our filters among ITK's own, in threads, and over and over."""
+"""Tests our filters together with ITK's filters, in threads, and in repeated calls."""
 
 from concurrent.futures import ThreadPoolExecutor
 
@@ -71,7 +71,8 @@ def test_after_an_error_the_next_estimate_is_right(burst):
 
 
 def test_nothing_leaks_over_200_calls(fresh):
-    """A stack of 1 MiB. A report kept is 80 kB, 16 MiB in 200 calls; a map, a frame or an observer more."""
+    """The stack has 1 MiB. A retained report has 80 kB, which is 16 MiB in 200 calls. A map, a frame or an observer is
+    larger."""
     code = """
 import gc, itk
 def resident():

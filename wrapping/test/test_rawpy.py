@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Raw files of cameras through rawpy: codes as they are, and what the file says of the camera."""
+"""Tests raw files of cameras through rawpy: unchanged grey values, and the camera settings of the file."""
 
 import os
 import struct
@@ -17,7 +17,7 @@ FORMATS = {BYTE: "B", SHORT: "H", LONG: "I", RATIONAL: "I", SRATIONAL: "i"}
 
 
 def write_dng(name, codes, cfa=(0, 1, 1, 2), black=100, white=4095):
-    """An uncompressed DNG of 16 bits. `cfa`: 0 red, 1 green, 2 blue."""
+    """Writes an uncompressed DNG with 16 bits. `cfa`: 0 red, 1 green, 2 blue."""
     height, width = codes.shape
     tags = [
         (254, LONG, [0]),
@@ -52,7 +52,7 @@ def write_dng(name, codes, cfa=(0, 1, 1, 2), black=100, white=4095):
 
 
 def directory(tags, start):
-    """A directory of a TIFF that stands at `start`, with its values behind it."""
+    """Returns a TIFF directory at the position `start`, followed by its values."""
     entries, extra = b"", b""
     for tag, kind, values in tags:
         data = values if kind == ASCII else struct.pack(f"<{len(values)}{FORMATS[kind]}", *values)
@@ -74,7 +74,7 @@ def names(burst, tmp_path):
 
 
 def test_codes_are_those_of_the_file(burst, names):
-    mono = {"bayer": "none"}  # the files say RGGB, of a burst that is none
+    mono = {"bayer": "none"}  # the files wrongly say RGGB
     expected = itk.estimate_sensor_noise(burst[:12], **mono)
 
     def measured(frames, **options):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Reports that were written as JSON, read again: the table and the figures are those of C++."""
+"""Tests that reports that are read from JSON give the same table and figures as reports in C++."""
 
 import json
 import math
@@ -21,7 +21,7 @@ def ramp_of_exposures():
     return sn.estimate_sensor_noise(stack, exposures=[i % 5 + 1 for i in range(25)])
 
 
-# Tables of every kind: which quantities, errors and sentences they have.
+# Options for tables of every kind: quantities, errors and sentences.
 KINDS = {
     "refined": lambda: sn.estimate_sensor_noise(simulated()),
     "published": lambda: sn.estimate_sensor_noise(simulated(), method="published"),
@@ -40,7 +40,7 @@ KINDS = {
 
 
 def require_close(found, expected, path=""):
-    """Equal but for the order of sums: 1e-9 of a number."""
+    """Requires equal records. Numbers may differ by 1e-9, as sums are in another order."""
     if isinstance(expected, dict):
         assert found.keys() == expected.keys(), path
         for name in expected:

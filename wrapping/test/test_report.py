@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The report: a dict that prints, draws, travels, compares and does not change."""
+"""Tests the report: an immutable dict that can be printed, drawn, pickled and compared."""
 
 import base64
 import copy
@@ -35,7 +35,8 @@ def test_it_is_the_json_record(report):
 
 
 def test_it_recovers_the_truth(report):
-    # Camera B: g = 1; the standard error is about sqrt(2 / 60 frames / 6000 pixels) x 3 for the line's slope.
+    # Camera B has g = 1. The standard error is about sqrt(2 / 60 frames / 6000 pixels), times 3 for the slope of the
+    # line.
     assert report["gain"]["value"] == pytest.approx(1.0, abs=5 * 3 * np.sqrt(2 / 60 / 6000))
 
 
@@ -95,7 +96,7 @@ def test_copies_of_it_can_be_changed(report):
 
 
 def identified(record):
-    """All quantities of a record that have a value."""
+    """Yields all quantities of a record that are identified."""
     if isinstance(record, dict) and record.get("status") == "identified":
         yield record
     for member in record.values() if isinstance(record, dict) else record if isinstance(record, list) else []:
@@ -185,7 +186,7 @@ def test_plot_draws_into_given_axes(report):
 
 
 def test_plot_dashes_the_line_where_the_gain_is_not_identified():
-    """A gamma curve is refused; what the line through all levels would be is drawn as such."""
+    """A gamma curve gives no gain. The line through all levels is drawn dashed."""
     pytest.importorskip("matplotlib").use("svg")
     from matplotlib.figure import Figure
 
@@ -208,7 +209,7 @@ def test_plot_dashes_the_line_where_the_gain_is_not_identified():
 
 
 def test_notebook_shows_table_and_curve(report, monkeypatch):
-    monkeypatch.setitem(sys.modules, "matplotlib", None)  # not needed, except by plot()
+    monkeypatch.setitem(sys.modules, "matplotlib", None)  # only plot() needs it
     text = report._repr_html_()
     assert "<pre" not in text and all(f">{html.escape(word)}<" in text for word in ("gain g", "DN/e⁻", "identified"))
     (picture,) = re.findall(r'<img [^>]*src="data:image/svg\+xml;base64,([^"]+)"', text)
@@ -216,7 +217,7 @@ def test_notebook_shows_table_and_curve(report, monkeypatch):
     root = ElementTree.fromstring(curve)
     assert root.tag == "{http://www.w3.org/2000/svg}svg" and "prefers-color-scheme:dark" in curve
     drawn = re.search("<svg [^>]*>(.*?)</svg>", report.to_html(), re.DOTALL)[1]
-    assert len(drawn) > 5000 and drawn in curve  # the page's own figure
+    assert len(drawn) > 5000 and drawn in curve  # the figure of the page
     with pytest.raises(ImportError):
         report.plot()
 

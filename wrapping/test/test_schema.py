@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Every report, stored or written now, is as documentation/report.schema.json says."""
+"""Tests that every stored or new report agrees with documentation/report.schema.json."""
 
 import copy
 import json
@@ -17,7 +17,7 @@ SCHEMA = json.loads((SOURCE / "documentation" / "report.schema.json").read_text(
 STORED = sorted((SOURCE / "test" / "reports").glob("*.json"))
 SMALL = ("--size", "96x64", "--frames", "20")
 
-# What the simulator is asked for, and the options of the estimator.
+# Options of the simulator, and options of the estimator.
 WRITTEN = {
     "refined": ((), ()),
     "published": ((), ("--method", "published")),
@@ -39,7 +39,7 @@ def validator():
 
 
 def require_valid(validator, record) -> None:
-    """Says where a record is not as the schema says."""
+    """Requires that a record agrees with the schema. The message has the places where it does not."""
     definition = "mosaic" if "channels" in record else "report"
     narrow = validator.evolve(schema={"$ref": f"#/$defs/{definition}", "$defs": SCHEMA["$defs"]})
     errors = [f"{error.json_path}: {error.message[:200]}" for error in narrow.iter_errors(record)]

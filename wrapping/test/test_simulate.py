@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Real sensors: every flaw by the same name as the command-line tool's, bit for bit."""
+"""Tests simulated sensors with flaws: each parameter gives the same bits as the option of the tool."""
 
 import json
 
@@ -8,7 +8,7 @@ import itk
 import numpy as np
 import pytest
 
-# Each parameter, and the tool's option.
+# Each parameter with the option of the tool.
 FLAWS = {
     "prnu": (0.02, "0.02"),
     "dsnu": (3, "3"),
@@ -39,7 +39,7 @@ FLAWS = {
     "optical_blur": (1.5, "1.5"),
     "illumination": ("sine:0.1:3", "sine:0.1:3"),
 }
-# Parameters that change how another one works, with that one.
+# Parameters that modify another parameter, together with it.
 MANNERS = {
     "binning_interpolation": ("linear", {"binning": 2}),
     "transmission": ((0.3, 0.9, 0.5), {"bayer": "BGGR"}),
@@ -86,10 +86,10 @@ def test_dark_frames_are_of_the_same_sensor():
     sensor = {"size": (64, 48), "frames": 50, "dsnu": 40, "read_noise_spread": 0.3, "dtype": "float64"}
     dark, _ = itk.simulate_sensor_noise(**sensor, dark=True)
     unlit, _ = itk.simulate_sensor_noise(**sensor, electrons=1e-9)
-    # The offsets spread by 40 DN; the means of 50 frames by 8 / sqrt(50) = 1.1 DN.
+    # The offsets have a standard deviation of 40 DN, and the means of 50 frames one of 8 / sqrt(50) = 1.1 DN.
     assert np.corrcoef(dark.mean(0).ravel(), unlit.mean(0).ravel())[0, 1] > 0.99
     noise = (dark - dark.mean(0)).ravel() @ (unlit - unlit.mean(0)).ravel()
-    assert abs(noise) < 5 * 8**2 * 1.3 * np.sqrt(dark.size)  # 1.3: E[sigma^4] / median^4, and some more
+    assert abs(noise) < 5 * 8**2 * 1.3 * np.sqrt(dark.size)  # the factor 1.3 is above E[sigma^4] / median^4
 
 
 def test_illumination_factors_are_those_of_a_file(tool, tmp_path):
@@ -100,7 +100,7 @@ def test_illumination_factors_are_those_of_a_file(tool, tmp_path):
     stack, truth = itk.simulate_sensor_noise(**SMALL, illumination=factors, flicker_sd=None)
     np.testing.assert_array_equal(stack, itk.array_from_image(itk.imread(str(file))))
     assert truth["illumination"] == "factors" and truth["condition"] is None
-    np.testing.assert_allclose(1 + np.array(truth["gamma"]), factors, rtol=0.25)  # times a flicker of 5 %
+    np.testing.assert_allclose(1 + np.array(truth["gamma"]), factors, rtol=0.25)  # the factors include a flicker of 5 %
     named, _ = itk.simulate_sensor_noise(**SMALL, illumination="ramp:0")
     as_numbers, _ = itk.simulate_sensor_noise(**SMALL, illumination=np.array([0, 1 / 3, 2 / 3, 1]))
     np.testing.assert_array_equal(named, as_numbers)

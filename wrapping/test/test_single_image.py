@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The single-image method in ITK's two styles and as the tool has it."""
+"""Tests the single-image method in both styles of ITK, against the tool."""
 
 import json
 import os
@@ -17,7 +17,7 @@ GAIN, OFFSET, READ_NOISE = 0.5, 20.0, 2.0
 
 @pytest.fixture(scope="module")
 def frames():
-    """Three frames (3, 192, 256) of flat fields of 16 levels, whose digital numbers fit every pixel type."""
+    """Returns three frames (3, 192, 256) of flat fields of 16 levels, whose digital numbers fit every pixel type."""
     random = np.random.default_rng(5)
     electrons = np.repeat(np.repeat(np.linspace(20, 320, 16).reshape(4, 4), 48, axis=0), 64, axis=1)
     signal = GAIN * random.poisson(electrons, (3, *electrons.shape))

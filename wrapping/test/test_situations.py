@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The bursts that NumPy makes for measure_acceptance.py."""
+"""Tests the bursts that NumPy makes for measure_acceptance.py."""
 
 import itertools
 import os
@@ -44,7 +44,7 @@ def test_frames_have_the_noise_of_the_camera_model():
     frames = expose(random, electrons, [0.5, 1.0, 2.0], gain=0.5, offset=100.0, read_noise=3.0)
     for frame, factor in zip(frames, (0.5, 1.0, 2.0), strict=True):
         variance = 0.25 * 900 * factor + 9.0
-        # Of 3000 pixels: 4 standard errors.
+        # The mean of 3000 pixels, within 4 standard errors.
         assert frame.mean() == pytest.approx(100 + 450 * factor, abs=4 * (variance / 3000) ** 0.5)
         assert frame.var() == pytest.approx(variance, rel=4 * (2 / 3000) ** 0.5)
 
@@ -76,7 +76,7 @@ def test_the_linearity_error_of_a_line_is_0_and_that_of_a_parabola_that_of_its_b
     def squares(line):
         return np.sum(((levels - line[0] - line[1] * exposures) / signal) ** 2)
 
-    # No neighbouring line has smaller squares than the one whose error is returned.
+    # The residuals of neighbouring lines are not smaller than the residuals of the line of the returned error.
     design = np.stack([np.ones(9), exposures], axis=1) / signal[:, None]
     line = np.linalg.solve(design.T @ design, design.T @ (levels / signal))
     for step in itertools.product((-0.01, 0.01), repeat=2):

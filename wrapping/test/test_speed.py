@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The program that measures speed: its fit, and its programs on few pixels."""
+"""Tests the program that measures speed: its fit, and its programs with few pixels."""
 
 import os
 import re
@@ -32,5 +32,5 @@ def test_the_programs_say_their_gains():
     gains = {row[0]: float(row[-1]) for row in rows}
     assert gains["estimate, refined"] == pytest.approx(1, abs=0.03)
     assert gains["tool, refined, 100 TIFFs"] == pytest.approx(gains["estimate, refined"], abs=2e-4)
-    assert gains["NumPy mean + var"] > 2  # the flicker is in it
+    assert gains["NumPy mean + var"] > 2  # it contains the flicker
     assert gains["temporal statistics"] == pytest.approx(gains["NumPy mean + var"], abs=2e-4)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The generalized Anscombe transform and its inverses: arrays and images in, the like out."""
+"""Tests the generalized Anscombe transform and its inverses, which return the type of the input: array or image."""
 
 import json
 import warnings
@@ -13,7 +13,7 @@ MODEL = {"variance_slope": 0.5, "total_intercept": -3.0}
 
 
 def report_of(slope, intercept, **more):
-    """The two numbers that are needed; a report of smoothed frames may have no others."""
+    """Returns a report with the two required numbers. A report of smoothed frames may have no others."""
     return {
         "schema": "itk-sensornoise-report/1",
         "variance_slope": {"value": slope, "status": "identified"},
@@ -74,7 +74,8 @@ def test_model_of_a_report_a_mapping_or_a_file(burst, tmp_path):
 
 
 def test_closed_form_brings_a_mean_back_without_bias():
-    """200,000 draws at 8 e- and a read noise of 2 e-: 4 standard errors of the mean, and the closed form's 0.013 e-."""
+    """The tolerance for 200,000 draws at 8 e- and a read noise of 2 e- is 4 standard errors of the mean, plus the error
+    0.013 e- of the closed form."""
     random = np.random.default_rng(4)
     gain, offset, read_noise, light = 2.0, 100.0, 2.0, 8.0
     levels = offset + gain * (random.poisson(light, 200000) + read_noise * random.normal(size=200000))

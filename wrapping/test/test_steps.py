@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Steps in a series of measurements, in closed form and by chance."""
+"""Tests steps in a series of measurements with closed forms and with random numbers."""
 
 import math
 
@@ -18,7 +18,7 @@ def test_change_and_error_are_those_of_weighted_means():
 
 
 def test_threshold_is_that_of_the_normal_distribution():
-    # |z| of a change of 1 between two measurements of errors e is 1 / (e sqrt(2)); 2.5758 is 1 in 100.
+    # |z| of a change of 1 between two measurements of errors e is 1 / (e sqrt(2)). Chance exceeds 2.5758 once in 100.
     just = 1 / (math.sqrt(2) * 2.5758293)
     assert find_steps([0, 1], [just * 0.9999] * 2, 0.01) and not find_steps([0, 1], [just * 1.0001] * 2, 0.01)
 
@@ -52,7 +52,8 @@ def test_false_alarms_are_no_more_than_allowed():
         errors = random.uniform(0.5, 2, 12)
         found += len(find_steps(errors * random.standard_normal(12), errors, 0.02))
         places += 11
-    # Allowed are 220; by simulation of another million places 0.60 of these are seen, as neighbours go together.
+    # 220 are allowed. A simulation of another million places finds a fraction of 0.60 of these, as neighbouring places
+    # are correlated.
     assert 220 * 0.4 < found < 220 * 0.8
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The tables of the studies, by closed forms, and the lines of measure-cases that they are made of."""
+"""Tests the tables of the studies with closed forms, and the lines of measure-cases from which they are made."""
 
 import json
 import math
@@ -38,7 +38,7 @@ def test_an_estimate_is_compared_with_its_truth():
     assert found.is_within(0.021) and not found.is_within(0.019)
     none = estimate_of(record(quantity(None, status="not-identifiable", bounds=[0.5, None])), "gain")
     assert none.error is none.z is none.is_held is None and none.bounds == [0.5, None]
-    assert estimate_of(record(quantity(1.0)), "row_noise").status == "none"  # no place in this report
+    assert estimate_of(record(quantity(1.0)), "row_noise").status == "none"  # this report has no such quantity
 
 
 def test_the_interval_is_the_criterion_where_the_response_is_non_linear():
@@ -111,7 +111,7 @@ def test_the_lines_do_not_depend_on_the_number_of_threads():
     assert three.stdout == one.stdout
     records = [json.loads(line) for line in one.stdout.splitlines()]
     assert [record["seed"] for record in records] == [1, 2] * 5
-    assert len({record["case"] for record in records}) == 5  # two scenes of the last pattern
+    assert len({record["case"] for record in records}) == 5  # the last pattern has two scenes
 
 
 @needs_programs

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""SensorNoiseSums: parts of the frames, in any hands, give the bits of the whole."""
+"""Tests SensorNoiseSums: sums of parts of the frames, merged in any order, give the same bits as one sum."""
 
 import pickle
 
@@ -19,7 +19,8 @@ def in_turn(frames: int, count: int) -> list[list[int]]:
 
 
 def measure_in_parts(stack, parts, order=1, **settings):
-    """A process for each part; a driver merges what they send, and hands itself on for the next pass."""
+    """Returns a driver after all passes. Each part of the frames is added to a pickled copy of the driver, as in
+    another process. The driver merges the sums of the copies."""
     driver = SensorNoiseSums(stack.shape, stack.dtype, **settings)
     while not driver.is_done:
         sent = []
@@ -48,7 +49,7 @@ def test_parts_of_integers_give_the_bits_of_the_whole(codes, count, cut):
 @pytest.mark.parametrize("method", ["refined", "published"])
 def test_frames_unlike_the_others_are_left_out_by_all(codes, method):
     stack = codes.astype(np.uint16)
-    stack[4], stack[30] = 0, 60  # no noise
+    stack[4], stack[30] = 0, 60  # frames without noise
     expected = itk.estimate_sensor_noise(stack, method=method, bayer="none")
     sums = measure_in_parts(stack, in_turn(len(stack), 3), bayer="none", method=method)
     report = sums.report()
@@ -65,8 +66,9 @@ def test_each_pixel_type(stack, method):
     parts = in_turn(len(stack), 3)
     report = measure_in_parts(stack, parts, bayer="none", method=method).report()
     if stack.dtype.kind == "f":
-        # Sums in another order: the last digits of a double. They also decide which pixels of equal mean "published"
-        # takes into its sets, and of these codes many are equal: chance, far below the gain's error of some per cent.
+        # The sums are in another order: the last digits of a double differ. They also decide which pixels of equal mean
+        # "published" takes into its sets. These frames have many pixels of equal mean, so the result varies by chance,
+        # far below the error of the gain of some per cent.
         rounding = 1e-9 if method == "refined" else 1e-4
         assert report["gain"]["value"] == pytest.approx(expected["gain"]["value"], rel=rounding)
         assert measure_in_parts(stack, parts, bayer="none", method=method).report() == report
@@ -172,7 +174,7 @@ def test_equal_frames_in_two_hands(codes):
 
 
 def test_little_is_sent_of_few_frames(codes):
-    """20 bytes a pixel of pass 1 and some of every frame that is in, not of all; so of pass 2."""
+    """Pass 1 sends 20 bytes per pixel, and some bytes for each added frame, not for all frames. Pass 2 is similar."""
     sums = SensorNoiseSums((4000, 64, 96), "uint8", bayer="none")
     sums.add(codes[:5], 100)
     assert len(sums.to_bytes()) < 20 * 64 * 96 + 5 * 2600 + 4000 * 1.1

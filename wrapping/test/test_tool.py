@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The same numbers as the command-line tools, bit for bit; what neighbours share to seven digits."""
+"""Tests that numbers equal the numbers of the tools bit for bit, and the noise correlation to seven digits."""
 
 import json
 import pickle
@@ -26,7 +26,7 @@ def mask(burst):
 
 
 def numbers(value):
-    """All numbers of a record, in order."""
+    """Returns all numbers of a record, in order."""
     if isinstance(value, dict):
         return [number for member in value.values() for number in numbers(member)]
     if isinstance(value, list):
@@ -35,7 +35,8 @@ def numbers(value):
 
 
 def assert_same(found, expected):
-    """The wheel has ITK's Eigen, the tools the system's: another order of sums, of numbers of 4 bytes."""
+    """Compares two reports. The wheel has ITK's Eigen and the tools the system's, which add 4-byte numbers in another
+    order."""
     found, expected = json.loads(found), json.loads(expected)
     shared, shared_expected = found.pop("noise_correlation"), expected.pop("noise_correlation")
     assert found == expected
@@ -47,7 +48,7 @@ ALL_FLAGS = (
     "--bit-depth 12 --clip 0,4000 --step 1 --level-range 400,3000 --rolling-shutter off --offset 100,0.5 "
     "--roi 4,3,110,90 --frames 2:58"
 )
-# Parameters, and the same as flags.
+# Parameters, and the same options as flags.
 OPTIONS = {
     "defaults": ({}, []),
     "published": ({"method": "published"}, ["--method", "published"]),
@@ -84,7 +85,7 @@ OPTIONS = {
         ALL_FLAGS.split(),
     ),
 }
-# What `settings` holds of them.
+# Entries of these options in `settings`.
 SETTINGS = {
     "defaults": {"rolling_shutter": "auto"},
     "offset": {"rolling_shutter": "auto", "offset": 100, "offset_standard_error": 0, "dark_frames": 0},

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Types that help: attributes, one protocol, overloads, and documentation of every public function."""
+"""Tests type information: attributes, one protocol, overloads, and documentation of every public function."""
 
 import dataclasses
 import inspect
