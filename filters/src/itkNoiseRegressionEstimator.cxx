@@ -20,7 +20,7 @@
 #include "itkSensorNoiseErrors.h"
 #include "base/PolynomialFit.h"
 #include "sensornoise/ReportPage.h"
-#include "published/NoiseParameters.h"
+#include "published/PublishedReport.h"
 #include "sensornoise/Report.h"
 
 #include <cmath>
@@ -66,19 +66,20 @@ NoiseRegressionEstimator<TFrame>::GenerateData()
     offset = offsetInput->Get();
   }
 
-  sensornoise::Report              report;
-  const sensornoise::PolynomialFit line = sensornoise::FitLine(data);
-  sensornoise::FillNoiseParameters(report, line, offset, std::nullopt);
+  const sensornoise::PolynomialFit       line = sensornoise::FitLine(data);
+  std::optional<sensornoise::FitQuality> quality;
+  if (m_NumberOfFrames > 1)
+  {
+    quality = sensornoise::EvaluateLineFit(data, line, m_NumberOfFrames);
+  }
+  sensornoise::Report report;
+  sensornoise::FileParameters(report, sensornoise::EstimateParameters(line, offset, std::nullopt, quality));
   report.method = "published";
   report.frames = m_NumberOfFrames;
   report.width = region.GetSize(0);
   report.height = region.GetSize(1);
   report.pixels.total = data.pixels;
   report.pixels.used = line.pixels;
-  if (m_NumberOfFrames > 1)
-  {
-    sensornoise::FillFit(report, sensornoise::EvaluateLineFit(data, line, m_NumberOfFrames));
-  }
   this->GetReportOutput()->Set(report);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "published/NoiseParameters.h"
+#include "published/PublishedReport.h"
 #include "base/PolynomialFit.h"
 #include "report/Quantities.h"
 #include "sensornoise/Report.h"
@@ -33,6 +33,14 @@ LineOfCamera(double gain, double offset, double readNoise)
   return LineOf(gain, readNoise * readNoise - gain * offset);
 }
 
+Report
+ReportOf(const PolynomialFit & line, std::optional<double> offsetDn, std::optional<double> darkestDn)
+{
+  Report report;
+  FileParameters(report, EstimateParameters(line, offsetDn, darkestDn));
+  return report;
+}
+
 std::vector<Quantity>
 ParametersOf(const Report & report)
 {
@@ -52,8 +60,7 @@ ExpectInterval(const std::optional<Interval> & interval, double low, double high
 
 TEST(SensorNoiseNoiseParameters, CameraIsRecoveredFromItsLineAndOffset)
 {
-  Report report;
-  FillNoiseParameters(report, LineOfCamera(0.3, 40.0, 3.0), 40.0, 60.0);
+  const Report report = ReportOf(LineOfCamera(0.3, 40.0, 3.0), 40.0, 60.0);
   for (const Quantity & quantity : ParametersOf(report))
   {
     EXPECT_EQ(quantity.status, EstimateStatus::Identified);
@@ -71,8 +78,7 @@ TEST(SensorNoiseNoiseParameters, CameraIsRecoveredFromItsLineAndOffset)
 
 TEST(SensorNoiseNoiseParameters, WithoutOffsetTheBracketsStand)
 {
-  Report report;
-  FillNoiseParameters(report, LineOfCamera(0.5, 40.0, 3.0), std::nullopt, 60.0);
+  const Report report = ReportOf(LineOfCamera(0.5, 40.0, 3.0), std::nullopt, 60.0);
   EXPECT_EQ(report.gain.status, EstimateStatus::Identified);
   EXPECT_EQ(report.intercept.status, EstimateStatus::Identified);
   for (const Quantity * quantity : { &report.offset, &report.readNoise, &report.readNoiseElectrons })
@@ -88,18 +94,16 @@ TEST(SensorNoiseNoiseParameters, WithoutOffsetTheBracketsStand)
 
 TEST(SensorNoiseNoiseParameters, WithoutDarkestMeanThereIsNoBracket)
 {
-  Report report;
-  FillNoiseParameters(report, LineOfCamera(0.5, 40.0, 3.0), std::nullopt, std::nullopt);
+  const Report report = ReportOf(LineOfCamera(0.5, 40.0, 3.0), std::nullopt, std::nullopt);
   EXPECT_FALSE(report.offset.bracket || report.readNoise.bracket);
-  Report contradiction; // the darkest mean is below the level at which sigma^2 = 0
-  FillNoiseParameters(contradiction, LineOfCamera(0.5, 40.0, 3.0), std::nullopt, 21.9);
+  // The darkest mean is below the level at which sigma^2 = 0.
+  const Report contradiction = ReportOf(LineOfCamera(0.5, 40.0, 3.0), std::nullopt, 21.9);
   EXPECT_FALSE(contradiction.offset.bracket || contradiction.readNoise.bracket);
 }
 
 TEST(SensorNoiseNoiseParameters, NegativeSquareOfTheReadNoiseIsNotIdentifiable)
 {
-  Report report;
-  FillNoiseParameters(report, LineOf(1.0, -105.0), 100.0, 120.0);
+  const Report report = ReportOf(LineOf(1.0, -105.0), 100.0, 120.0);
   EXPECT_EQ(report.offset.status, EstimateStatus::Identified);
   EXPECT_EQ(report.readNoise.status, EstimateStatus::NotIdentifiable);
   EXPECT_EQ(report.readNoiseElectrons.status, EstimateStatus::NotIdentifiable);
@@ -116,8 +120,7 @@ TEST(SensorNoiseNoiseParameters, GainThatIsNotPositiveFailsEverything)
   undetermined.pixels = 77;
   for (const PolynomialFit & line : { LineOf(0.0, 10.0), LineOf(-0.1, 10.0), LineOf(std::nan(""), 10.0), undetermined })
   {
-    Report report;
-    FillNoiseParameters(report, line, 40.0, 60.0);
+    const Report report = ReportOf(line, 40.0, 60.0);
     for (const Quantity & quantity : ParametersOf(report))
     {
       EXPECT_EQ(quantity.status, EstimateStatus::Failed);
@@ -132,8 +135,7 @@ TEST(SensorNoiseNoiseParameters, GainThatIsNotPositiveFailsEverything)
 
 TEST(SensorNoiseNoiseParameters, OneStatusCanBeSetForAllParameters)
 {
-  Report report;
-  FillNoiseParameters(report, LineOfCamera(0.3, 40.0, 3.0), 40.0, 60.0);
+  Report report = ReportOf(LineOfCamera(0.3, 40.0, 3.0), 40.0, 60.0);
   SetSensorParameters(report, EstimateStatus::NotIdentifiable);
   for (const Quantity & quantity : ParametersOf(report))
   {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "published/NoiseParameters.h"
+#include "published/PublishedReport.h"
 #include "sensornoise/ReportText.h"
 #include "sensornoise/Simulator.h"
 #include "helpers/PublishedTestHelper.h"
@@ -65,20 +65,23 @@ TEST(SensorNoisePublishedWarnings, OffsetAboveDarkest)
   line.slope = 0.5;
   line.intercept = -11.0; // sigma^2 = 0 at 22 DN
   Report report;
-  FillNoiseParameters(report, line, 61.0, 60.0);
+  FileParameters(report, EstimateParameters(line, 61.0, 60.0));
   EXPECT_TRUE(HasWarning(report, WarningCode::OffsetAboveDarkest));
   Report below;
-  FillNoiseParameters(below, line, 59.0, 60.0);
+  FileParameters(below, EstimateParameters(line, 59.0, 60.0));
   EXPECT_TRUE(below.warnings.empty());
 }
 
 TEST(SensorNoisePublishedWarnings, PoorFit)
 {
   const auto reportOf = [](double reducedChi2) {
-    Report     report;
+    Report        report;
+    PolynomialFit line;
+    line.isDetermined = true;
+    line.slope = 0.5;
     FitQuality quality;
     quality.reducedChi2 = reducedChi2;
-    FillFit(report, quality);
+    FileParameters(report, EstimateParameters(line, std::nullopt, std::nullopt, quality));
     return report;
   };
   EXPECT_TRUE(reportOf(1.5).warnings.empty());

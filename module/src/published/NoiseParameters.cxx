@@ -2,110 +2,72 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "published/NoiseParameters.h"
 
-#include "base/Text.h"
-#include "report/Quantities.h"
-
 #include <cmath>
-#include <string>
+#include <optional>
 
 namespace sensornoise
 {
 
 namespace
 {
-/** Sets offset and read noise without their bounds. */
+/** Fills offset and read noise without their bounds. */
 void
-FillOffset(Report & report, const PolynomialFit & line, std::optional<double> offsetDn)
+FillOffset(NoiseParameters & found)
 {
-  if (!offsetDn)
+  found.offset = found.readNoise = found.readNoiseElectrons = Quantity::Without(EstimateStatus::NotIdentifiable);
+  if (!found.offsetDn)
   {
-    report.offset = Quantity::Without(EstimateStatus::NotIdentifiable);
-    report.readNoise = Quantity::Without(EstimateStatus::NotIdentifiable);
-    report.readNoiseElectrons = Quantity::Without(EstimateStatus::NotIdentifiable);
     return;
   }
-  report.offset = Quantity::Identified(*offsetDn);
-  const double squared = line.intercept + line.slope * *offsetDn;
-  if (squared > 0.0)
+  found.offset = Quantity::Identified(*found.offsetDn);
+  found.squaredReadNoiseDn2 = found.line.intercept + found.line.slope * *found.offsetDn;
+  if (found.squaredReadNoiseDn2 > 0.0)
   {
-    report.readNoise = Quantity::Identified(std::sqrt(squared));
-    report.readNoiseElectrons = Quantity::Identified(std::sqrt(squared) / line.slope);
+    found.readNoise = Quantity::Identified(std::sqrt(found.squaredReadNoiseDn2));
+    found.readNoiseElectrons = Quantity::Identified(std::sqrt(found.squaredReadNoiseDn2) / found.line.slope);
   }
-  else
+}
+
+void
+FillBounds(NoiseParameters & found)
+{
+  if (found.HasBounds())
   {
-    report.readNoise = Quantity::Without(EstimateStatus::NotIdentifiable);
-    report.readNoiseElectrons = Quantity::Without(EstimateStatus::NotIdentifiable);
-    report.Warn(
-      WarningCode::ReadNoiseNotIdentifiable,
-      "gain, intercept and offset give a squared read noise of " + Rounded(squared) +
-        " DN^2 (expected above 0), which is within their errors. Record more frames, or use --method refined");
+    const double highest = std::sqrt(found.line.intercept + found.line.slope * *found.darkestDn);
+    found.offset.bracket = Interval{ found.LowestOffsetDn(), found.darkestDn };
+    found.readNoise.bracket = Interval{ 0.0, highest };
+    found.readNoiseElectrons.bracket = Interval{ 0.0, highest / found.line.slope };
   }
 }
 } // namespace
 
-void
-FillNoiseParameters(Report &              report,
-                    const PolynomialFit & line,
-                    std::optional<double> offsetDn,
-                    std::optional<double> darkestDn)
+NoiseParameters
+EstimateParameters(const PolynomialFit &             line,
+                   std::optional<double>             offsetDn,
+                   std::optional<double>             darkestDn,
+                   const std::optional<FitQuality> & quality)
 {
-  if (!line.isDetermined || !(line.slope > 0.0))
+  NoiseParameters found;
+  found.line = line;
+  found.quality = quality;
+  found.offsetDn = offsetDn;
+  found.darkestDn = darkestDn;
+  found.verdict = !line.isDetermined    ? LineVerdict::OneIntensity
+                  : !(line.slope > 0.0) ? LineVerdict::NotRising
+                                        : LineVerdict::Identified;
+  if (found.verdict == LineVerdict::Identified)
   {
-    SetSensorParameters(report, EstimateStatus::Failed);
-    report.Warn(WarningCode::VarianceNotAffine,
-                line.isDetermined
-                  ? "the variance does not rise with the mean (slope " + Rounded(line.slope) +
-                      " DN/e-, expected above 0): the frames are not raw, or have too little noise. Record raw "
-                      "frames"
-                  : "the " + std::to_string(line.pixels) +
-                      " pixels of the regression have one intensity. Include dark and bright areas in "
-                      "the scene");
-    return;
+    FillOffset(found);
+    FillBounds(found);
+    found.gain = Quantity::Identified(line.slope);
+    found.intercept = Quantity::Identified(line.intercept);
   }
-  report.gain = Quantity::Identified(line.slope);
-  report.varianceSlope = report.gain;
-  report.intercept = Quantity::Identified(line.intercept);
-  report.totalIntercept = report.intercept;
-
-  const double lowestOffsetDn = -line.intercept / line.slope; // sigma^2 = 0 there
-  FillOffset(report, line, offsetDn);
-  if (darkestDn && *darkestDn > lowestOffsetDn)
+  if (found.IsScattered())
   {
-    const double highest = std::sqrt(line.intercept + line.slope * *darkestDn);
-    report.offset.bracket = Interval{ lowestOffsetDn, darkestDn };
-    report.readNoise.bracket = Interval{ 0.0, highest };
-    report.readNoiseElectrons.bracket = Interval{ 0.0, highest / line.slope };
-    if (offsetDn && *offsetDn > *darkestDn)
-    {
-      report.Warn(WarningCode::OffsetAboveDarkest,
-                  "the offset, " + RoundedApart(*offsetDn, *darkestDn) + " DN, is above the darkest level, " +
-                    Rounded(*darkestDn) + " DN, because its error is large. Record more flicker or more frames");
-    }
+    found.gain = found.intercept = found.offset = found.readNoise = found.readNoiseElectrons =
+      Quantity::Without(EstimateStatus::Failed);
   }
-}
-
-void
-FillFit(Report & report, const FitQuality & quality)
-{
-  report.fit.reducedChi2 = quality.reducedChi2;
-  report.fit.curvature = quality.curvature;
-  report.fit.curvatureZ = quality.curvatureZ;
-  if (quality.reducedChi2 > LargestReducedChi2)
-  {
-    SetSensorParameters(report, EstimateStatus::Failed);
-    report.Warn(
-      WarningCode::VarianceNotAffine,
-      "the corrected variance scatters about its line " + RoundedApart(quality.reducedChi2, LargestReducedChi2) +
-        " times as much as sampling noise does (expected at most 10): the scene moves, the flicker differs within the "
-        "frame, or the frames are not raw. Use --method refined, or raw frames");
-  }
-  else if (quality.reducedChi2 > 1.5)
-  {
-    report.Warn(WarningCode::PoorFit,
-                "the corrected variance scatters about its line " + RoundedApart(quality.reducedChi2, 1.5) +
-                  " times as much as sampling noise does (expected at most 1.5): vibrations, flicker that differs "
-                  "within the frame, or moving objects are left in it. Use --method refined");
-  }
+  return found;
 }
 
 } // namespace sensornoise

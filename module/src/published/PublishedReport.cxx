@@ -3,24 +3,20 @@
 #include "published/PublishedReport.h"
 
 #include "base/Text.h"
-#include "sensornoise/FrameGeometry.h"
-#include "base/Quantiles.h"
 #include "base/PolynomialFit.h"
 #include "sensornoise/Settings.h"
-#include "base/Constants.h"
 #include "published/FlickerEstimate.h"
 #include "published/IsoIntensitySet.h"
 #include "published/NoiseParameters.h"
 #include "published/PublishedScene.h"
-#include "published/VibrationCovariance.h"
 #include "report/Quantities.h"
 #include "report/StackReport.h"
 #include "report/StackSettings.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
 
 namespace sensornoise
@@ -28,6 +24,9 @@ namespace sensornoise
 
 namespace
 {
+/** Residual variance of the offset line that is not said, over the variance of its noise [1]. Chosen. */
+constexpr double LargestOffsetLinePhi = 3.0;
+
 void
 DescribeSettings(Report & report, const PublishedFindings & found)
 {
@@ -70,7 +69,7 @@ WarnOfFlicker(Report & report, const FlickerEstimate & flicker)
                     std::to_string(flicker.rows) + " rows, whose flicker is not known: their pixels are left out");
     }
   }
-  if (flicker.offsetLinePhi > 3.0)
+  if (flicker.offsetLinePhi > LargestOffsetLinePhi)
   {
     report.Warn(WarningCode::OffsetLineMisfit,
                 "dark pixels do not follow the flicker of the bright ones (residual variance " +
@@ -80,7 +79,7 @@ WarnOfFlicker(Report & report, const FlickerEstimate & flicker)
 }
 
 void
-FillFlicker(Report & report, const FlickerEstimate & flicker, bool isIdentified)
+FillFlicker(Report & report, const FlickerEstimate & flicker)
 {
   report.flicker = flicker.gamma;
   for (std::size_t t = 0; t < flicker.gamma.size() && !flicker.gammaRows.empty(); ++t)
@@ -95,105 +94,75 @@ FillFlicker(Report & report, const FlickerEstimate & flicker, bool isIdentified)
       }
     }
   }
-  if (isIdentified)
-  {
-    report.flickerSd = Quantity::Identified(flicker.flickerSd);
-    return;
-  }
-  report.flickerSd = Quantity::Without(EstimateStatus::UpperLimit);
-  report.flickerSd.bracket = Interval{ 0.0, flicker.flickerSd };
 }
 
 void
-FillVibration(Report & report, const PublishedFindings & found, const ParallelFor & parallelFor)
+WarnOfLine(Report & report, const NoiseParameters & found)
 {
-  const VibrationCovariance vibration = FitVibrationCovariance(found.scene.mean.data(),
-                                                               found.scene.variance.data(),
-                                                               found.scene.valid.data(),
-                                                               found.geometry.width,
-                                                               found.geometry.height,
-                                                               found.flicker.flickerSd,
-                                                               parallelFor);
-  const auto                sd = [&vibration](double varianceOfAxis) {
-    return vibration.isDetermined && varianceOfAxis > 0.0 ? Quantity::Identified(std::sqrt(varianceOfAxis))
-                                                                         : Quantity::Without(EstimateStatus::NotIdentifiable);
-  };
-  report.vibrationSdX = sd(vibration.varianceXPixels2);
-  report.vibrationSdY = sd(vibration.varianceYPixels2);
-  report.vibrationCovariance = vibration.isDetermined ? Quantity::Identified(vibration.covariancePixels2)
-                                                      : Quantity::Without(EstimateStatus::NotIdentifiable);
-}
-
-double
-ContrastDn(const PublishedScene & scene)
-{
-  return scene.bright.levelDn - scene.dark.levelDn;
-}
-
-/** Returns whether the even areas have enough different intensities for a line. If not, all parameters become
- * not-identifiable. */
-bool
-HasRange(Report & report, const PublishedScene & scene)
-{
-  const double spreadDn = scene.bright.levelSdDn + scene.dark.levelSdDn;
-  if (ContrastDn(scene) > 6.0 * spreadDn)
+  if (found.verdict != LineVerdict::Identified)
   {
-    return true;
+    report.Warn(WarningCode::VarianceNotAffine,
+                found.verdict == LineVerdict::NotRising
+                  ? "the variance does not rise with the mean (slope " + Rounded(found.line.slope) +
+                      " DN/e-, expected above 0): the frames are not raw, or have too little noise. Record raw "
+                      "frames"
+                  : "the " + std::to_string(found.line.pixels) +
+                      " pixels of the regression have one intensity. Include dark and bright areas in "
+                      "the scene");
   }
-  SetSensorParameters(report, EstimateStatus::NotIdentifiable);
-  report.Warn(WarningCode::IntensityRangeTooSmall,
-              "the even areas span " + RoundedApart(ContrastDn(scene), 6.0 * spreadDn) + " DN, expected more than " +
-                Rounded(6.0 * spreadDn) +
-                " DN (6 standard deviations of their means). Include dark and bright areas in the scene");
-  return false;
+  if (found.IsReadNoiseLost())
+  {
+    report.Warn(
+      WarningCode::ReadNoiseNotIdentifiable,
+      "gain, intercept and offset give a squared read noise of " + Rounded(found.squaredReadNoiseDn2) +
+        " DN^2 (expected above 0), which is within their errors. Record more frames, or use --method refined");
+  }
+  if (found.HasBounds() && found.offsetDn && *found.offsetDn > *found.darkestDn)
+  {
+    report.Warn(WarningCode::OffsetAboveDarkest,
+                "the offset, " + RoundedApart(*found.offsetDn, *found.darkestDn) + " DN, is above the darkest level, " +
+                  Rounded(*found.darkestDn) + " DN, because its error is large. Record more flicker or more frames");
+  }
 }
 
-/** Sets the parameters of the sensor from the line through the corrected variance. */
 void
-FillNoise(Report &                  report,
-          const PublishedFindings & found,
-          const RegressionData &    corrected,
-          const PolynomialFit &     line,
-          const ParallelFor &       parallelFor)
+WarnOfScatter(Report & report, const NoiseParameters & found)
 {
-  const PublishedScene &  scene = found.scene;
-  const FlickerEstimate & flicker = found.flicker;
-  const bool              isIdentified = flicker.flickerZ > Significance.everyPixel;
-  if (!isIdentified)
+  if (found.IsScattered())
+  {
+    report.Warn(
+      WarningCode::VarianceNotAffine,
+      "the corrected variance scatters about its line " + RoundedApart(found.quality->reducedChi2, LargestReducedChi2) +
+        " times as much as sampling noise does (expected at most 10): the scene moves, the flicker differs within the "
+        "frame, or the frames are not raw. Use --method refined, or raw frames");
+  }
+  else if (found.quality && found.quality->reducedChi2 > PoorReducedChi2)
+  {
+    report.Warn(WarningCode::PoorFit,
+                "the corrected variance scatters about its line " +
+                  RoundedApart(found.quality->reducedChi2, PoorReducedChi2) +
+                  " times as much as sampling noise does (expected at most 1.5): vibrations, flicker that differs "
+                  "within the frame, or moving objects are left in it. Use --method refined");
+  }
+}
+/** Copies the parameters of the sensor and warns of what contradicts them. */
+void
+FillParameters(Report & report, const PublishedFindings & found, const PublishedEstimate & estimate)
+{
+  if (!estimate.HasFlicker())
   {
     report.Warn(WarningCode::OffsetNotIdentifiable,
-                DescribeInsignificantFlicker(flicker.flickerZ) +
+                DescribeInsignificantFlicker(found.flicker.flickerZ) +
                   ". Record more flicker or more frames, or use --method refined with dark frames "
                   "(--dark)");
   }
-  // The darkest mean bounds the offset (flux >= 0). As it is the mean of noisy values, it may be below the offset by
-  // some of its errors.
-  const IntensityIndex index(scene.mean.data(), scene.valid.data(), corrected.pixels, parallelFor);
-  const double         darkestDn = index.QuantileDn(0.001, parallelFor) + 3.0 * scene.dark.levelSdDn;
-  FillNoiseParameters(report, line, isIdentified ? std::optional<double>(flicker.offsetDn) : std::nullopt, darkestDn);
-}
-
-/** Sets the quality of the fit of the line. */
-void
-FillQuality(Report &                  report,
-            const PublishedFindings & found,
-            const RegressionData &    corrected,
-            const PolynomialFit &     line,
-            const ParallelFor &       parallelFor)
-{
-  const PublishedScene & scene = found.scene;
-  const FitQuality       quality = EvaluateLineFit(corrected, line, found.frames, parallelFor);
-  FillFit(report, quality);
+  FileParameters(report, *estimate.parameters);
   report.fit.offsetLinePhi = found.flicker.offsetLinePhi;
-  const double contrastDn = ContrastDn(scene);
-  // Parabola minus chord, half way between both levels.
-  const double bendDn2 = quality.curvature * contrastDn * contrastDn / 8.0;
-  const double middleDn2 = line.intercept + line.slope * 0.5 * (scene.bright.levelDn + scene.dark.levelDn);
-  if (std::abs(quality.curvatureZ) > 5.0 && std::abs(bendDn2) > 0.03 * middleDn2)
+  if (estimate.curvedFraction)
   {
     report.Warn(WarningCode::CorrectedVarianceCurved,
                 "the corrected variance deviates from its line by " +
-                  PercentApart(std::abs(bendDn2) / middleDn2, 0.03) +
+                  PercentApart(*estimate.curvedFraction, LargestCurvedFraction) +
                   " of itself (expected less than 3 %): vibrations, several lamps, or a non-linear response. Use "
                   "--method refined");
   }
@@ -215,24 +184,47 @@ MakePublishedReport(const PublishedFindings & found, const ParallelFor & paralle
     report.Warn(scene.failureReason->GetCode(), scene.failureReason->what());
     return report;
   }
+  const PublishedEstimate estimate = EstimateAll(found, parallelFor);
   WarnOfWidening(report, WarningCode::BrightSetWidened, "bright", scene.bright);
   WarnOfWidening(report, WarningCode::DarkSetWidened, "dark", scene.dark);
   WarnOfFlicker(report, found.flicker);
-  FillFlicker(report, found.flicker, found.flicker.flickerZ > Significance.everyPixel);
-  FillVibration(report, found, parallelFor);
-  if (!HasRange(report, scene))
+  FillFlicker(report, found.flicker);
+  report.flickerSd = estimate.flickerSd;
+  report.vibrationSdX = estimate.vibrationSdX;
+  report.vibrationSdY = estimate.vibrationSdY;
+  report.vibrationCovariance = estimate.vibrationCovariance;
+  if (!estimate.parameters)
   {
+    SetSensorParameters(report, EstimateStatus::NotIdentifiable);
+    report.Warn(WarningCode::IntensityRangeTooSmall,
+                "the even areas span " + RoundedApart(estimate.contrastDn, estimate.neededDn) +
+                  " DN, expected more than " + Rounded(estimate.neededDn) +
+                  " DN (6 standard deviations of their means). Include dark and bright areas in the scene");
     return report;
   }
-  const std::size_t    pixels = found.geometry.Pixels();
-  const RegressionData corrected{ scene.mean.data(), maps.variance.data(), scene.kept.data(), pixels };
-  const RegressionData raw{ scene.mean.data(), scene.variance.data(), scene.kept.data(), pixels };
-  const PolynomialFit  line = FitLine(corrected, parallelFor);
+  const RegressionData raw{ scene.mean.data(), scene.variance.data(), scene.kept.data(), found.geometry.Pixels() };
   FillBaselines(report, raw, parallelFor);
-  FillNoise(report, found, corrected, line, parallelFor);
-  FillQuality(report, found, corrected, line, parallelFor);
+  FillParameters(report, found, estimate);
   FillScatter(report, scene.mean, scene.variance, maps.variance, MaskOfUsed(maps.pixelUse), parallelFor);
   return report;
+}
+
+void
+FileParameters(Report & report, const NoiseParameters & parameters)
+{
+  report.gain = report.varianceSlope = parameters.gain;
+  report.intercept = report.totalIntercept = parameters.intercept;
+  report.offset = parameters.offset;
+  report.readNoise = parameters.readNoise;
+  report.readNoiseElectrons = parameters.readNoiseElectrons;
+  if (parameters.quality)
+  {
+    report.fit.reducedChi2 = parameters.quality->reducedChi2;
+    report.fit.curvature = parameters.quality->curvature;
+    report.fit.curvatureZ = parameters.quality->curvatureZ;
+  }
+  WarnOfLine(report, parameters);
+  WarnOfScatter(report, parameters);
 }
 
 } // namespace sensornoise

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "published/PublishedEstimate.h"
+
+#include "base/Constants.h"
+#include "base/PolynomialFit.h"
+#include "base/Quantiles.h"
+#include "published/IsoIntensitySet.h"
+#include "published/VibrationCovariance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Contrast of the bright and the dark set that a line needs, in the sum of the standard deviations of their levels
+ * [1]. Chosen. */
+constexpr double LeastContrast = 6.0;
+/** Significance of a curvature of the corrected variance [standard errors]. Chosen. */
+constexpr double LeastCurvatureZ = 5.0;
+/** Fraction of the pixels that are darker than the darkest level, which bounds the offset [1]. Chosen. */
+constexpr double DarkestFraction = 0.001;
+/** Errors by which the darkest level may be below the offset, as it is a mean of noisy values [1]. Chosen. */
+constexpr double DarkestErrors = 3.0;
+
+void
+FillVibration(PublishedEstimate & estimate, const PublishedFindings & found, const ParallelFor & parallelFor)
+{
+  const VibrationCovariance vibration = FitVibrationCovariance(found.scene.mean.data(),
+                                                               found.scene.variance.data(),
+                                                               found.scene.valid.data(),
+                                                               found.geometry.width,
+                                                               found.geometry.height,
+                                                               found.flicker.flickerSd,
+                                                               parallelFor);
+  const auto                identifiedIf = [](bool isDetermined, double value) {
+    return isDetermined ? Quantity::Identified(value) : Quantity::Without(EstimateStatus::NotIdentifiable);
+  };
+  const auto sd = [&](double square) {
+    return identifiedIf(vibration.isDetermined && square > 0.0, std::sqrt(std::max(0.0, square)));
+  };
+  estimate.vibrationSdX = sd(vibration.varianceXPixels2);
+  estimate.vibrationSdY = sd(vibration.varianceYPixels2);
+  estimate.vibrationCovariance = identifiedIf(vibration.isDetermined, vibration.covariancePixels2);
+}
+
+Quantity
+SdOf(const FlickerEstimate & flicker)
+{
+  if (flicker.flickerZ > Significance.everyPixel)
+  {
+    return Quantity::Identified(flicker.flickerSd);
+  }
+  return Quantity::Without(EstimateStatus::UpperLimit, Interval{ 0.0, flicker.flickerSd });
+}
+
+/** Returns the departure of the variance from its line, half way between both levels, relative to the line, if it is
+ * significant and large. */
+std::optional<double>
+FindCurvedFraction(const NoiseParameters & parameters, const PublishedScene & scene, double contrastDn)
+{
+  const FitQuality & quality = *parameters.quality;
+  const double       bendDn2 = quality.curvature * contrastDn * contrastDn / 8.0; // parabola minus chord
+  const double       middleDn2 =
+    parameters.line.intercept + parameters.line.slope * 0.5 * (scene.bright.levelDn + scene.dark.levelDn);
+  const bool isCurved =
+    std::abs(quality.curvatureZ) > LeastCurvatureZ && std::abs(bendDn2) > LargestCurvedFraction * middleDn2;
+  return isCurved ? std::optional(std::abs(bendDn2) / middleDn2) : std::nullopt;
+}
+} // namespace
+
+PublishedEstimate
+EstimateAll(const PublishedFindings & found, const ParallelFor & parallelFor)
+{
+  const PublishedScene & scene = found.scene;
+  PublishedEstimate      estimate;
+  estimate.flickerSd = SdOf(found.flicker);
+  FillVibration(estimate, found, parallelFor);
+  estimate.contrastDn = scene.bright.levelDn - scene.dark.levelDn;
+  estimate.neededDn = LeastContrast * (scene.bright.levelSdDn + scene.dark.levelSdDn);
+  if (!(estimate.contrastDn > estimate.neededDn))
+  {
+    return estimate;
+  }
+  const std::size_t    pixels = found.geometry.Pixels();
+  const RegressionData corrected{ scene.mean.data(), found.corrected.variance.data(), scene.kept.data(), pixels };
+  const PolynomialFit  line = FitLine(corrected, parallelFor);
+  const IntensityIndex index(scene.mean.data(), scene.valid.data(), pixels, parallelFor);
+  const double darkestDn = index.QuantileDn(DarkestFraction, parallelFor) + DarkestErrors * scene.dark.levelSdDn;
+  estimate.parameters = EstimateParameters(line,
+                                           estimate.HasFlicker() ? std::optional(found.flicker.offsetDn) : std::nullopt,
+                                           darkestDn,
+                                           EvaluateLineFit(corrected, line, found.frames, parallelFor));
+  estimate.curvedFraction = FindCurvedFraction(*estimate.parameters, scene, estimate.contrastDn);
+  return estimate;
+}
+
+} // namespace sensornoise
