@@ -24,7 +24,7 @@
 #include "base/Constants.h"
 #include "published/FlickerEstimate.h"
 #include "published/FlickerSums.h"
-#include "published/IsoIntensitySet.h"
+#include "published/PublishedScene.h"
 #include "itkImageScanlineIterator.h"
 
 #include <algorithm>

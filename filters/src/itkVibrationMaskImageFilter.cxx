@@ -18,7 +18,7 @@
 #include "itkVibrationMaskImageFilter.h"
 
 #include "itkSensorNoiseErrors.h"
-#include "published/VibrationMask.h"
+#include "published/Vibration.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "published/VibrationCovariance.h"
-#include "published/VibrationMask.h"
+#include "published/Vibration.h"
 #include "sensornoise/Simulator.h"
 #include "itkVibrationCovarianceEstimator.h"
 #include "helpers/PipelineTestHelper.h"

@@ -4,7 +4,7 @@
 #include "published/FlickerEstimate.h"
 #include "sensornoise/Settings.h"
 #include "published/FlickerSums.h"
-#include "published/IsoIntensitySet.h"
+#include "published/PublishedScene.h"
 
 #include <algorithm>
 #include <cmath>

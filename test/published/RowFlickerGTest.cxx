@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "published/RowFlicker.h"
+#include "published/FlickerEstimate.h"
 #include "published/FlickerSums.h"
-#include "published/IsoIntensitySet.h"
+#include "published/PublishedScene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/FrameGeometry.h"
 #include "base/PixelLayout.h"
-#include "published/IsoIntensitySet.h"
+#include "published/PublishedScene.h"
 
 #include <array>
 #include <cstddef>

@@ -4,12 +4,12 @@
 #define sensornoise_published_PublishedEstimate_h
 
 #include "SensorNoiseExport.h"
+#include "base/PolynomialFit.h"
+#include "sensornoise/Report.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
-#include "sensornoise/Report.h"
 #include "sensornoise/Settings.h"
 #include "published/FlickerEstimate.h"
-#include "published/NoiseParameters.h"
 #include "published/PublishedScene.h"
 
 #include <cstddef>
@@ -19,6 +19,77 @@
 
 namespace sensornoise
 {
+
+/** Largest reduced chi-square of the corrected variance about its line that is accepted [1]. Chosen. */
+inline constexpr double LargestReducedChi2 = 10.0;
+/** Reduced chi-square from which the fit is said to be poor [1]. Chosen. */
+inline constexpr double PoorReducedChi2 = 1.5;
+
+/** Whether the line through the corrected variance is that of a sensor, or why not. */
+enum class LineVerdict : std::uint8_t
+{
+  Identified,
+  OneIntensity, ///< the pixels of the regression have one intensity
+  NotRising     ///< the variance does not rise with the mean
+};
+
+/** Parameters of the sensor by the line through the corrected variance. */
+struct NoiseParameters
+{
+  PolynomialFit             line;
+  std::optional<FitQuality> quality;   ///< null: the number of frames, on which it depends, is not known
+  std::optional<double>     offsetDn;  ///< mu [DN]; null: the flicker does not determine it
+  std::optional<double>     darkestDn; ///< mean of the darkest pixels, with its error [DN]; null: not known
+  LineVerdict               verdict{ LineVerdict::Identified };
+  /** sigma^2 by gain, intercept and offset, also if it is not above 0 [DN^2]; 0 without an offset. */
+  double   squaredReadNoiseDn2{ 0.0 };
+  Quantity gain;               ///< [DN/e-]
+  Quantity intercept;          ///< sigma^2 - g mu, with quantization noise [DN^2]
+  Quantity offset;             ///< [DN]
+  Quantity readNoise;          ///< [DN]
+  Quantity readNoiseElectrons; ///< [e-]
+
+  /** Returns whether the variance scatters so much about the line that no parameter is accepted. */
+  bool
+  IsScattered() const
+  {
+    return quality && quality->reducedChi2 > LargestReducedChi2;
+  }
+  /** Returns whether sigma^2 is not above 0, though the offset is known. */
+  bool
+  IsReadNoiseLost() const
+  {
+    return verdict == LineVerdict::Identified && offsetDn && !(squaredReadNoiseDn2 > 0.0);
+  }
+  /** Returns the level where sigma^2 is 0: the lowest offset [DN]. */
+  double
+  LowestOffsetDn() const
+  {
+    return -line.intercept / line.slope;
+  }
+  /** Returns whether the darkest pixels bound the offset from above. */
+  bool
+  HasBounds() const
+  {
+    return verdict == LineVerdict::Identified && darkestDn && *darkestDn > this->LowestOffsetDn();
+  }
+};
+
+/** Returns gain, intercept, offset and read noise by the line through the corrected variance, as in section 3.3 of Sur
+ * & Gredi\'ac 2015 (https://doi.org/10.1137/140977035): g is the slope, sigma^2 - g mu is the intercept, and
+ * sigma^2 = intercept + g mu if mu is known.
+ *
+ * \a offsetDn is mu [DN], or null if the flicker does not determine it. In that case offset and read noise are
+ * not-identifiable. They have bounds from sigma^2 >= 0 and flux >= 0: -intercept/g <= mu <= \a darkestDn [DN]. A gain
+ * that is not positive, or a line about which the variance of \a quality scatters by more than LargestReducedChi2,
+ * contradicts the model: all parameters are failed.
+ *
+ * Quantization noise is not subtracted: intercept and total intercept are equal, as in the paper. */
+SensorNoise_EXPORT NoiseParameters
+EstimateParameters(const PolynomialFit &             line,
+                   std::optional<double>             offsetDn,
+                   std::optional<double>             darkestDn,
+                   const std::optional<FitQuality> & quality = std::nullopt);
 
 /** Result of pass 3 of the published method. */
 struct CorrectedMaps

@@ -2,13 +2,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/PublishedMethod.h"
 
+#include "base/Text.h"
 #include "published/PublishedPasses.h"
+#include "published/Vibration.h"
+#include "report/ExcessNoise.h"
+#include "sensornoise/Settings.h"
 
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace sensornoise
 {
+
+void
+PublishedSettings::Validate() const
+{
+  ChiSquare2Quantile(level);
+  if (!(darkQuantile >= 0.0 && darkQuantile < brightQuantile && brightQuantile <= 1.0))
+  {
+    throw std::invalid_argument("the dark and bright quantiles are " + Text(darkQuantile) + " and " +
+                                Text(brightQuantile) + "; expected 0 <= dark < bright <= 1");
+  }
+  if (rollingShutter == RollingShutter::Fixed && !(sigmaRows > 0.0 && sigmaRows <= 1e5))
+  {
+    throw std::invalid_argument("sigma_y of the rolling shutter is " + Text(sigmaRows) +
+                                " rows; expected a positive number, at most 100000");
+  }
+  if (shutterAxis > 1)
+  {
+    throw std::invalid_argument("the shutter axis is " + std::to_string(shutterAxis) + "; expected 0 (x) or 1 (y)");
+  }
+  ValidateCodeSettings(codes);
+  ValidateExcessNoiseFactor(excessNoiseFactor);
+}
 
 template <typename TPixel>
 PublishedMethod<TPixel>::PublishedMethod(const PublishedSettings &         settings,
