@@ -5,6 +5,8 @@
 
 #include "base/Constants.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace sensornoise
@@ -172,6 +174,14 @@ struct RefinedConstants
 };
 
 SENSORNOISE_CONSTANT RefinedConstants InRefined;
+
+/** Returns the factor by which a reduced chi-square widens a covariance [1]: the chi-square itself where it exceeds 1
+ * by more than Significance.hint of its standard deviations, else 1. \a dof are its degrees of freedom. */
+inline double
+BeyondChance(double reducedChi2, double dof)
+{
+  return reducedChi2 > 1.0 + Significance.hint * std::sqrt(2.0 / std::max(1.0, dof)) ? reducedChi2 : 1.0;
+}
 
 } // namespace sensornoise
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "refined/DarkPoint.h"
+#include "refined/GainEstimate.h"
 
 #include "base/Constants.h"
 #include "base/Eigen.h"
@@ -9,7 +9,6 @@
 #include "sensornoise/Settings.h"
 #include "pixels/VarianceCurve.h"
 #include "refined/Constants.h"
-#include "refined/GainEstimate.h"
 
 #include <algorithm>
 #include <cmath>

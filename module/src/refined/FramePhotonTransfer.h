@@ -6,9 +6,12 @@
 #include "SensorNoiseExport.h"
 #include "base/Eigen.h"
 #include "correlation/FrameEnergies.h"
+#include "pixels/PartTiles.h"
 #include "pixels/VarianceCurve.h"
 #include "pixels/VarianceLine.h"
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 namespace sensornoise
@@ -61,6 +64,71 @@ VariancesOfFrames(const FrameEnergies & energies,
  * determined either if the frames have two levels, and one of them only in a fifth of the frames or fewer. */
 SensorNoise_EXPORT VarianceCurve
 FitFramePhotonTransfer(const FrameEnergies & energies, const TileLevels & levels, const VarianceLine & start);
+
+/** Returns the excess noise of each group of frames in each tile, relative to the line of \a reference at the level.
+ * The groups are the even and the odd frames of each quarter of the burst. Estimator.md, 3.15. */
+SensorNoise_EXPORT std::vector<TileExcess>
+MakeFrameParts(const FrameEnergies & energies, const TileLevels & levels, const PartReference & reference);
+
+/** Returns the noise variance of every frame over its expectation by the noise of the others and its level [1]: 1
+ * except for statistical scatter.
+ *
+ * The ratios are medians over the tiles, so that motion in some of them has no influence. NaN where the projection
+ * leaves less than InRefined.leastRemainingFraction of a frame; empty if there are too few tiles. \a slopeError is the
+ * standard error of the slope of \a line [DN/e-]; it may be infinite. Among the slopes within Significance.hint of
+ * these errors that a sensor may have, the ratio nearest to 1 is taken. \a known has the ratios found before: the
+ * projection leaves some of the noise of a frame in the others, which is corrected by them. Default: all are 1. */
+SensorNoise_EXPORT Eigen::VectorXd
+NoiseOfFrames(const FrameEnergies &   energies,
+              const TileLevels &      levels,
+              const VarianceLine &    line,
+              double                  slopeError,
+              const Eigen::VectorXd & known = {});
+
+/** Frames that have the same noise at their level. */
+struct FrameGroup
+{
+  std::vector<std::size_t> frames;
+  double                   noise{ 1.0 }; ///< median of NoiseOfFrames() [1]
+};
+
+/** Frames whose noise at their level differs from the noise of the others: by another gain or another processing. */
+struct FrameNoise
+{
+  /** Indices from 0 of all frames outside the largest group. The difference is larger than a threshold, and
+   * significant. */
+  std::vector<std::size_t> unlike;
+  /** Groups of frames: first the largest, which has at least half of the frames, then the others by increasing noise.
+   * One group if all frames agree. */
+  std::vector<FrameGroup> groups;
+  /** Whether the frames have about one level: then the groups cannot be caused by the model of their illumination. */
+  bool areFramesEqual{ false };
+  /** Median difference from 1, if it exceeds the threshold without groups: the noise varies from frame to frame; else 0
+   * [1]. */
+  double scatter{ 0.0 };
+
+  /** Returns whether there are several groups, or the noise varies. */
+  bool
+  HasSeveralGroups() const
+  {
+    return scatter > 0.0 || groups.size() > 1;
+  }
+  /** Returns the noise of each of \a frames frames, by its group [1]. */
+  Eigen::VectorXd
+  OfFrames(Eigen::Index frames) const;
+  /** Returns the groups in words: the frames, their noise, and their approximate gain, where the common gain is \a gain
+   * [DN/e-]. */
+  std::string
+  Text(double gain) const;
+};
+
+/** Sorts the frames into groups. The largest group is found by the shortest interval that contains half of the frames.
+ * It contains all frames that differ from its median by less than the threshold, or not significantly. The other
+ * frames are divided where the noise differs by more than the threshold. Estimator.md, 3.14. \a ofFrames is the result
+ * of NoiseOfFrames(), \a chance its standard deviation by the number of pixels [1], \a least the threshold, as
+ * InRefined.leastUnlikeNoise [1]. */
+SensorNoise_EXPORT FrameNoise
+GroupFramesByNoise(const Eigen::VectorXd & ofFrames, double chance, double least);
 
 } // namespace sensornoise
 

@@ -7,9 +7,7 @@
 #include "pixels/FixedPatternEstimate.h"
 #include "pixels/VarianceCurve.h"
 #include "pixels/ProjectedVariance.h"
-#include "refined/BeyondChance.h"
 #include "refined/Constants.h"
-#include "refined/DarkPoint.h"
 
 #include <algorithm>
 #include <cmath>

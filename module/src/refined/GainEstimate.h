@@ -5,16 +5,57 @@
 
 #include "SensorNoiseExport.h"
 #include "base/Eigen.h"
-#include "sensornoise/Settings.h"
-#include "pixels/VarianceLine.h"
+#include "correlation/NoiseCorrelation.h"
+#include "pixels/StaticVariance.h"
 #include "pixels/VarianceCurve.h"
+#include "pixels/VarianceLine.h"
 #include "refined/RefinedResults.h"
-#include "refined/SensorLines.h"
+#include "sensornoise/Settings.h"
 
 #include <optional>
 
 namespace sensornoise
 {
+
+/** Lines of a StaticVariance: of the pixels' variance without correction, or of the variance before noise was
+ * correlated. */
+struct SensorLines
+{
+  VarianceLine  all;              ///< through all pixels that fit a static scene
+  VarianceLine  instrumentalLine; ///< instrumental-variable fit, see FitInstrumental(); may be not determined
+  VarianceCurve fromFrames;       ///< see FitFramePhotonTransfer(); may be not determined
+  VarianceCurve curve;            ///< deviations of the variance from its line
+  /** Covariance of gain and intercept by the uncertainty of the noise correlation [DN/e-, DN^2]. */
+  Eigen::Matrix2d covarianceOfCorrelation{ Eigen::Matrix2d::Zero() };
+  /** Curve by the pixels' own levels, see StaticVariance::ofOwnLevels. */
+  VarianceCurve ofOwnLevels;
+};
+
+/** Returns the lines of the variance without correction. */
+SensorNoise_EXPORT SensorLines
+LinesOf(const StaticVariance & variance);
+
+/** Returns the factor from a pixel's noise variance to the variance of the sensor, if a filter after the read-out
+ * causes the correlation [1]. \see VarianceOfSensor */
+SensorNoise_EXPORT double
+FilterFactor(const NoiseCorrelation & correlation);
+
+/** Returns the variance of a pixel at zero signal before a filter, without the noise of rows and columns [DN^2].
+ * \a varianceDn2 is the measured variance [DN^2]. \a codesDn2 is the variance of the quantization noise, which was
+ * added after the filter [DN^2]. */
+SensorNoise_EXPORT double
+VarianceOfSensor(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2);
+
+/** Returns the standard deviation of VarianceOfSensor() over the shapes of the correlation: the filter may lie before
+ * the read-out or after it [DN^2]. */
+SensorNoise_EXPORT double
+StandardDeviationOfShapes(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2);
+
+/** Returns the lines of the sensor's variance: with the covariances summed over all lags, and without the noise of
+ * whole rows and columns. The signal is measured from \a blackDn [DN]; \a codesDn2 is the variance of the quantization
+ * noise [DN^2]. */
+SensorNoise_EXPORT SensorLines
+AddCovariances(const SensorLines & lines, const NoiseCorrelation & correlation, double blackDn, double codesDn2);
 
 /** Gain and intercept of the sensor, with their complete errors. */
 struct GainEstimate
@@ -83,6 +124,20 @@ EstimateGain(const RefinedResults & found)
 {
   return EstimateGain(found, LinesOf(found.variance));
 }
+
+/** Moves the line towards the point (mu, sigma^2) of the dark frames, their offset and variance. If all bright levels
+ * are equal, this is the photon transfer of EMVA 1288, gain = (V - sigma^2) / (mean - mu).
+ *
+ * The dark point is one more point of the variance line. It contradicts the line of the bright frames if both differ
+ * by more than Significance.severalTests of their errors, and by more than InCommon.leastDarkDifference of the
+ * variance. Then it is not used, unless the response is visibly non-linear.
+ *
+ * A non-linear response may explain the difference if it is visible, or if the bright frames have no levels near the
+ * dark offset. Then GainEstimate::atOffset is not set. If the response is visibly non-linear, or the difference is
+ * smaller but significant, the gain is the mean of the gains of the levels, (V - sigma^2) / (mean - mu). Its error is
+ * their scatter. */
+SensorNoise_EXPORT void
+CombineWithDarkPoint(GainEstimate & estimate, const RefinedResults & found);
 
 } // namespace sensornoise
 

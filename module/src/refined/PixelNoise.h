@@ -4,21 +4,54 @@
 #define sensornoise_refined_PixelNoise_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/Parallel.h"
-#include "correlation/NoiseCorrelation.h"
 #include "correlation/FrameSample.h"
+#include "correlation/NoiseCorrelation.h"
 #include "pixels/ProjectedVariance.h"
 #include "pixels/StaticVariance.h"
-#include "sensornoise/Settings.h"
-#include "refined/LineIllumination.h"
-#include "refined/UnlikeNoise.h"
+#include "pixels/VarianceLine.h"
+#include "refined/FramePhotonTransfer.h"
+#include "refined/RefinedResults.h"
 #include "scene/StaticScene.h"
+#include "sensornoise/Parallel.h"
+#include "sensornoise/Settings.h"
 #include "series/SceneSeries.h"
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace sensornoise
 {
+
+/** Returns the black level [DN]: the given offset, else the offset from the flicker if it is identifiable, else the
+ * lower clip level, or 0 if there is none. The latter two are limited to the darkest level. The black level separates
+ * signal and offset approximately where the frames do not determine the offset. */
+SensorNoise_EXPORT double
+BlackLevel(const RefinedSettings &                  settings,
+           const StaticScene &                      scene,
+           const std::optional<const SceneSeries> & series);
+
+/** Returns the variance of the quantization noise [DN^2]. */
+inline double
+CodesVariance(const StaticScene & scene)
+{
+  const double step = scene.summary.codes.quantisationStepDn;
+  return step * step / 12.0;
+}
+
+/** Returns the mask of the usable pixels that have levels within the range of the settings, and that the dark frames do
+ * not show as defective. The reasons for other pixels are written to \a pixelUse. */
+SensorNoise_EXPORT std::vector<std::uint8_t>
+PixelsOfVariance(const StaticScene & scene, const RefinedSettings & settings, std::vector<std::uint8_t> & pixelUse);
+
+/** Removes pixels from \a chosen whose surroundings have another level, and marks them in \a pixelUse. Where frames
+ * were filtered, the variance of these pixels is a mean over other neighbours than their level, and lies on no line.
+ * \a line is the variance line of the frames without correction for filters. */
+SensorNoise_EXPORT void
+LeaveOutEdges(const ReferenceFrame &      frame,
+              const VarianceLine &        line,
+              std::vector<std::uint8_t> & chosen,
+              std::vector<std::uint8_t> & pixelUse);
 
 /** Results of the third pass: the noise of each pixel, and its spatial and temporal correlation. */
 struct PixelNoise

@@ -5,7 +5,7 @@
 #include "base/Constants.h"
 #include "pixels/VarianceCurve.h"
 #include "refined/Constants.h"
-#include "refined/SensorLines.h"
+#include "refined/GainEstimate.h"
 
 #include <algorithm>
 #include <cmath>

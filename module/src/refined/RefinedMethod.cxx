@@ -2,13 +2,67 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/RefinedMethod.h"
 
+#include "base/FreeMemory.h"
+#include "base/Text.h"
+#include "moments/Exposures.h"
+#include "refined/MemoryNeed.h"
 #include "refined/RefinedPasses.h"
+#include "report/ExcessNoise.h"
+#include "sensornoise/Settings.h"
 
+#include <cmath>
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace sensornoise
 {
+
+void
+RefinedSettings::Validate() const
+{
+  ValidateCodeSettings(codes);
+  ValidateExposures(exposures);
+  ValidateExcessNoiseFactor(excessNoiseFactor);
+  if (levelRangeDn && !(levelRangeDn->lowDn < levelRangeDn->highDn && std::isfinite(levelRangeDn->lowDn) &&
+                        std::isfinite(levelRangeDn->highDn)))
+  {
+    throw std::invalid_argument("the range of levels is from " + Text(levelRangeDn->lowDn) + " to " +
+                                Text(levelRangeDn->highDn) + " DN; expected the lower level first, both finite");
+  }
+  if (offset &&
+      !(std::isfinite(offset->valueDn) && std::isfinite(offset->standardErrorDn) && offset->standardErrorDn >= 0.0))
+  {
+    throw std::invalid_argument("the offset is " + Text(offset->valueDn) + " DN with a standard error of " +
+                                Text(offset->standardErrorDn) +
+                                " DN; expected a finite number and a standard error of 0 or more");
+  }
+}
+
+void
+RefinedSettings::RequireOffsetWithin(double limitDn, const std::string & whatOf) const
+{
+  if (offset && !(std::abs(offset->valueDn) <= limitDn && offset->standardErrorDn <= limitDn))
+  {
+    throw std::invalid_argument("the offset is " + Text(offset->valueDn) + " DN with a standard error of " +
+                                Text(offset->standardErrorDn) + " DN; expected both within " + Text(limitDn) +
+                                " DN of 0, " + whatOf);
+  }
+}
+
+void
+RequireMemoryLimit(double limitBytes, const FrameGeometry & geometry, std::size_t frames, std::size_t planes)
+{
+  const double least = static_cast<double>(planes) * MemoryNeed{ geometry.Pixels(), frames }.Least();
+  if (limitBytes < least)
+  {
+    throw std::invalid_argument("the memory limit is " + TextOfBytes(limitBytes) + "; expected at least " +
+                                TextOfBytes(least) + " for " +
+                                (planes == 1 ? std::string("frames") : std::to_string(planes) + " planes") + " of " +
+                                std::to_string(geometry.width) + " x " + std::to_string(geometry.height) + " pixels");
+  }
+}
 
 template <typename TPixel>
 RefinedMethod<TPixel>::RefinedMethod(const RefinedSettings &           settings,

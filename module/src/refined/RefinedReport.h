@@ -4,14 +4,18 @@
 #define sensornoise_refined_RefinedReport_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/Parallel.h"
 #include "base/NothingToMeasure.h"
+#include "correlation/NoiseCorrelation.h"
+#include "refined/RefinedEstimate.h"
 #include "refined/RefinedResults.h"
-#include "sensornoise/Settings.h"
-#include "sensornoise/Report.h"
+#include "refined/SensorQuantities.h"
 #include "scene/StaticScene.h"
+#include "sensornoise/Parallel.h"
+#include "sensornoise/Report.h"
+#include "sensornoise/Settings.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace sensornoise
@@ -28,6 +32,34 @@ MakeFailedReport(const RefinedSettings &           settings,
                  const StaticScene &               scene,
                  const std::vector<std::uint8_t> & pixelUse,
                  const NothingToMeasure &          failureReason);
+
+/** Warns of what the verdict on the gain is due to, or, if the gain is identified, of what its interval allows for. The
+ * numbers of pixels must be in the report. \a effectOfLines is RefinedEstimate::effectOfLines [1]. */
+SensorNoise_EXPORT void
+WarnOfGain(Report & report, const RefinedResults & found, const JudgedGain & judged, double effectOfLines);
+
+/** Warns that the darkest areas have so much signal, \a darkestFraction of that of the brightest [1], that a non-linear
+ * response would not be noticed. */
+SensorNoise_EXPORT void
+WarnOfNarrowRange(Report & report, const RefinedResults & found, double darkestFraction);
+
+/** Returns the reason why the illumination does not determine the offset, and what to do; "": it does. */
+SensorNoise_EXPORT std::string
+ReasonOf(const OffsetEstimate & offset, const RefinedResults & found);
+
+/** Warns if the flicker is not identifiable. */
+SensorNoise_EXPORT void
+WarnOfFlicker(Report & report, const SeriesOfFlicker & flicker);
+
+/** Warns of an offset that is not identifiable, of a given offset or dark frames that contradict the frames, and of a
+ * read noise that is only limited. The gain must be identified. */
+SensorNoise_EXPORT void
+WarnOfOffset(Report & report, const RefinedResults & found, const RefinedEstimate & estimate);
+
+/** Adds a warning that the frames are not raw if the noise is correlated or not linear. The gain and the slope of the
+ * variance must be filed before. */
+SensorNoise_EXPORT void
+WarnOfCorrelation(Report & report, const NoiseCorrelation & correlation);
 
 } // namespace sensornoise
 

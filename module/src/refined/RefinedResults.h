@@ -3,21 +3,102 @@
 #ifndef sensornoise_refined_RefinedResults_h
 #define sensornoise_refined_RefinedResults_h
 
+#include "SensorNoiseExport.h"
 #include "correlation/NoiseCorrelation.h"
+#include "correlation/NoiseResiduals.h"
 #include "moments/ExposureFit.h"
-#include "refined/ReestimatedComponents.h"
-#include "sensornoise/Settings.h"
-#include "refined/LineIllumination.h"
-#include "refined/UnlikeNoise.h"
+#include "pixels/IlluminationResponses.h"
+#include "pixels/ProjectedVariance.h"
+#include "pixels/ProjectionSums.h"
+#include "pixels/StaticVariance.h"
+#include "refined/FramePhotonTransfer.h"
+#include "scene/ReferenceFrame.h"
 #include "scene/StaticScene.h"
+#include "sensornoise/Parallel.h"
+#include "sensornoise/Settings.h"
 #include "series/Constants.h"
+#include "series/FrameSums.h"
+#include "series/MotionSeries.h"
+#include "series/OffsetLine.h"
+#include "series/SceneSeries.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace sensornoise
 {
+
+/** Temporal components that are re-estimated with the noise of the third pass: illumination and motion in the report.
+ */
+struct ReestimatedComponents
+{
+  OffsetLine                      line; ///< offset and flicker
+  MotionSeries                    motion;
+  double                          motionPhi{ 1.0 }; ///< dispersion of the frames over all gradient classes [1]
+  std::optional<InstrumentShifts> shifts;
+  bool                            isOffsetDrift{ false }; ///< whether the local illumination is a drifting offset
+  std::optional<LocalOffset>      localOffset;            ///< only under local illumination
+  LocalFlicker                    localFlicker;
+};
+
+/** Estimates offset, flicker and shifts again, with the noise that is now known. Reads no frames. The pixels'
+ * \a coordinates on the temporal components are needed only under local illumination. */
+SensorNoise_EXPORT ReestimatedComponents
+ReestimateComponents(const FrameSums &        sums,
+                     const SceneSeries &      series,
+                     const PixelCoordinates & coordinates,
+                     const StaticVariance &   variance,
+                     const ParallelFor &      parallelFor);
+
+/** Illumination that is specific to the rows of a frame, or to its columns where the frame is turned: by a pulsed lamp
+ * under a rolling shutter, or by interlaced frames. Estimator.md, 3.18. */
+struct LineIllumination
+{
+  LineAxis axis{ LineAxis::Rows }; ///< whether it is specific to rows or to columns
+  /** Mean square of its relative changes, see EstimateLineIlluminationChange() [1]: \a found before it is subtracted,
+   * \a left after that. */
+  MeasuredNumber found;
+  MeasuredNumber left;
+  /** Whether it was subtracted, and the number of pixels that were measured without it: those of the noise sample. */
+  bool        isTakenOff{ false };
+  std::size_t pixels{ 0 };
+  /** Variance by other changes of the illumination that remains in a pixel's variance, relative to it [1]; 0: none is
+   * significant. */
+  double remainingVariance{ 0.0 };
+
+  /** Returns the name of such a line in messages. */
+  std::string
+  NameOfLine() const
+  {
+    return axis == LineAxis::Rows ? "row" : "column";
+  }
+};
+
+/** Returns the relative increase of the slope of the variance by illumination changes of the mean square \a square [1].
+ * They add \a square times q^2 to the variance at the signal q; \a signalDn is the signal of the brightest pixels
+ * [DN], \a gain the gain [DN/e-]. Returns 0 if the increase is not significant, or less than \a least [1]. */
+SensorNoise_EXPORT double
+EffectOfLineIllumination(const MeasuredNumber & square, double signalDn, double gain, double least);
+
+/** Returns the increase of a pixel's variance by local changes of the illumination, relative to it [1]; 0: not
+ * significant, or too small to count. */
+SensorNoise_EXPORT double
+RestOfIllumination(const NoiseResiduals & residuals, const ParallelFor & parallelFor);
+
+/** Subtracts the noise and illumination of whole \a lines from \a residuals, whose pixels are \a chosen, and replaces
+ * the variance in \a projected by the remaining one. Pixels outside of the sample are removed from \a chosen and
+ * marked in \a pixelUse. */
+SensorNoise_EXPORT void
+SubtractLineIllumination(LineIllumination &          lines,
+                         NoiseResiduals &            residuals,
+                         ProjectedVariance &         projected,
+                         std::vector<std::uint8_t> & chosen,
+                         std::vector<std::uint8_t> & pixelUse,
+                         const ParallelFor &         parallelFor);
 
 /** Results of the passes of the refined method, from which its report is made. */
 struct RefinedResults
@@ -76,6 +157,19 @@ private:
     return offsetDn + std::max(0.0, 1.0 + gamma) * (levelDn - offsetDn);
   }
 };
+
+/** Returns the fraction of the scene's signal that the dark frames contain, as of a shutter that was not closed [1].
+ * Returns null if it is below InRefined.leastSignalOfDark or not significant, if too few places of the scene have
+ * contrast, or if there are no maps of the dark frames.
+ *
+ * The estimate is the regression of the dark mean on the difference of bright and dark mean, within tiles of the
+ * frame. Offsets of the pixels are in both means and cancel in the difference. \a pixelUse has a value of PixelUse for
+ * each pixel. Estimator.md, 3.9. */
+SensorNoise_EXPORT std::optional<MeasuredNumber>
+FindDarkSignal(const std::optional<KnownOffset> & offset,
+               const ReferenceFrame &             bright,
+               const std::vector<std::uint8_t> &  pixelUse,
+               const ParallelFor &                parallelFor);
 
 } // namespace sensornoise
 

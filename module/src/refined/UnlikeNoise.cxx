@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "refined/UnlikeNoise.h"
+#include "refined/FramePhotonTransfer.h"
 
 #include "base/Quantiles.h"
 #include "base/Constants.h"

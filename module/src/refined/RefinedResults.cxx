@@ -1,0 +1,325 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "refined/RefinedResults.h"
+
+#include "base/Constants.h"
+#include "base/Eigen.h"
+#include "correlation/Jackknife.h"
+#include "moments/DarkMaps.h"
+#include "pixels/IlluminationResponses.h"
+#include "refined/Constants.h"
+#include "scene/ReferenceFrame.h"
+#include "sensornoise/Report.h"
+#include "series/FrameEquations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Returns the effect of the noise on the equations of the frames, by the fitted \a line and the offset \a offsetDn
+ * [DN]. */
+RegressorNoise
+NoiseOfLine(const FrameRegressors & regressors,
+            const VarianceLine &    line,
+            double                  offsetDn,
+            const ParallelFor &     parallelFor)
+{
+  // Sums of the variance and of the shot noise for each class.
+  const auto             varianceOf = [](std::size_t gradientClass) { return 2 * gradientClass; };
+  const auto             shotOf = [](std::size_t gradientClass) { return 2 * gradientClass + 1; };
+  const ReferenceFrame & frame = regressors.GetFrame();
+  const auto sums = SumOverBlocks<2 * GradientClasses>(frame.mean.size(), parallelFor, [&](std::size_t p, auto & s) {
+    const std::size_t c = regressors.ClassOf(p);
+    if (c != FrameRegressors::Unused)
+    {
+      const double level = frame.neighbourMean[p];
+      const double variance = line.At(level);
+      const double w = 1.0 / regressors.GetModel().NoiseVariance(level);
+      s[varianceOf(c)] += w * variance;
+      s[shotOf(c)] += w * line.gain * std::max(0.0, level - offsetDn);
+    }
+  });
+  RegressorNoise noise;
+  for (std::size_t c = 0; c < GradientClasses; ++c)
+  {
+    noise.variance[c] = sums[varianceOf(c)];
+    noise.shot[c] = sums[shotOf(c)];
+  }
+  return noise;
+}
+} // namespace
+
+ReestimatedComponents
+ReestimateComponents(const FrameSums &        sums,
+                     const SceneSeries &      series,
+                     const PixelCoordinates & coordinates,
+                     const StaticVariance &   variance,
+                     const ParallelFor &      parallelFor)
+{
+  const InitialNoiseModel &   model = sums.GetRegressors().GetModel();
+  const std::vector<double> & gamma = series.line.gamma;
+  const RegressorNoise        noise =
+    NoiseOfLine(sums.GetRegressors(), variance.line, series.offset + model.centreDn, parallelFor);
+  ReestimatedComponents reestimated;
+  reestimated.line = FitOffsetLine(sums, noise, gamma).value_or(series.line);
+  if (!reestimated.line.DeterminesOffset())
+  {
+    reestimated.line.UseOffset(series.offset);
+  }
+  const FrameEquations            equations = MakeFrameEquations(sums, noise, GradientClasses - 1, gamma);
+  const std::optional<OffsetLine> everywhere = FitOffsetLine(equations);
+  reestimated.motionPhi = everywhere ? everywhere->Widening() : 1.0;
+  reestimated.motion = SolveMotion(equations, reestimated.line.gamma, reestimated.line.offset);
+  reestimated.shifts = SolveShifts(sums,
+                                   equations,
+                                   reestimated.motion,
+                                   sums.NoiseOfInstruments(variance.line.gain, variance.line.intercept),
+                                   reestimated.line.gamma,
+                                   reestimated.line.offset);
+  if (series.local.series.cols() > 0)
+  {
+    const IlluminationResponses light{
+      sums.GetFrame(), coordinates,     series.basis.NumberOfIlluminationFactors(), variance.line, variance.mask,
+      model.centreDn,  model.darkestDn, model.brightestDn - model.darkestDn
+    };
+    reestimated.isOffsetDrift = IsOffsetDrift(light);
+    if (!reestimated.isOffsetDrift)
+    {
+      reestimated.localOffset = FindLocalOffset(light, parallelFor);
+    }
+    reestimated.localFlicker = SumLocalFlicker(light);
+  }
+  return reestimated;
+}
+
+namespace
+{
+/** Sums for the illumination changes of a tile, and for the variance that they add to its pixels. */
+struct TileIllumination
+{
+  double frames{ 0.0 };
+  double pixels{ 0.0 };
+  double square{ 0.0 }; ///< of the tile's signal over the frames, in units of its noise
+
+  TileIllumination &
+  operator+=(const TileIllumination & other)
+  {
+    frames += other.frames;
+    pixels += other.pixels;
+    square += other.square;
+    return *this;
+  }
+};
+
+/** Returns the sums of tile \a i. Its signal in a frame, sum w z r, has the variance sum w z^2 by the noise of the
+ * pixels. A relative change e of the illumination increases this variance by the fraction e^2 sum w z^2, and the
+ * variance of the pixels by the mean of e^2 w z^2 over them. */
+TileIllumination
+SumTileIllumination(const NoiseResiduals & residuals, std::size_t i)
+{
+  const float * const w = residuals.WeightOf(i);
+  const float * const z = residuals.LightOf(i);
+  const std::size_t   size = residuals.GetTiles().Pixels();
+  TileIllumination    light;
+  double              noise = 0.0;
+  for (std::size_t p = 0; p < size; ++p)
+  {
+    light.pixels += w[p] > 0.0F ? 1.0 : 0.0;
+    noise += static_cast<double>(w[p]) * static_cast<double>(z[p]) * static_cast<double>(z[p]);
+  }
+  if (!(noise > 0.0))
+  {
+    return {};
+  }
+  for (std::size_t t = 0; t < residuals.GetTiles().frames; ++t)
+  {
+    const float * const values = residuals.OfTile(i) + t * size;
+    double              sum = 0.0;
+    for (std::size_t p = 0; p < size; ++p)
+    {
+      sum += static_cast<double>(w[p]) * static_cast<double>(z[p]) * static_cast<double>(values[p]);
+    }
+    light.square += sum * sum / noise;
+  }
+  light.frames = residuals.GetDof();
+  return light;
+}
+} // namespace
+
+double
+EffectOfLineIllumination(const MeasuredNumber & square, double signalDn, double gain, double least)
+{
+  const double effect = square.value * std::max(0.0, signalDn) / gain;
+  return square.value > Significance.severalTests * square.standardError && effect > least ? effect : 0.0;
+}
+
+double
+RestOfIllumination(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
+{
+  std::vector<TileIllumination> tiles(residuals.GetTiles().origins.size());
+  parallelFor(tiles.size(), [&](std::size_t i) { tiles[i] = SumTileIllumination(residuals, i); });
+  const JackknifeEstimate estimate = Jackknife(tiles, [](const TileIllumination & sum) {
+    return Eigen::VectorXd::Constant(1, sum.pixels > 0.0 ? (sum.square - sum.frames) / sum.pixels : 0.0);
+  });
+  // Both sums are over the tiles: the excess of each tile is a sum over its frames.
+  const double perFrame = 1.0 / std::max(1.0, residuals.GetDof());
+  const double rest = estimate.value(0) * perFrame;
+  const double error = estimate.StandardError(0) * perFrame;
+  return rest > Significance.severalTests * error &&
+             rest > InRefined.largestLineIllumination / InRefined.slopeOfRemaining
+           ? rest
+           : 0.0;
+}
+
+void
+SubtractLineIllumination(LineIllumination &          lines,
+                         NoiseResiduals &            residuals,
+                         ProjectedVariance &         projected,
+                         std::vector<std::uint8_t> & chosen,
+                         std::vector<std::uint8_t> & pixelUse,
+                         const ParallelFor &         parallelFor)
+{
+  const std::vector<float>  left = residuals.TakeOffLines(lines.axis, chosen, parallelFor);
+  const SampleTiles &       tiles = residuals.GetTiles();
+  const std::size_t         width = projected.GetFrame().geometry.width;
+  std::vector<std::uint8_t> sampled(chosen.size(), 0);
+  for (std::size_t i = 0; i < tiles.origins.size(); ++i)
+  {
+    for (std::size_t p = 0; p < tiles.Pixels(); ++p)
+    {
+      const std::size_t pixel = tiles.PixelOf(i, p, width);
+      if (chosen[pixel] != 0 && left[i * tiles.Pixels() + p] > 0.0F)
+      {
+        sampled[pixel] = 1;
+        projected.ReplaceSquares(pixel, residuals.SquaresOf(i)[p], residuals.GetDof());
+      }
+    }
+  }
+  for (std::size_t p = 0; p < chosen.size(); ++p)
+  {
+    if (chosen[p] != 0 && sampled[p] == 0)
+    {
+      pixelUse[p] = static_cast<std::uint8_t>(PixelUse::FlickerUnknown);
+    }
+  }
+  chosen = std::move(sampled);
+  lines.isTakenOff = true;
+  lines.pixels = static_cast<std::size_t>(std::count(chosen.begin(), chosen.end(), std::uint8_t{ 1 }));
+}
+
+namespace
+{
+constexpr std::size_t TileSide = 16; ///< [pixels]; glow and vignetting hardly change within a tile
+constexpr std::size_t MostBlocks = 32;
+constexpr std::size_t FewestBlocks = 4;
+constexpr double      FewestPixels = 16.0; ///< in a tile
+
+/** Sums over tiles of the centred signal x, bright minus dark mean, and of the centred dark mean y. */
+struct SignalSums
+{
+  double square{ 0.0 };  ///< sum of x^2 without noise [DN^2]
+  double product{ 0.0 }; ///< sum of x y without noise [DN^2]
+
+  SignalSums &
+  operator+=(const SignalSums & other)
+  {
+    square += other.square;
+    product += other.product;
+    return *this;
+  }
+  /** Returns the fraction b of the signal in the dark frames [1], from the regression of y on x, b / (1 - b). */
+  double
+  Fraction() const
+  {
+    return square + product != 0.0 ? product / (square + product) : 0.0;
+  }
+};
+
+/** Returns the sums of the tile at \a left, \a top; empty sums where the contrast of the scene is below
+ * InRefined.leastContrastOfTile. */
+SignalSums
+SumTile(const DarkMaps &                  dark,
+        const ReferenceFrame &            bright,
+        const std::vector<std::uint8_t> & pixelUse,
+        std::size_t                       left,
+        std::size_t                       top)
+{
+  const auto frames = static_cast<double>(bright.frames);
+  const auto darkFrames = static_cast<double>(dark.frames);
+  double     pixels = 0.0, x = 0.0, y = 0.0, noise = 0.0, shared = 0.0;
+  SignalSums sums;
+  for (std::size_t row = top; row < std::min(top + TileSide, bright.geometry.height); ++row)
+  {
+    for (std::size_t column = left; column < std::min(left + TileSide, bright.geometry.width); ++column)
+    {
+      const std::size_t p = row * bright.geometry.width + column;
+      if (dark.usable[p] == 0 || pixelUse[p] != static_cast<std::uint8_t>(PixelUse::Used))
+      {
+        continue;
+      }
+      const double signal = bright.mean[p] - dark.offsetDn[p];
+      pixels += 1.0;
+      x += signal;
+      y += dark.offsetDn[p];
+      sums.square += signal * signal;
+      sums.product += signal * dark.offsetDn[p];
+      shared += dark.varianceDn2[p] / darkFrames;
+      noise += bright.variance[p] / frames;
+    }
+  }
+  if (pixels < FewestPixels)
+  {
+    return {};
+  }
+  const double fewer = 1.0 - 1.0 / pixels;
+  sums.square -= x * x / pixels + fewer * (noise + shared);
+  sums.product -= x * y / pixels - fewer * shared;
+  const double contrast = InRefined.leastContrastOfTile * x / pixels;
+  return sums.square > contrast * contrast * pixels ? sums : SignalSums();
+}
+} // namespace
+
+std::optional<MeasuredNumber>
+FindDarkSignal(const std::optional<KnownOffset> & offset,
+               const ReferenceFrame &             bright,
+               const std::vector<std::uint8_t> &  pixelUse,
+               const ParallelFor &                parallelFor)
+{
+  if (!offset || !offset->maps || offset->maps->usable.size() != pixelUse.size())
+  {
+    return std::nullopt;
+  }
+  const std::size_t       rows = (bright.geometry.height + TileSide - 1) / TileSide;
+  std::vector<SignalSums> blocks(std::min(rows, MostBlocks));
+  const std::size_t       count = blocks.size();
+  parallelFor(count, [&](std::size_t block) {
+    for (std::size_t row = block * rows / count; row < (block + 1) * rows / count; ++row)
+    {
+      for (std::size_t left = 0; left < bright.geometry.width; left += TileSide)
+      {
+        blocks[block] += SumTile(*offset->maps, bright, pixelUse, left, row * TileSide);
+      }
+    }
+  });
+  const auto isEmpty = [](const SignalSums & sum) { return !(sum.square > 0.0); };
+  blocks.erase(std::remove_if(blocks.begin(), blocks.end(), isEmpty), blocks.end());
+  if (blocks.size() < FewestBlocks)
+  {
+    return std::nullopt;
+  }
+  const JackknifeEstimate estimate =
+    Jackknife(blocks, [](const SignalSums & sums) { return Eigen::VectorXd::Constant(1, sums.Fraction()); });
+  const MeasuredNumber fraction{ estimate.value(0), estimate.StandardError(0) };
+  const bool           counts =
+    fraction.value > InRefined.leastSignalOfDark && fraction.value > Significance.severalTests * fraction.standardError;
+  return counts ? std::optional<MeasuredNumber>(fraction) : std::nullopt;
+}
+
+} // namespace sensornoise
