@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "correlation/CorrelationEstimate.h"
-#include "refined/CorrelationReport.h"
+#include "refined/RefinedReport.h"
 #include "report/Quantities.h"
 #include "helpers/ReportTestHelper.h"
 #include "helpers/SentencesTestHelper.h"

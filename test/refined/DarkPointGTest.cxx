@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "refined/DarkPoint.h"
+#include "refined/GainEstimate.h"
 #include "sensornoise/Settings.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/SimulationSettings.h"

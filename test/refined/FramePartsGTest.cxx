@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "refined/FrameParts.h"
+#include "refined/FramePhotonTransfer.h"
 #include "pixels/GainByParts.h"
 #include "simulation/Random.h"
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/FramePhotonTransfer.h"
 #include "refined/Constants.h"
-#include "refined/UnlikeNoise.h"
 #include "simulation/Random.h"
 
 #include <algorithm>

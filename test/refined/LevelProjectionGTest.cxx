@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "refined/LevelProjection.h"
+#include "refined/PixelProjections.h"
 #include "base/PixelLayout.h"
 #include "simulation/Random.h"
 

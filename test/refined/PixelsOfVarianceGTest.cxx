@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/Report.h"
-#include "refined/PixelsOfVariance.h"
+#include "refined/PixelNoise.h"
 #include "sensornoise/RefinedMethod.h"
 #include "helpers/SensorTestHelper.h"
 

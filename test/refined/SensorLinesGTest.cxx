@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "refined/SensorLines.h"
+#include "refined/GainEstimate.h"
 
 #include <cmath>
 #include <cstddef>
