@@ -22,6 +22,7 @@
 #include "sensornoise/ChannelReports.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Report.h"
+#include "sensornoise/Settings.h"
 #include "itkSensorNoiseResult.h"
 #include "itkSensorNoiseStackSink.h"
 
@@ -115,6 +116,24 @@ public:
   itkSetMacro(ExcessNoiseFactor, double);
   itkGetConstMacro(ExcessNoiseFactor, double);
 
+  /** Region and frames of the recording from which the stack was cut out, as those of SensorNoiseEstimator: the
+   * settings of the report have them, and no number changes. Default: nothing is recorded. Update() throws if they do
+   * not have the size of the stack. */
+  void
+  SetSourceRegion(SizeValueType x, SizeValueType y, SizeValueType width, SizeValueType height);
+  void
+  SetSourceFrames(SizeValueType first, SizeValueType end);
+  const sensornoise::StackSelection &
+  GetSource() const
+  {
+    return m_Source;
+  }
+
+  /** SHA-256 hash of the frames, 64 hexadecimal digits, which the report has as its input, with the number and the
+   * total size [bytes] of their files; both 0: it is the hash of the pixels. Default: empty, nothing is recorded. */
+  void
+  SetFramesHash(const std::string & sha256, SizeValueType files, SizeValueType bytes);
+
   /** Returns the result, as a pipeline output or as a variant. Valid after Update(). */
   ResultObjectType *
   GetResultOutput()
@@ -190,6 +209,9 @@ private:
   double       m_ClipHigh{ std::numeric_limits<double>::quiet_NaN() };
   double       m_QuantisationStep{ 0.0 };
   double       m_ExcessNoiseFactor{ 1.0 };
+
+  sensornoise::StackSelection m_Source;
+  sensornoise::InputFiles     m_FramesHash;
 
   std::unique_ptr<Measurement> m_Measurement;
 };

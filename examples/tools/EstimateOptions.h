@@ -95,27 +95,16 @@ struct EstimateOptions
   std::string
   DescribeRegion() const;
 
+  /** Sets what the filters of all methods have: digital numbers, excess noise, and where the stack was cut out. */
   template <typename TEstimator>
   void
-  ApplyTo(TEstimator & estimator) const
+  ApplyCommonTo(TEstimator & estimator) const
   {
-    estimator.SetMethod(method);
     estimator.SetBitDepth(bitDepth);
     estimator.SetClipLow(clipLow);
     estimator.SetClipHigh(clipHigh);
     estimator.SetQuantisationStep(step);
-    if (levelRange)
-    {
-      estimator.SetLevelRangeLow(levelRange->first);
-      estimator.SetLevelRangeHigh(levelRange->second);
-    }
-    estimator.SetExposures(exposures);
     estimator.SetExcessNoiseFactor(excessNoiseFactor);
-    estimator.SetMemoryLimit(memoryLimit);
-    estimator.SetRollingShutter(rollingShutter);
-    estimator.SetSigmaRows(sigmaRows);
-    estimator.SetOffset(offset);
-    estimator.SetOffsetStandardError(offsetStandardError);
     if (roi)
     {
       const auto number = [this](std::size_t i) { return static_cast<std::size_t>((*roi)[i]); };
@@ -125,6 +114,26 @@ struct EstimateOptions
     {
       estimator.SetSourceFrames(frames->first, frames->second);
     }
+  }
+
+  /** Sets all parameters of a SensorNoiseEstimator. */
+  template <typename TEstimator>
+  void
+  ApplyTo(TEstimator & estimator) const
+  {
+    this->ApplyCommonTo(estimator);
+    estimator.SetMethod(method);
+    if (levelRange)
+    {
+      estimator.SetLevelRangeLow(levelRange->first);
+      estimator.SetLevelRangeHigh(levelRange->second);
+    }
+    estimator.SetExposures(exposures);
+    estimator.SetMemoryLimit(memoryLimit);
+    estimator.SetRollingShutter(rollingShutter);
+    estimator.SetSigmaRows(sigmaRows);
+    estimator.SetOffset(offset);
+    estimator.SetOffsetStandardError(offsetStandardError);
   }
 };
 

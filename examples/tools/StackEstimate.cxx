@@ -199,21 +199,6 @@ NoteMemory(const EstimateOptions & options, const itk::ImageRegion<3> & region)
   std::cerr << '\n';
 }
 
-StackSelection
-SelectionOf(const EstimateOptions & options)
-{
-  StackSelection selection;
-  if (options.roi)
-  {
-    selection.roi.emplace();
-    std::transform(options.roi->begin(), options.roi->end(), selection.roi->begin(), [](long number) {
-      return static_cast<std::size_t>(number);
-    });
-  }
-  selection.frames = options.frames;
-  return selection;
-}
-
 /** Adds the hash of the frame files, and of the dark frame files, to the reports. */
 void
 AddHash(const EstimateOptions & options, const FrameList & list, const FrameList & dark, MeasuredStack & measured)
@@ -238,11 +223,7 @@ EstimateSingleImages(const EstimateOptions &     options,
 {
   const auto estimator = itk::SingleImageNoiseEstimator<TStack>::New();
   estimator->SetInput(&selected);
-  estimator->SetBitDepth(options.bitDepth);
-  estimator->SetClipLow(options.clipLow);
-  estimator->SetClipHigh(options.clipHigh);
-  estimator->SetQuantisationStep(options.step);
-  estimator->SetExcessNoiseFactor(options.excessNoiseFactor);
+  options.ApplyCommonTo(*estimator);
   SetPattern(options, stack, selected, *estimator);
   if (!options.mask.empty())
   {
@@ -253,19 +234,7 @@ EstimateSingleImages(const EstimateOptions &     options,
     ShowProgressOn(*estimator);
   }
   estimator->Update();
-  MeasuredStack        measured = estimator->GetResult();
-  const StackSelection selection = SelectionOf(options);
-  if (auto * const report = std::get_if<Report>(&measured))
-  {
-    NoteSelection(*report, selection);
-  }
-  else
-  {
-    for (Report & channel : std::get<ChannelReports>(measured).channels)
-    {
-      NoteSelection(channel, selection);
-    }
-  }
+  MeasuredStack measured = estimator->GetResult();
   AddHash(options, list, {}, measured);
   if (plot != nullptr)
   {

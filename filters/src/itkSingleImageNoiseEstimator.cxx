@@ -22,6 +22,7 @@
 #include "sensornoise/ReportText.h"
 #include "sensornoise/SingleImageMethod.h"
 #include "moments/MosaicLevels.h"
+#include "report/StackSettings.h"
 
 #include <algorithm>
 #include <array>
@@ -57,8 +58,39 @@ SingleImageNoiseEstimator<TStack>::~SingleImageNoiseEstimator() = default;
 
 template <typename TStack>
 void
+SingleImageNoiseEstimator<TStack>::SetSourceRegion(SizeValueType x,
+                                                   SizeValueType y,
+                                                   SizeValueType width,
+                                                   SizeValueType height)
+{
+  m_Source.roi = { x, y, width, height };
+  this->Modified();
+}
+
+template <typename TStack>
+void
+SingleImageNoiseEstimator<TStack>::SetSourceFrames(SizeValueType first, SizeValueType end)
+{
+  m_Source.frames = { first, end };
+  this->Modified();
+}
+
+template <typename TStack>
+void
+SingleImageNoiseEstimator<TStack>::SetFramesHash(const std::string & sha256, SizeValueType files, SizeValueType bytes)
+{
+  m_FramesHash = WithItkErrors(this, [&] { return sensornoise::InputFilesOf(sha256, files, bytes); });
+  this->Modified();
+}
+
+template <typename TStack>
+void
 SingleImageNoiseEstimator<TStack>::VerifyInputInformation() const
 {
+  const auto region = this->GetInput()->GetLargestPossibleRegion();
+  WithItkErrors(this, [&] {
+    sensornoise::RequireSelection(m_Source, { region.GetSize(0), region.GetSize(1) }, region.GetSize(2));
+  });
   const MaskImageType * mask = this->GetMask();
   if (mask != nullptr && mask->GetLargestPossibleRegion() != this->GetFrameRegion())
   {
@@ -129,20 +161,28 @@ template <typename TStack>
 void
 SingleImageNoiseEstimator<TStack>::EndPass(unsigned int)
 {
-  std::vector<sensornoise::Report> reports = m_Measurement->method->GetReports();
+  std::vector<sensornoise::Report>        reports = m_Measurement->method->GetReports();
+  std::optional<sensornoise::InputRecord> input;
+  if (!m_FramesHash.sha256.empty())
+  {
+    input = sensornoise::InputRecord{ m_FramesHash, std::nullopt };
+  }
   for (sensornoise::Report & report : reports)
   {
     report.camera = m_Measurement->camera;
+    sensornoise::NoteSelection(report, m_Source);
   }
   if (m_Measurement->pattern)
   {
     std::array<sensornoise::Report, 4> channels;
     std::move(reports.begin(), reports.end(), channels.begin());
-    this->GetResultOutput()->Set(
-      sensornoise::MakeChannelReports(*m_Measurement->pattern, m_Measurement->source, std::move(channels)));
+    auto result = sensornoise::MakeChannelReports(*m_Measurement->pattern, m_Measurement->source, std::move(channels));
+    result.input = input;
+    this->GetResultOutput()->Set(std::move(result));
   }
   else
   {
+    reports.front().input = input;
     this->GetResultOutput()->Set(std::move(reports.front()));
   }
   m_Measurement.reset();
@@ -180,6 +220,7 @@ SingleImageNoiseEstimator<TStack>::PrintSelf(std::ostream & os, Indent indent) c
   os << indent << "ClipHigh: " << m_ClipHigh << std::endl;
   os << indent << "QuantisationStep: " << m_QuantisationStep << std::endl;
   os << indent << "ExcessNoiseFactor: " << m_ExcessNoiseFactor << std::endl;
+  os << indent << "FramesHash: " << m_FramesHash.sha256 << std::endl;
 }
 
 #define SensorNoise_INSTANTIATE(TPixel) template class SingleImageNoiseEstimator<Image<TPixel, 3>>

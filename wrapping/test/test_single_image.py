@@ -8,6 +8,7 @@ import subprocess
 from pathlib import Path
 
 import itk
+import itk_sensornoise as sn
 import numpy as np
 import pytest
 from conftest import ITK_TYPES
@@ -78,3 +79,41 @@ def test_the_tool_gives_the_same_record(frames, tmp_path):
     record = json.loads(done.stdout)
     expected = itk.single_image_noise_estimator(str(name))
     assert record["gain"] == expected["gain"] and record["single_image"] == expected["single_image"]
+
+
+def test_one_call_is_the_functional_style_with_regions_and_hashes(frames):
+    report = itk.estimate_sensor_noise(frames, method="single-image", bit_depth=8)
+    assert report == itk.single_image_noise_estimator(frames, bit_depth=8)
+    assert itk.estimate_sensor_noise(frames[0], method="single-image") == itk.single_image_noise_estimator(frames[0])
+    cut = itk.estimate_sensor_noise(
+        frames, method="single-image", roi=np.s_[:, 64:], frame_range=(1, 3), hash=True, threads=1
+    )
+    by_hand = itk.single_image_noise_estimator(np.ascontiguousarray(frames[1:3, :, 64:]))
+    assert cut.gain.value == by_hand.gain.value
+    assert cut["settings"]["roi"] == [64, 0, 192, 192] and cut["settings"]["frames"] == [1, 3]
+    assert cut["input"]["frames"]["of"] == "pixels" and len(cut["input"]["frames"]["sha256"]) == 64
+
+
+def test_the_pattern_of_a_mosaic_is_that_of_the_region(frames):
+    cut = itk.estimate_sensor_noise(frames, method="single-image", bayer="RGGB", roi=(1, 0, 254, 192))
+    assert cut["bayer"]["pattern"] == "GRBG"
+
+
+@pytest.mark.parametrize(
+    ("options", "found"),
+    [
+        ({"offset": 20.0}, "offset was given and the method is 'single-image', which measures slope and intercept"),
+        ({"maps": True}, "maps were given and the method is 'single-image', which has no maps over time"),
+        ({"level_range": (10, 20)}, "level_range was given and the method is 'single-image', which fits all levels"),
+        ({"exposures": [1, 2, 3]}, "exposures were given and the method is 'single-image', which does not measure"),
+        ({"mask": np.ones((3, 3))}, "mask has shape"),
+    ],
+)
+def test_what_the_method_does_not_use_is_refused(frames, options, found):
+    with pytest.raises(ValueError, match=found):
+        itk.estimate_sensor_noise(frames, method="single-image", **options)
+
+
+def test_sums_of_a_burst_are_of_the_other_methods():
+    with pytest.raises(ValueError, match="method is 'single-image'; expected 'refined' or 'published'"):
+        sn.SensorNoiseSums((5, 8, 8), np.uint16, method="single-image")

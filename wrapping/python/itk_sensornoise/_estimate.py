@@ -16,13 +16,14 @@ from ._nan_frames import warn_of_nan_frames
 from ._progress import at_work
 from ._report import Report
 from ._settings import Settings, open_dark, prepare
+from ._single_image import as_frames
 from ._types import FileName, Frame, Frames, ItkObject, Progress, Roi
 
 
 class Options(TypedDict, total=False):
     """The keywords of estimate_sensor_noise() but `bayer`, which decides what it returns."""
 
-    method: Literal["refined", "published"]
+    method: Literal["refined", "published", "single-image"]
     offset: float | tuple[float, float] | None
     dark: Frames | None
     bit_depth: int | None
@@ -65,7 +66,7 @@ def estimate_sensor_noise(
 def estimate_sensor_noise(
     frames: Frames,
     *,
-    method: Literal["refined", "published"] = "refined",
+    method: Literal["refined", "published", "single-image"] = "refined",
     offset: float | tuple[float, float] | None = None,
     dark: Frames | None = None,
     bayer: Literal["auto", "none", "RGGB", "GRBG", "GBRG", "BGGR"] = "auto",
@@ -104,9 +105,11 @@ def estimate_sensor_noise(
         chunks that are missing are an error, as far as h5py and zarr say so. Raw files of cameras (.dng, .cr2, .nef,
         ...) are read by rawpy, if installed: unprocessed codes. Arrays are shared; one that is not C-contiguous or not
         in the machine's byte order is copied once.
-    method : {"refined", "published"}, default "refined"
+    method : {"refined", "published", "single-image"}, default "refined"
         "refined": all pixels of a still scene, textured or not; what is `identified` has a standard error and a 95 %
-        interval. "published": Figure 2 of Sur & Grédiac 2015, even areas only, without errors.
+        interval. "published": Figure 2 of Sur & Grédiac 2015, even areas only, without errors. "single-image": gain and
+        intercept from the even areas of one frame, which may be an array (y, x), after Foi et al. 2008; each of several
+        frames is measured by itself. It has no `maps`, and needs neither flicker nor `memory_limit`.
     offset : float or (float, float), optional
         The offset [DN] if it is known, or (offset, standard error): offset and read noise then need no flicker, and
         steady light is distinguished from the offset. Default: found. "refined" only.
@@ -242,7 +245,14 @@ def estimate_sensor_noise(
         frame_range=frame_range,
         threads=threads,
     )
-    settings.check(dark)
+    settings.check(dark, ("refined", "published", "single-image"))
+    if method == "single-image":
+        frames = as_frames(frames)
+        if maps:
+            raise ValueError(
+                "maps were given and the method is 'single-image', which has no maps over time; "
+                "expected no maps, or 'refined'"
+            )
     folder = None if maps is None or isinstance(maps, bool) else maps_folder(maps)
     frames, dark = expand(frames), expand(dark, "dark")
     if folder is not None:
@@ -251,7 +261,7 @@ def estimate_sensor_noise(
     dark_stack = open_dark(dark, raw)
     prepared = prepare(stack, dark_stack, settings)
     estimator = prepared.estimator
-    if memory_limit is not None:
+    if memory_limit is not None and method != "single-image":
         estimator.SetMemoryLimit(_options.integer("memory_limit", memory_limit, 1, 2**62))
     hashes = []
     if hash:

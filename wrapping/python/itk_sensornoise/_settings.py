@@ -40,9 +40,9 @@ class Settings:
     frame_range: tuple[int, int] | slice | None = None
     threads: int | None = None
 
-    def check(self, dark: object) -> None:
-        """Raises ValueError for settings that are wrong whatever the frames are."""
-        _options.one_of("method", self.method, ["refined", "published"])
+    def check(self, dark: object, methods: Sequence[str] = ("refined", "published")) -> None:
+        """Raises ValueError for settings that are wrong whatever the frames are. `methods`: those that are possible."""
+        _options.one_of("method", self.method, list(methods))
         _check_what_is_known(self.method, self.offset, dark)
         if self.level_range is not None:
             _level_range(self.level_range, self.method)
@@ -96,34 +96,17 @@ def prepare(stack: Stack, dark: Stack | None, settings: Settings) -> Prepared:
         dark = _cut_dark(dark, stack, corner, size)
     if size != stack.size:
         stack = crop(stack, corner, size)
-    estimator = stack.estimator(itk.SensorNoiseEstimator)
+    is_single = settings.method == "single-image"
+    estimator = stack.estimator(itk.SingleImageNoiseEstimator if is_single else itk.SensorNoiseEstimator)
     if settings.roi is not None:
         estimator.SetSourceRegion(*corner[:2], *size[:2])
     if span is not None:
         estimator.SetSourceFrames(*span)
-    estimator.SetMethod(settings.method)
     set_pattern(estimator, settings.bayer, whole, corner)
-    if settings.offset is not None:
-        _set_offset(estimator, settings.offset)
-    if dark is not None:
-        estimator.SetDark(dark.image)
-    if settings.level_range is not None:
-        low, high = _level_range(settings.level_range, settings.method)
-        estimator.SetLevelRangeLow(low)
-        estimator.SetLevelRangeHigh(high)
-    if settings.exposures is not None:
-        estimator.SetExposures(_exposures_of(settings, size[2], total))
     estimator.SetExcessNoiseFactor(_excess_noise_factor(settings.excess_noise_factor))
-    _set_parameters(
-        estimator,
-        settings.bit_depth,
-        settings.clip,
-        settings.step,
-        settings.rolling_shutter,
-        settings.shutter_axis,
-        settings.level,
-        settings.quantiles,
-    )
+    _set_codes(estimator, settings)
+    if not is_single:
+        _set_burst(estimator, settings, dark, (size[2], total))
     if mask is not None:
         rows, columns = slice(corner[1], corner[1] + size[1]), slice(corner[0], corner[0] + size[0])
         mask = np.ascontiguousarray(mask[rows, columns])
@@ -135,11 +118,34 @@ def prepare(stack: Stack, dark: Stack | None, settings: Settings) -> Prepared:
     return Prepared(estimator, stack, dark, corner, size, [mask])
 
 
+def _set_burst(estimator: ItkObject, settings: Settings, dark: Stack | None, frames: tuple[int, int | None]) -> None:
+    """Sets the parameters of the methods that measure a burst. `frames`: how many are measured, and how many there are;
+    None: not known."""
+    estimator.SetMethod(settings.method)
+    if settings.offset is not None:
+        _set_offset(estimator, settings.offset)
+    if dark is not None:
+        estimator.SetDark(dark.image)
+    if settings.level_range is not None:
+        low, high = _level_range(settings.level_range, settings.method)
+        estimator.SetLevelRangeLow(low)
+        estimator.SetLevelRangeHigh(high)
+    if settings.exposures is not None:
+        estimator.SetExposures(_exposures_of(settings, *frames))
+    _set_flicker(estimator, settings)
+
+
+_WITHOUT_OFFSET = {
+    "published": "finds the offset from the flicker alone",
+    "single-image": "measures slope and intercept of the variance and uses no offset",
+}
+
+
 def _check_what_is_known(method: str, offset: object, dark: object) -> None:
     given = [name for name, value in (("offset", offset), ("dark", dark)) if value is not None]
-    if given and method == "published":
+    if given and method != "refined":
         raise ValueError(
-            f"{given[0]} was given and the method is 'published', which finds the offset from the flicker alone; "
+            f"{given[0]} was given and the method is {method!r}, which {_WITHOUT_OFFSET[method]}; "
             f"expected no {given[0]}, or 'refined'"
         )
     if len(given) > 1:
@@ -161,9 +167,9 @@ def _level_range(level_range: tuple[float, float], method: str) -> tuple[float, 
     low, high = _options.numbers("level_range", level_range, 2, expected)
     if not low < high:
         raise _options.refuse("level_range", level_range, expected)
-    if method == "published":
+    if method != "refined":
         raise ValueError(
-            "level_range was given and the method is 'published', which fits all levels; "
+            f"level_range was given and the method is {method!r}, which fits all levels; "
             "expected no level_range, or 'refined'"
         )
     return low, high
@@ -187,9 +193,9 @@ def _exposures(exposures: Sequence[float], method: str) -> list[float]:
     numbers = _options.numbers("exposures", exposures, count, expected)
     if min(numbers, default=-1.0) < 0 or len(set(numbers)) < 3:
         raise _options.refuse("exposures", exposures, expected)
-    if method == "published":
+    if method != "refined":
         raise ValueError(
-            "exposures were given and the method is 'published', which does not measure the linearity; "
+            f"exposures were given and the method is {method!r}, which does not measure the linearity; "
             "expected no exposures, or 'refined'"
         )
     return numbers
@@ -254,32 +260,27 @@ def _mask_of(mask: Frame | FileName, size: tuple[int, int]) -> np.ndarray:
     return array
 
 
-def _set_parameters(
-    estimator: ItkObject,
-    bit_depth: int | None,
-    clip: tuple[float, float] | None,
-    step: float | None,
-    rolling_shutter: str | float,
-    shutter_axis: str,
-    level: float,
-    quantiles: tuple[float, float],
-) -> None:
-    if bit_depth is not None:
-        estimator.SetBitDepth(_options.integer("bit_depth", bit_depth, 1, 16))
-    if clip is not None:
-        low, high = _options.numbers("clip", clip, 2, "(low, high), two levels [DN]")
+def _set_codes(estimator: ItkObject, settings: Settings) -> None:
+    if settings.bit_depth is not None:
+        estimator.SetBitDepth(_options.integer("bit_depth", settings.bit_depth, 1, 16))
+    if settings.clip is not None:
+        low, high = _options.numbers("clip", settings.clip, 2, "(low, high), two levels [DN]")
         estimator.SetClipLow(low)
         estimator.SetClipHigh(high)
-    if step is not None:
-        estimator.SetQuantisationStep(_options.number("step", step, "a number above 0 [DN]", above=0.0))
-    if isinstance(rolling_shutter, str) and rolling_shutter in ("auto", "off"):
-        estimator.SetRollingShutter(rolling_shutter)
+    if settings.step is not None:
+        estimator.SetQuantisationStep(_options.number("step", settings.step, "a number above 0 [DN]", above=0.0))
+
+
+def _set_flicker(estimator: ItkObject, settings: Settings) -> None:
+    shutter = settings.rolling_shutter
+    if isinstance(shutter, str) and shutter in ("auto", "off"):
+        estimator.SetRollingShutter(shutter)
     else:
         expected = "'auto', 'off' or a number of rows above 0"
-        estimator.SetSigmaRows(_options.number("rolling_shutter", rolling_shutter, expected, above=0.0))
+        estimator.SetSigmaRows(_options.number("rolling_shutter", shutter, expected, above=0.0))
         estimator.SetRollingShutter("fixed")
-    estimator.SetShutterAxis(1 if _options.one_of("shutter_axis", shutter_axis, ["y", "x"]) == "y" else 0)
-    estimator.SetLevel(_options.number("level", level))
-    dark, bright = _options.numbers("quantiles", quantiles, 2, "(dark, bright), two numbers from 0 to 1")
+    estimator.SetShutterAxis(1 if _options.one_of("shutter_axis", settings.shutter_axis, ["y", "x"]) == "y" else 0)
+    estimator.SetLevel(_options.number("level", settings.level))
+    dark, bright = _options.numbers("quantiles", settings.quantiles, 2, "(dark, bright), two numbers from 0 to 1")
     estimator.SetDarkQuantile(dark)
     estimator.SetBrightQuantile(bright)

@@ -4,13 +4,20 @@
 
 from typing import Any
 
-from ._channels import ChannelReports
+from ._channels import ChannelReports, report_of
 from ._errors import itk_errors
 from ._estimators import mask_of_frames, set_parameters
 from ._frames import frame_image, open_frames
 from ._progress import at_work
 from ._report import Report
 from ._types import Frame, Frames
+
+
+def as_frames(frames: Frames | Frame) -> Frames:
+    """Frames of which one may be given as an array (y, x)."""
+    if hasattr(frames, "__array__") and getattr(frames, "ndim", 3) == 2:
+        return frames[None]  # type: ignore[index]  # an array
+    return frames
 
 
 def single_image_noise_estimator(
@@ -46,7 +53,8 @@ def single_image_noise_estimator(
 
     See Also
     --------
-    estimate_sensor_noise : Gain, offset, read noise, flicker and motion of a burst.
+    estimate_sensor_noise : The same by method="single-image", with regions, hashes and files without a header; and by
+        other methods gain, offset, read noise, flicker and motion of a burst.
 
     Examples
     --------
@@ -55,9 +63,7 @@ def single_image_noise_estimator(
     """
     import itk
 
-    if hasattr(stack, "__array__") and getattr(stack, "ndim", 3) == 2:
-        stack = stack[None]  # type: ignore[index]  # an array
-    opened = open_frames(stack)
+    opened = open_frames(as_frames(stack))
     estimator = opened.estimator(itk.SingleImageNoiseEstimator)
     set_parameters(estimator, parameters, "single_image_noise_estimator")
     if mask is not None:
@@ -65,5 +71,4 @@ def single_image_noise_estimator(
         estimator.SetMask(frame_image(mask_array, opened.image))
     with at_work(estimator, False, opened), itk_errors():
         estimator.Update()
-    kind = ChannelReports if estimator.HasChannelReports() else Report
-    return kind.from_json(estimator.GetReportAsJson())
+    return report_of(estimator)
