@@ -24,13 +24,14 @@ IsOffset(const QuantityEntry & entry)
   return std::string(entry.path) == "offset";
 }
 
+/** Returns the value; none if it is NaN or beyond ExtremeValue. */
 std::optional<double>
 FiniteValue(const Quantity & quantity)
 {
-  return quantity.value && std::abs(*quantity.value) <= ExtremeValue ? quantity.value : std::nullopt; // no NaN
+  return quantity.value && std::abs(*quantity.value) <= ExtremeValue ? quantity.value : std::nullopt;
 }
 
-/** None where it is 0, as of an offset that was given. */
+/** Returns the standard error of a value; none if it is 0, as for a given offset, or beyond ExtremeValue. */
 std::optional<double>
 ErrorOf(const Quantity & quantity)
 {
@@ -38,7 +39,8 @@ ErrorOf(const Quantity & quantity)
   return quantity.value && error && *error >= 1.0 / ExtremeValue && *error <= ExtremeValue ? error : std::nullopt;
 }
 
-/** What a difference of \a entry is large or small beside; none where that is not known to be above 0. */
+/** Returns the value with which a difference of \a entry is compared: the magnitude of the first value, for the offset
+ * the first read noise. None if it does not exceed twice its error. */
 std::optional<double>
 ScaleOf(const QuantityEntry & entry, const Report & first)
 {
@@ -92,7 +94,7 @@ Compare(const QuantityEntry & entry, const std::vector<ComparedReport> & rows, s
   return change;
 }
 
-/** The row of the first report of the same channel. */
+/** Returns the first row with the channel of \a row. */
 std::size_t
 FirstOf(const std::vector<ComparedReport> & rows, std::size_t row)
 {
@@ -102,7 +104,8 @@ FirstOf(const std::vector<ComparedReport> & rows, std::size_t row)
   return static_cast<std::size_t>(std::distance(rows.begin(), found));
 }
 
-/** The mean of values with errors, and whether they scatter as their errors say. */
+/** Returns the weighted mean of \a values, which have errors above 0, and the chi-square of their scatter. The channel
+ * is left empty. */
 CommonMean
 MeanOf(const std::vector<Quantity> & values)
 {
@@ -131,6 +134,7 @@ MeanOf(const std::vector<Quantity> & values)
   return common;
 }
 
+/** Returns the weighted means of a quantity, for each channel with three or more values that have errors. */
 std::vector<CommonMean>
 MeansOf(const QuantityEntry & entry, const std::vector<ComparedReport> & rows)
 {
@@ -159,7 +163,8 @@ MeansOf(const QuantityEntry & entry, const std::vector<ComparedReport> & rows)
   return means;
 }
 
-/** Where the noise is white and the codes are even, the variance's slope is the gain: nothing of its own. */
+/** Returns whether \a entry is the variance slope and equals the gain in all reports, as with white noise and uniform
+ * quantization. It then adds no information. */
 bool
 IsTheGain(const QuantityEntry & entry, const std::vector<ComparedReport> & rows)
 {

@@ -16,71 +16,76 @@
 namespace sensornoise
 {
 
-/** A report among others: of a mosaic, that of one channel. Series, scatter and settings are not needed. */
+/** Report to compare. A mosaic has one for each channel. The series, the scatter and the settings are not read. */
 struct ComparedReport
 {
-  std::string label; ///< by which people know it, for instance the name of its file
+  std::string label; ///< name for people, for example the name of the file
   Report      report;
 };
 
-/** \name What a change is called; set by hand */
+/** \name Thresholds of ChangeKind. They are conventions. */
 ///@{
-/** A difference of more standard errors than this is not taken for chance, which gives one in 370. */
+/** Standard errors up to which a difference is within its errors. Chance exceeds them once in 370 differences. */
 inline constexpr double ChanceErrors = 3.0;
-/** The same as a probability, for what is judged by chi-square. */
+/** Least probability of the chi-square at which the scatter of values is within their errors [1]. It corresponds to
+ * ChanceErrors. */
 inline constexpr double ChanceProbability = 0.0027;
-/** Below this share [1] a difference is called small, however sure it is: gains differ by a hundredth with the
- * temperature and the day. */
+/** Fraction [1] below which a significant difference is small. Gains differ by about 0.01 with the temperature and from
+ * day to day. */
 inline constexpr double SmallShare = 0.01;
-/** The same of an offset, as a share of the read noise [1]: not seen in any one pixel. */
+/** Fraction of the read noise [1] below which a significant difference of the offset is small: no single pixel shows
+ * it. */
 inline constexpr double SmallOffsetShare = 0.1;
 ///@}
 
-/** Values beyond this are none, and errors below its inverse: their squares are still numbers. */
+/** Largest magnitude of a value or an error that is compared; its inverse is the smallest error. Their squares are
+ * finite. */
 inline constexpr double ExtremeValue = 1e50;
 
-/** What can be said of a difference. */
+/** Result of a comparison of two values. */
 enum class ChangeKind : std::uint8_t
 {
-  First,    ///< of its channel: what the others are compared with
-  NoValue,  ///< one of the two has none
-  NoErrors, ///< one of the two has none: the difference is not judged
-  Within,   ///< its errors
-  Small,    ///< above its errors, and small
-  Changed   ///< above its errors
+  First,    ///< the row is the first of its channel, with which the others are compared
+  NoValue,  ///< one of the two values is not known
+  NoErrors, ///< one of the two errors is not known or is 0
+  Within,   ///< the difference is within its errors
+  Small,    ///< the difference exceeds its errors, but is small
+  Changed   ///< the difference exceeds its errors
 };
 
-/** A quantity of a report against that of the first report of the same channel. */
+/** Change of a quantity of a report from the first report of the same channel. */
 struct Change
 {
   ChangeKind            kind{ ChangeKind::NoValue };
-  std::size_t           first{ 0 };    ///< row that it is compared with
-  std::optional<double> difference;    ///< in the quantity's unit
-  std::optional<double> standardError; ///< of the difference: errors of independent reports add in squares
-  std::optional<double> share;         ///< difference over the first value, of an offset over the first read noise [1]
+  std::size_t           first{ 0 };    ///< row of the first report of the same channel
+  std::optional<double> difference;    ///< value minus first value, in the unit of the quantity; none: First or NoValue
+  std::optional<double> standardError; ///< standard error of the difference, for independent reports; none: not known
+  std::optional<double> share; ///< difference / |first value|, for the offset / first read noise [1]; none: not known
 };
 
-/** What the reports of one channel have in common; of three or more that have errors. */
+/** Weighted mean of a quantity over the reports of one channel. It needs three or more values with errors. */
 struct CommonMean
 {
   std::string channel;
+  /** Number of reports whose value and error are known. */
   std::size_t count{ 0 };
-  double      mean{ 0.0 };          ///< weighed by the errors
-  double      standardError{ 0.0 }; ///< of the mean, by these errors alone
-  double      chiSquare{ 0.0 };     ///< of count - 1 degrees of freedom, if only errors make them differ
-  double      probability{ 1.0 };   ///< that chance gives as much [1]
-  /** Standard deviation of what they differ by beyond their errors (DerSimonian & Laird 1986, method of moments). */
+  double      mean{ 0.0 };          ///< mean, weighted by 1 / error², in the unit of the quantity
+  double      standardError{ 0.0 }; ///< standard error of the mean, from the errors alone
+  double      chiSquare{ 0.0 };     ///< chi-square of the values about the mean, with count - 1 degrees of freedom
+  double      probability{ 1.0 };   ///< probability of a chi-square at least as large, from the errors alone [1]
+  /** Standard deviation of the values in excess of their errors, in the unit of the quantity (DerSimonian & Laird 1986,
+   * method of moments). */
   double excess{ 0.0 };
 };
 
-/** One quantity of all reports. */
+/** Comparison of one quantity over all reports. */
 struct ComparedQuantity
 {
   const QuantityEntry *   entry{ nullptr };
-  std::vector<Change>     changes; ///< one a row
-  std::vector<CommonMean> means;   ///< one a channel at most
+  std::vector<Change>     changes; ///< one for each row
+  std::vector<CommonMean> means;   ///< at most one for each channel
 
-  /** Of a row. */
+  /** Returns the quantity of a row. */
   const Quantity &
   Of(const ComparedReport & row) const
   {
@@ -89,27 +94,29 @@ struct ComparedQuantity
 };
 
 /** \struct Comparison
- * \brief Reports side by side: what differs by more than its errors, and by how much. */
+ * \brief Comparison of reports: the differences between their quantities and their significance. */
 struct Comparison
 {
   std::vector<ComparedReport>   rows;
-  std::vector<ComparedQuantity> quantities; ///< gain, read noise, offset and the variance's line, in that order
+  std::vector<ComparedQuantity> quantities; ///< gain, read noise, offset and variance line, in this order
 };
 
-/** Compares each row with the first of its channel. The variance's slope is left out where it is the gain. */
+/** Compares each report with the first report of its channel. The variance slope is left out if it equals the gain in
+ * all reports. */
 SensorNoise_EXPORT Comparison
 MakeComparison(std::vector<ComparedReport> rows);
 
-/** Reports side by side as one HTML page that needs nothing else: what changed by more than its errors, in a sentence,
- * and of each quantity a figure and a table of values and differences. */
+/** Returns the comparison as one HTML page, without network access and scripts. It begins with a sentence on what
+ * changed by more than its errors. Each quantity has a figure and a table of values and differences. */
 SensorNoise_EXPORT std::string
 ToHtml(const Comparison & comparison);
 
-/** The figures of the page as one SVG file. */
+/** Returns the figures of the page as one SVG file. */
 SensorNoise_EXPORT std::string
 ToSvg(const Comparison & comparison);
 
-/** The same in letters of ASCII, a line a report and quantity. */
+/** Returns the comparison as plain text in UTF-8: a line for each report and quantity, and a sentence on what changed.
+ */
 SensorNoise_EXPORT std::string
 MakeText(const Comparison & comparison);
 

@@ -22,10 +22,10 @@ namespace
 constexpr double      RowHeight = 26.0;
 constexpr double      RowsLeft = 184.0;
 constexpr double      RowsWidth = FigureWidth - RowsLeft - 12.0;
-constexpr double      BelowRows = 46.0; ///< ticks and the name of the axis
+constexpr double      BelowRows = 46.0; ///< height of the ticks and the name of the axis [unit of the figure]
 constexpr std::size_t LongestName = 19; ///< letters that fit beside the rows
 
-/** Parts of UTF-8, by letters. */
+/** Returns the number of letters (code points) of UTF-8 text. */
 std::size_t
 LettersOf(const std::string & text)
 {
@@ -33,6 +33,7 @@ LettersOf(const std::string & text)
     std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
+/** Returns \a count letters of UTF-8 text from letter \a first on. */
 std::string
 Letters(const std::string & text, std::size_t first, std::size_t count)
 {
@@ -46,7 +47,8 @@ Letters(const std::string & text, std::size_t first, std::size_t count)
   return part;
 }
 
-/** Its beginning and its end, which tell names apart. */
+/** Returns the beginning and the end of \a text, with an ellipsis between them: at most \a longest letters. Names of
+ * files often differ only there. */
 std::string
 Shortened(const std::string & text, std::size_t longest)
 {
@@ -59,7 +61,7 @@ Shortened(const std::string & text, std::size_t longest)
   return Letters(text, 0, longest - 1 - ending) + "\u2026" + Letters(text, letters - ending, ending);
 }
 
-/** Whether all rows are compared with the same one: the reports are of one channel. */
+/** Returns whether all rows are compared with row 0, because the reports are of one channel. */
 bool
 HasOneFirst(const ComparedQuantity & quantity)
 {
@@ -67,7 +69,7 @@ HasOneFirst(const ComparedQuantity & quantity)
     quantity.changes.begin(), quantity.changes.end(), [](const Change & change) { return change.first == 0; });
 }
 
-/** Name of a row for a figure: its number, its label, shortened to fit, and the channel of a mosaic. */
+/** Returns the name of a row for a figure: its number, its label, shortened to fit, and the channel of a mosaic. */
 std::string
 RowName(const Comparison & comparison, std::size_t row)
 {
@@ -78,7 +80,7 @@ RowName(const Comparison & comparison, std::size_t row)
   return number + Shortened(compared.label, std::max<std::size_t>(LongestName, used + 4) - used) + channel;
 }
 
-/** The interval to draw: the 95 % one, else the errors'. */
+/** Returns the interval to draw: the 95 % interval, else the value ± 1.96 standard errors. */
 std::optional<Interval>
 DrawnInterval(const Quantity & quantity)
 {
@@ -94,10 +96,11 @@ DrawnInterval(const Quantity & quantity)
   return std::nullopt;
 }
 
+/** Returns whether a number is finite and at most ExtremeValue in magnitude. */
 bool
 IsDrawn(const std::optional<double> & number)
 {
-  return number && std::abs(*number) <= ExtremeValue; // no NaN
+  return number && std::abs(*number) <= ExtremeValue;
 }
 
 FiniteRange
@@ -121,7 +124,7 @@ RangeOf(const Comparison & comparison, const ComparedQuantity & compared)
   return range;
 }
 
-/** What stands where a point would. */
+/** Returns the words that replace the point of a quantity which cannot be drawn. */
 std::string
 WordsWithout(const Quantity & quantity)
 {
@@ -131,7 +134,7 @@ WordsWithout(const Quantity & quantity)
   }
   if (quantity.value)
   {
-    return ValueText(quantity); // of no use on an axis
+    return ValueText(quantity); // beyond ExtremeValue
   }
   const std::string range = RangeText(quantity);
   return std::string(quantity.status == EstimateStatus::NotIdentifiable ? "not identifiable"
@@ -142,7 +145,7 @@ WordsWithout(const Quantity & quantity)
 std::string
 HorizontalBar(const SvgPanel & panel, double low, double high, double y)
 {
-  // ends far outside are cut off anyway
+  // the panel clips its content, and short numbers keep the file small
   const double left = std::clamp(panel.X(low), -RowsWidth, 2.0 * RowsWidth);
   const double right = std::clamp(panel.X(high), -RowsWidth, 2.0 * RowsWidth);
   std::string  path = "M" + SvgNumber(left) + " " + SvgNumber(y) + "H" + SvgNumber(right);
@@ -153,7 +156,7 @@ HorizontalBar(const SvgPanel & panel, double low, double high, double y)
   return "<path class=\"error\" d=\"" + path + "\"/>\n";
 }
 
-/** Value and interval of one row, or words. */
+/** Draws the value and the interval of one row. Words replace a value that cannot be drawn. */
 void
 DrawRow(std::string & svg, SvgPanel & panel, const Quantity & quantity, double y, double height)
 {
@@ -172,7 +175,7 @@ DrawRow(std::string & svg, SvgPanel & panel, const Quantity & quantity, double y
     { *quantity.value }, { height - y }, interval ? "after" : "before", interval ? PlotMarker::Disc : PlotMarker::Ring);
 }
 
-/** The first report's interval, where all are compared with it. */
+/** Draws the interval of the first report as a band, if all reports are compared with it. */
 void
 DrawFirst(SvgPanel & panel, const Comparison & comparison, const ComparedQuantity & compared, double height)
 {
@@ -190,7 +193,7 @@ HeightOf(const Comparison & comparison)
   return RowHeight * static_cast<double>(comparison.rows.size());
 }
 
-/** Appends the rows of one quantity to a figure, from \a top on. */
+/** Appends the rows of one quantity to a figure, from \a top on [unit of the figure]. */
 void
 DrawRows(std::string & svg, const Comparison & comparison, const ComparedQuantity & compared, double top)
 {
@@ -218,7 +221,7 @@ DrawRows(std::string & svg, const Comparison & comparison, const ComparedQuantit
   }
 }
 
-/** Whether any row has a value that can be drawn. */
+/** Returns whether any row has a value that can be drawn. */
 bool
 HasFigure(const Comparison & comparison, const ComparedQuantity & quantity)
 {
@@ -227,9 +230,9 @@ HasFigure(const Comparison & comparison, const ComparedQuantity & quantity)
   });
 }
 
-/** One quantity: of each report the value and its 95 % interval, a line each, on one axis; words where there is no
- * value. The band is the interval of the first report, if all are compared with it. An SVG element for a page that has
- * FigureStyle. */
+/** Returns the figure of one quantity as an SVG element for a page with FigureStyle. Each report has a line with its
+ * value and 95 % interval, or words without a value. The band is the interval of the first report, if all are compared
+ * with it. */
 std::string
 ComparisonFigure(const Comparison & comparison, const ComparedQuantity & quantity)
 {
@@ -239,7 +242,7 @@ ComparisonFigure(const Comparison & comparison, const ComparedQuantity & quantit
   return svg + "</svg>\n";
 }
 
-/** All quantities, one below the other, as an SVG file of its own. */
+/** Returns the figures of all quantities, one below the other, as one SVG file. */
 std::string
 ComparisonAsSvgFile(const Comparison & comparison, const std::string & title)
 {
@@ -283,7 +286,7 @@ ComparisonBox(const Verdict & verdict)
          "</span> " + Escaped(verdict.sentence) + "</p>\n";
 }
 
-/** The names of warnings and errors, not of notes. */
+/** Returns the names of the warnings and errors of a report, each once, without notes. */
 std::string
 WarningNames(const Report & report)
 {
@@ -323,7 +326,8 @@ ReportTable(const Comparison & comparison)
          rows + "</tbody></table>\n";
 }
 
-/** The value, what is known of it, or why there is none. */
+/** Returns the cell of a value: the value, its status unless it is identified, its interval or bounds, and a remark if
+ * it has no error. */
 std::string
 ValueCell(const Quantity & quantity)
 {

@@ -15,13 +15,14 @@ namespace sensornoise
 {
 namespace
 {
+/** Returns a number with its sign. A negative number begins with U+2212. */
 std::string
 Signed(const std::string & number)
 {
   return number.rfind("\u2212", 0) == 0 ? number : "+" + number;
 }
 
-/** A share as "4.43 %", which no line ends in. */
+/** Returns a fraction in percent, for example "4.43 %", with a no-break space. */
 std::string
 PercentText(double share)
 {
@@ -34,13 +35,15 @@ SignedPercent(double share)
   return (share < 0.0 ? "\u2212" : "+") + PercentText(std::abs(share));
 }
 
+/** Returns whether differences of the quantity are relative to the read noise, as for the offset. */
 bool
 IsOfReadNoise(const ComparedQuantity & quantity)
 {
   return std::string(quantity.entry->path) == "offset";
 }
 
-/** "gain g in 2 reports (by up to 12 %)"; "" where none is of that \a kind. */
+/** Returns the number of changes of one \a kind and the largest, for example "gain g in 2 reports (by up to 12 %)"; ""
+ * if there are none. */
 std::string
 ChangesOf(const ComparedQuantity & quantity, ChangeKind kind)
 {
@@ -60,6 +63,7 @@ ChangesOf(const ComparedQuantity & quantity, ChangeKind kind)
          (largest > 0.0 ? " (by up to " + size + ")" : "");
 }
 
+/** Returns the changes of one \a kind of all quantities, separated by commas; "" if there are none. */
 std::string
 AllChangesOf(const Comparison & comparison, ChangeKind kind)
 {
@@ -83,7 +87,7 @@ NumberOf(const Comparison & comparison, bool (*isCounted)(const Change &))
   return count;
 }
 
-/** " Without a gain: 2, 6."; "" where all have one. */
+/** Returns the numbers of the rows without a gain, for example " Without a gain: 2, 6."; "" if all have one. */
 std::string
 WithoutGain(const Comparison & comparison)
 {
@@ -98,7 +102,7 @@ WithoutGain(const Comparison & comparison)
   return text.empty() ? "" : text + ".";
 }
 
-/** Why there is no difference. */
+/** Returns the reason for which there is no difference. */
 std::string
 WhyNoValue(const ComparedQuantity & quantity, const Comparison & comparison, std::size_t row)
 {
@@ -108,7 +112,7 @@ WhyNoValue(const ComparedQuantity & quantity, const Comparison & comparison, std
                    : "not compared: no value (" + std::string(NameOf(now.status)) + ")";
 }
 
-/** Whether a row and the first it is compared with are of the same frames, as their hash tells. */
+/** Returns whether the hashes show that a report and its first report are of the same frames. */
 bool
 IsOfSameFrames(const Comparison & comparison, const Change & change, std::size_t row)
 {
@@ -117,7 +121,7 @@ IsOfSameFrames(const Comparison & comparison, const Change & change, std::size_t
   return first && now && !now->frames.sha256.empty() && now->frames.sha256 == first->frames.sha256;
 }
 
-/** Lines of text are not broken by a browser. */
+/** Returns \a text with plain spaces for no-break spaces, which only a browser needs. */
 std::string
 WithPlainBlanks(std::string text)
 {

@@ -12,36 +12,37 @@
 namespace sensornoise
 {
 
-/** Name of a row in words: its number, its label and the channel of a mosaic. */
+/** Returns the name of a row: its number from 1, its label and the channel of a mosaic. */
 std::string
 NameOfRow(const Comparison & comparison, std::size_t row);
 
-/** What changed, in a sentence: a warning where something did, an error where no two reports have a value of the same
- * quantity. */
+/** Returns a sentence on what changed. The severity is a warning if something changed. It is an error if no difference
+ * has a standard error. */
 Verdict
 VerdictOf(const Comparison & comparison);
 
-/** "+0.0123 ± 0.0026 DN/e⁻"; "" where there is no difference. */
+/** Returns the difference, for example "+0.0123 ± 0.0026 DN/e⁻"; "" if there is none. */
 std::string
 DifferenceText(const ComparedQuantity & quantity, std::size_t row);
 
-/** "+2.5 % of the first"; "" where the first is too small to compare with. */
+/** Returns the relative difference, for example "+2.5 % of the first"; "" if Change::share is not known. */
 std::string
 ShareText(const ComparedQuantity & quantity, std::size_t row);
 
-/** "changed by more than its errors: 4.7 of them", and so on. */
+/** Returns the result of the comparison, for example "changed by more than its errors: 4.7 standard errors". */
 std::string
 JudgementText(const Comparison & comparison, const ComparedQuantity & quantity, std::size_t row);
 
-/** What the reports of a channel have in common, as a sentence. */
+/** Returns a sentence on the weighted mean of the reports of a channel and on their scatter. */
 std::string
 MeanSentence(const ComparedQuantity & quantity, const CommonMean & common);
 
-/** Camera, ISO, exposure, frames and method of a row. */
+/** Returns camera, ISO speed, exposure time, number and size of the frames, bit depth and method of a report. Unknown
+ * ones are left out. */
 std::string
 StackText(const ComparedReport & row);
 
-/** How changes are judged, as sentences. */
+/** Returns the rules of the comparison as sentences. */
 std::string
 RuleText(const Comparison & comparison);
 

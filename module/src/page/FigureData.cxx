@@ -18,6 +18,7 @@ namespace sensornoise
 {
 namespace
 {
+/** Standard errors of half a two-sided 95 % interval of a normal distribution. */
 constexpr double TwoSided95 = 1.959963984540054;
 constexpr int    LinePieces = 32;
 
@@ -27,7 +28,8 @@ ElementOrNaN(const std::vector<double> & values, std::size_t i)
   return i < values.size() ? values[i] : std::numeric_limits<double>::quiet_NaN();
 }
 
-/** The line that the report tells of, if it has one: what was identified comes before what is indicative. */
+/** Returns the line of the report: variance slope and total intercept if both have values, else the indicative line of
+ * the fit. None if there is no line, or if it is not finite. */
 std::optional<Report::Baseline>
 LineOf(const Report & report)
 {
@@ -39,8 +41,8 @@ LineOf(const Report & report)
   return line && std::isfinite(line->gain) && std::isfinite(line->intercept) ? line : std::nullopt;
 }
 
-/** What the variance of a sample variance is multiplied by where its values share noise: 1 + 2 sum rho^2 over one of
- * the two directions of each lag, less what chance adds to the squares. */
+/** Returns the variance inflation of a sample variance of correlated values [1]: 1 + 2 sum rho^2, over one of the two
+ * directions of each lag. The expected contribution of the errors is subtracted from each square. */
 double
 FactorOfLags(const std::vector<NoiseCorrelationRecord::Lag> & lags)
 {
@@ -53,8 +55,9 @@ FactorOfLags(const std::vector<NoiseCorrelationRecord::Lag> & lags)
   return 1.0 + 2.0 * sum;
 }
 
-/** Relative standard error of a variance that is the mean over \a count pixels [1]: Var(s^2) / sigma^4 is 2 / (T - 1)
- * of normal noise, more where frames share theirs, and the excess kurtosis over T more. */
+/** Returns the relative standard error of a variance that is the mean over \a count pixels [1]. Var(s^2) / sigma^4 of a
+ * pixel with T frames has two parts: 2 / (T - 1) times the variance inflation of the temporal correlation, and the
+ * excess kurtosis over T. NaN for fewer than two frames or no pixels. */
 double
 RelativeErrorOfBin(const Report & report, std::size_t count)
 {
@@ -69,16 +72,17 @@ RelativeErrorOfBin(const Report & report, std::size_t count)
   return std::sqrt(ofPixel / static_cast<double>(count));
 }
 
-/** What a point's mean may be off by because pixels are put into bins by means that have noise themselves [DN]: that of
- * one. Photons' noise is skew, so that where a mean is too high its variance is too, along the line: what is left is
- * the share of the noise without light. */
+/** Returns the error of the mean of a bin [DN], caused by the noise of the pixel means that decide on the bin. It is
+ * the standard error of the mean of one pixel, times the dark fraction of the variance. Photon noise is skewed: it
+ * moves mean and variance of a pixel together along the line, and adds no residual. \a expected: variance of the line
+ * at the mean [DN^2]. \a dark: DarkVariance() [DN^2]. */
 double
 ErrorOfLevel(const Report & report, double expected, double dark)
 {
   return std::sqrt(expected / static_cast<double>(report.framesDistinct)) * std::clamp(dark / expected, 0.0, 1.0);
 }
 
-/** The line's variance without light, or of the darkest level where the offset is not known [DN^2]. */
+/** Returns the variance of the line at the dark offset, or at the darkest level if the offset is not known [DN^2]. */
 double
 DarkVariance(const Report & report, const Report::Baseline & line)
 {
@@ -122,8 +126,8 @@ AddCurve(FigureData & data, const Report & report)
   }
 }
 
-/** Half the width of the 95 % interval of the line at a level; none where an error is not known. Slope and intercept of
- * the frames are taken to be as correlated as the sensor's. */
+/** Returns half the width of the 95 % interval of the line at a level [DN^2]; none if an error is not known. The
+ * correlation of the errors of gain and intercept serves for variance slope and total intercept. */
 std::optional<double>
 HalfWidthAt(const Report & report, double mean)
 {
@@ -189,7 +193,7 @@ MakeFigureData(const Report & report)
   return data;
 }
 
-/** Found by JsonWriter. */
+/** Writes the numbers as a JSON object. JsonWriter finds this overload. */
 void
 WriteJson(JsonWriter & json, const FigureData & data)
 {

@@ -20,13 +20,15 @@ namespace sensornoise
 {
 namespace
 {
-constexpr std::size_t MostPieces = 400; ///< of a series: more are not seen
+constexpr std::size_t MostPieces = 400; ///< pieces to which a long series is reduced
+/** Largest number of lags in the figure of the correlation. */
 constexpr std::size_t MostBars = 16;
 
-/** Of what is higher by this factor than all corrected points, the axis does not show all. */
+/** Largest variance on the axis, relative to the largest corrected variance [1]. Larger variances as measured are
+ * outside of the figure. */
 constexpr double HighestFactor = 4.0;
 
-/** Where the panels of a figure begin and how wide they are, with room for the labels of all their axes. */
+/** Place of the panels of a figure, with space for the labels of all their axes [units of the figure]. */
 struct PanelPlace
 {
   double left{ 0.0 };
@@ -42,7 +44,7 @@ struct PanelPlace
   }
 };
 
-/** A sign and a word of the legend, above the panel; returns where the next may begin. */
+/** Adds a sign and its words to the legend at (x, y). Returns the x at which the next entry may begin. */
 double
 LegendEntry(std::string & svg, double x, double y, const std::string & sign, const std::string & words)
 {
@@ -57,7 +59,8 @@ LineSign(const char * style)
   return "<path class=\"" + std::string(style) + " line\" d=\"M0 0H20\"/>";
 }
 
-/** Extremes of the corrected points and the line, and the points before as far as the figure has room for them. */
+/** Returns the axis of the variance. It has all corrected variances and the line, and variances as measured up to
+ * HighestFactor. \a above: number of larger ones. */
 PlotAxis
 VarianceAxis(const FigureData & data, std::size_t & above)
 {
@@ -156,7 +159,8 @@ DrawCurve(const FigureData & data)
   return svg + "</svg>\n";
 }
 
-/** The series as it is, or of more numbers than are seen the least and the largest of each piece. */
+/** Returns the numbers of a series against their index. A long series is reduced to the least and the largest number of
+ * each of MostPieces pieces. */
 std::pair<std::vector<double>, std::vector<double>>
 ThinnedOut(const std::vector<double> & series)
 {
@@ -184,9 +188,9 @@ ThinnedOut(const std::vector<double> & series)
     {
       if (!std::isfinite(series[i]))
       {
-        continue; // of a frame that is left out
+        continue; // a frame that was left out
       }
-      least = series[least] <= series[i] ? least : i; // in place of one that is not finite, too
+      least = series[least] <= series[i] ? least : i; // also replaces NaN, as comparisons with it are false
       largest = series[largest] >= series[i] ? largest : i;
     }
     add(std::min(least, largest));
@@ -217,7 +221,8 @@ NameOfLag(const NoiseCorrelationRecord::Lag & lag)
                             std::to_string(lag.y);
 }
 
-/** Those that differ most from 0, in units of their errors, in their order. */
+/** Returns the finite lags in their order, at most MostBars: those with the largest ratio of coefficient to standard
+ * error. */
 std::vector<NoiseCorrelationRecord::Lag>
 ClearestLags(const FigureData & data)
 {

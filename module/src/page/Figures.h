@@ -13,36 +13,39 @@ namespace sensornoise
 {
 
 /** \struct FigureData
- * \brief The numbers of a report's figures: points, line, band, residuals and series. Whoever draws adds axes only.
- */
+ * \brief Numbers of the figures of a report: points, line, band, residuals and series. A plot adds only the axes. */
 struct FigureData
 {
-  /** Points of the noise curve, one a bin of levels; what is not finite is left out. */
-  std::vector<double> mean;          ///< [DN]
-  std::vector<double> variance;      ///< over time, as it is [DN^2]; NaN where it is not known
-  std::vector<double> corrected;     ///< without flicker and motion [DN^2]
-  std::vector<double> meanResiduals; ///< levels of the residuals [DN]; empty: there is no line
-  /** Corrected variance less the line [1], in units of the error that normal noise gives a bin of so many pixels, and
-   * of what their means' own noise moves it by. */
+  /** Points of the noise curve, one for each intensity bin. Bins whose mean or corrected variance is not finite are
+   * left out. */
+  std::vector<double> mean;          ///< temporal mean [DN]
+  std::vector<double> variance;      ///< temporal variance as measured [DN^2]; NaN: not known
+  std::vector<double> corrected;     ///< temporal variance without flicker and motion [DN^2]
+  std::vector<double> meanResiduals; ///< means of the points with a residual [DN]; empty: no line, or no errors
+  /** Residuals [1]: corrected variance minus line, over the standard error of the point. The standard error is computed
+   * for the mean variance of the pixels of the bin, with excess kurtosis and temporal noise correlation. It includes
+   * the noise of the pixel means that decide on the bin. */
   std::vector<double> residuals;
-  /** How much further the residuals of bins scatter at most, because neighbours share their noise [1]: as far where all
-   * neighbours are in the same bin. What frames share is in the errors. */
+  /** Largest factor by which the spatial noise correlation widens the standard deviation of the residuals [1]. It holds
+   * if all neighbours of a pixel are in the same bin. The standard errors include the temporal correlation only. */
   double residualSpread{ 1.0 };
 
-  /** Variance slope and total intercept as a line, from the darkest to the brightest level; where they have no values,
-   * the line through all levels; empty: none was fitted. */
-  std::vector<double> lineMean;     ///< [DN]
-  std::vector<double> lineVariance; ///< [DN^2]
-  /** Ends of the line's 95 % interval, level by level [DN^2]; empty: its errors are not known. */
+  /** Line through variance slope and total intercept, from the darkest to the brightest point. If these have no values,
+   * it is the line of the fit. Empty: no line was fitted. */
+  std::vector<double> lineMean;     ///< mean [DN]
+  std::vector<double> lineVariance; ///< variance [DN^2]
+  /** Lower bounds of the 95 % interval of the line, one for each point of the line [DN^2]. Empty: the line is
+   * indicative, or its errors are not known. */
   std::vector<double> bandLow;
+  /** Upper bounds, as bandLow [DN^2]. */
   std::vector<double> bandHigh;
-  bool                isIndicative{ false }; ///< the line stands, but no gain: to be drawn dashed
+  bool                isIndicative{ false }; ///< whether there is a line but no gain; a plot dashes the line
 
-  std::vector<double> flicker; ///< gamma_t of every frame [1]; empty: not known
-  std::vector<double> motionX; ///< alpha_t of every frame [pixel]; empty: not known
-  std::vector<double> motionY; ///< beta_t
+  std::vector<double> flicker; ///< gamma_t of each frame, the illumination factor minus 1 [1]; empty: not known
+  std::vector<double> motionX; ///< motion alpha_t of each frame along x [pixel]; empty: not known
+  std::vector<double> motionY; ///< motion beta_t of each frame along y [pixel]; empty: not known
 
-  std::vector<NoiseCorrelationRecord::Lag> lags; ///< those in space, then those in time
+  std::vector<NoiseCorrelationRecord::Lag> lags; ///< noise correlation by lag: spatial lags, then temporal lags
 
   bool
   HasCurve() const
@@ -51,26 +54,27 @@ struct FigureData
   }
 };
 
-/** The figures of \a report, in one place for the page, the SVG file and other languages. */
+/** Returns the numbers of the figures of \a report. The page, the SVG file and other languages draw them. */
 SensorNoise_EXPORT FigureData
 MakeFigureData(const Report & report);
 
-/** Each figure is an SVG element for a page that has FigureStyle; what there is nothing of is a sentence, a paragraph
- * of HTML, in its place. */
-
-/** Variance against mean, as it is and corrected, with the line and its band; below it the residuals. */
+/** Returns the noise curve as an SVG element for a page with FigureStyle: variance against mean, as measured and
+ * corrected, with the line and its band. The residuals are below it. Without data, the figures are a sentence in an
+ * HTML paragraph. */
 std::string
 CurveFigure(const FigureData & data);
 
-/** Flicker and, where it is known, motion over the frames. */
+/** Returns flicker and motion against the frame, in the form of CurveFigure(). A series that is not known is left out.
+ */
 std::string
 SeriesFigure(const FigureData & data);
 
-/** What neighbours and frames share of their noise: a bar a lag. */
+/** Returns the noise correlation by lag, in the form of CurveFigure(): at most 16 bars with ± 2 standard errors. */
 std::string
 CorrelationFigure(const FigureData & data);
 
-/** The curve as an SVG file of its own, light or dark as its viewer is. \a title: what was measured, in words. */
+/** Returns the noise curve as an SVG file, in light or dark colours as its viewer prefers. \a title: result in words.
+ */
 SensorNoise_EXPORT std::string
 CurveAsSvgFile(const FigureData & data, const std::string & title);
 

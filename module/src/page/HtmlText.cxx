@@ -16,14 +16,14 @@ namespace
 {
 const std::string PlusMinus = " +- ";
 
-/** A minus as wide as a plus, but for that of an exponent. */
+/** Returns \a number with U+2212 for a minus at its beginning. The sign of an exponent stays. */
 std::string
 WithMinus(const std::string & number)
 {
   return number.rfind('-', 0) == 0 ? "\u2212" + number.substr(1) : number;
 }
 
-/** To the place of the error's second digit, if there is one. */
+/** Returns the number rounded to the second digit of the error, or by Rounded() without an error above 0. */
 std::string
 RoundedTo(double number, const std::optional<double> & error)
 {

@@ -10,7 +10,8 @@
 namespace sensornoise
 {
 
-/** \a text with &, <, > and quotes as HTML and SVG want them; control characters, which XML has none of, as spaces. */
+/** Returns \a text for HTML and SVG: &, <, > and quotes are escaped, and control characters are replaced by spaces,
+ * because XML forbids most of them. */
 std::string
 Escaped(const std::string & text);
 
@@ -22,24 +23,26 @@ WithCode(const std::string & text);
 std::string
 Unbroken(std::string html);
 
-/** A unit of QuantityList() as people write it: "DN²", "DN/e⁻", and "" for "1". */
+/** Returns a unit of QuantityList() for people: "DN²", "DN/e⁻", and "" for "1". */
 std::string
 UnitText(const std::string & unit);
 
-/** A label of QuantityList() as people write it: "offset μ", "intercept σ² - g μ". */
+/** Returns a label of QuantityList() for people: "offset μ", "intercept σ² − g μ". */
 std::string
 LabelText(const std::string & label);
 
-/** A message of a warning as a sentence: with a capital, a full stop, and signs for "+-", "chi2", "^2" and "/e-". */
+/** Returns the message of a warning as a sentence: with a capital, a full stop, and signs for " +- ", "chi2", "^2" and
+ * "/e-". */
 std::string
 SentenceText(const std::string & message);
 
-/** "5.0004 ± 0.0026", both to two digits of the error; "< 1.3" of an upper limit; "–" where there is no value. */
+/** Returns the value, for example "5.0004 ± 0.0026", rounded to two digits of the error. An upper limit is "< 1.3", and
+ * "–" replaces an unknown value. */
 std::string
 ValueText(const Quantity & quantity);
 
-/** The 95 % interval, else the physical limits, to the same place as the error: "4.9953 to 5.0056". "" where there are
- * none. */
+/** Returns the 95 % interval, or the bounds if there is none, for example "4.9953 to 5.0056", "at most 1.3" or "at
+ * least 2". It is rounded to the second digit of the error. "" if neither is known. */
 std::string
 RangeText(const Quantity & quantity);
 

@@ -79,8 +79,9 @@ Base64(const std::string & bytes)
   return text;
 }
 
-/** An image whose pixels are places in a palette of red, green and blue, as a PNG in a "data:" address. Throws
- * std::invalid_argument if there are not width x height pixels, or no or more than 256 colours. */
+/** Returns an image of indices into a palette of red, green and blue, as a PNG in a "data:" URL. Throws
+ * std::invalid_argument if there are not width x height pixels, or not 1 to 256 colours. Throws std::runtime_error if
+ * zlib fails. */
 std::string
 PngAsDataAddress(std::size_t                                      width,
                  std::size_t                                      height,
@@ -93,7 +94,7 @@ PngAsDataAddress(std::size_t                                      width,
                                 std::to_string(pixels.size()) + " pixels and " + std::to_string(palette.size()) +
                                 " colours; expected width x height pixels, and 1 to 256 colours");
   }
-  const std::string kind = { 8, 3, 0, 0, 0 }; // bits, palette, deflate, rows as they are filtered, not interlaced
+  const std::string kind = { 8, 3, 0, 0, 0 }; // 8 bits, palette, deflate, filter method 0, not interlaced
   std::string       colours;
   for (const auto & colour : palette)
   {
@@ -102,7 +103,7 @@ PngAsDataAddress(std::size_t                                      width,
   std::string rows;
   for (std::size_t y = 0; y < height; ++y)
   {
-    rows += '\0'; // not filtered
+    rows += '\0'; // filter type 0: none
     rows.append(reinterpret_cast<const char *>(&pixels[y * width]), width);
   }
   const std::string png = "\x89PNG\r\n\x1a\n" + PngChunk("IHDR", BigEndian(width) + BigEndian(height) + kind) +
@@ -110,7 +111,7 @@ PngAsDataAddress(std::size_t                                      width,
   return "data:image/png;base64," + Base64(png);
 }
 
-constexpr std::size_t MostPoints = 256; ///< of a picture, across and down
+constexpr std::size_t MostPoints = 256; ///< largest width and height of a picture [points]
 
 struct UseKind
 {
@@ -119,7 +120,8 @@ struct UseKind
   std::array<std::uint8_t, 3> colour;
 };
 
-/** Light for what is used; the others in the colours of Okabe and Ito, and greys of different lightness. */
+/** Uses in words, with their colours: light grey for used pixels, else colours of Okabe and Ito, further colours, and
+ * greys of different lightness. */
 constexpr std::array UseKinds{
   UseKind{ PixelUse::Used, "used", { 240, 240, 240 } },
   UseKind{ PixelUse::Clipped, "clipped", { 213, 94, 0 } },
@@ -152,7 +154,8 @@ AreUsesInOrder()
 }
 static_assert(AreUsesInOrder(), "a colour is found by the value of its use");
 
-/** A picture of fewer points than the maps have pixels: each stands for a square of them. */
+/** Reduction of the maps to a picture of at most MostPoints x MostPoints points. A point stands for step x step pixels.
+ */
 struct Reduction
 {
   std::size_t step;
@@ -165,7 +168,7 @@ struct Reduction
     , height((maps.height + step - 1) / step)
   {}
 
-  /** Calls \a work(place in the map) for each pixel of a point. */
+  /** Calls \a work for the index of each pixel of a point. */
   template <typename TWork>
   void
   ForEachPixel(const PageMaps & maps, std::size_t point, TWork work) const
@@ -189,7 +192,7 @@ ImageElement(const Reduction & reduction, const std::string & address, const std
          std::to_string(reduction.height) + "\" src=\"" + address + "\">";
 }
 
-/** NaN: a point without a finite pixel. */
+/** Returns the mean of the finite pixels of each point [DN]; NaN for a point without a finite pixel. */
 std::vector<double>
 ReducedMean(const PageMaps & maps, const Reduction & reduction)
 {
@@ -208,6 +211,8 @@ ReducedMean(const PageMaps & maps, const Reduction & reduction)
   return points;
 }
 
+/** Returns the use of a point: Used, if more than seven eighths of its pixels are used, else the most frequent other
+ * use. */
 PixelUse
 UseOfPoint(const PageMaps & maps, const Reduction & reduction, std::size_t point)
 {
@@ -251,7 +256,7 @@ MeanPicture(const PageMaps & maps)
   pixels.reserve(points.size());
   for (const double mean : points)
   {
-    // as a screen shows light: half of it is not half of the number
+    // a square root for the gamma of a screen, which is about 2
     const double light = std::isfinite(mean) ? std::sqrt(std::clamp((mean - black) / (white - black), 0.0, 1.0)) : 0.0;
     pixels.push_back(static_cast<std::uint8_t>(std::lround(255.0 * light)));
   }

@@ -11,13 +11,14 @@
 namespace sensornoise
 {
 
-/** The mean image as HTML, in grey from its quantile 0.002 to 0.998, each point of it the mean of the pixels that it
- * stands for. At most 256 points wide and high. */
+/** Returns the mean image as an HTML figure of at most 256 x 256 points. A point is the mean of its finite pixels. Grey
+ * is from the 0.002 to the 0.998 quantile of the points. "" if there is no mean image. Throws as PixelUsePicture(). */
 std::string
 MeanPicture(const PageMaps & maps);
 
-/** The map of pixel use with its legend as HTML; a point has the use that most of its pixels have, unless it is
- * "used", and an eighth of them have another. */
+/** Returns the map of pixel use with its legend as an HTML figure of at most 256 x 256 points. A point is "used" if
+ * more than seven eighths of its pixels are used. Otherwise it has the most frequent other use. "" if there is no map.
+ * Throws std::runtime_error if zlib cannot compress the picture. */
 std::string
 PixelUsePicture(const PageMaps & maps);
 

@@ -12,48 +12,49 @@
 namespace sensornoise
 {
 
-/** Sections of the page of a report, as HTML. */
-
-/** A heading, \a tag "h1" to "h3". */
+/** Returns a heading as HTML, with a \a tag from "h1" to "h3". \a words are plain text. */
 std::string
 Heading(const char * tag, const std::string & words);
 
-/** The whole page around its \a body, with the style of page and figures. \a style: "report" for a page of two
- * columns, "" for a page of one. */
+/** Returns the whole HTML page around its \a body, with the style of the page and the figures. \a title is plain text.
+ * \a style: "report" for a page of two columns, "" for a page of one. */
 std::string
 Page(const std::string & title, const std::string & body, const std::string & style);
 
-/** A part of the page that the reader opens. Its line has the \a title and, in a few words, the result. */
+/** Returns an HTML section that the reader can open. Its line has the \a title and, in a few words, the result, both as
+ * plain text; \a body is HTML. */
 std::string
 Details(const std::string & title, const std::string & summary, const std::string & body);
 
-/** Camera, frames and bits, as plain text. */
+/** Returns camera, ISO speed, exposure time, frames and bit depth, as plain text. Unknown ones are left out. */
 std::string
 FrameWords(const Report & report);
 
-/** The fraction of the pixels that is used, and the fraction that is clipped from 1 % on, to follow FrameWords(). "" of
- * a report without pixels. */
+/** Returns the fraction of used pixels and, from 1 % on, the fraction of clipped pixels, as plain text that follows
+ * FrameWords(). "" for a report without pixels. */
 std::string
 PixelWords(const Report & report);
 
-/** The line below the title: \a words, the date of the files ("": not known), and the version. */
+/** Returns the line below the title as HTML: \a words, the date of the files ("": not known), and the version. */
 std::string
 TitleLine(const std::string & words, const std::string & date);
 
-/** The levels by exposure and their deviations from the line; "" where no exposures were given. */
+/** Returns the levels by exposure and their deviations from the line as an HTML table; "" if no exposures were given.
+ */
 std::string
 LinearityTable(const Report & report);
 
-/** The gain of each part of the frame or of the burst, by partition; "" where the gain is uniform. */
+/** Returns the gain of each part of the frame or of the burst, by partition, as an HTML table. "" if the gain is
+ * uniform or not identified. */
 std::string
 PartsTable(const Report & report);
 
-/** The frames that were measured: their files' number, size and hash, and how it is computed by hand. "" where there is
- * no \a input. */
+/** Returns an HTML table of the measured frames: number and size of their files or pixels, and their hash. A sentence
+ * says how to compute the hash by hand. "" if there is no \a input. */
 std::string
 InputTable(const std::optional<InputRecord> & input);
 
-/** Version, method, properties of the digital numbers, and every setting as it was used. */
+/** Returns version, method, bit depth, quantization step, clip levels, and all settings as used, as an HTML table. */
 std::string
 SettingsTable(const Report & report);
 

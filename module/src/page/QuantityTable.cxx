@@ -49,7 +49,8 @@ HasValue(const Quantity & quantity)
   return quantity.value && std::isfinite(*quantity.value);
 }
 
-/** Whether the page has a row for a quantity: if it has a value, or if every table has it. */
+/** Returns whether the page has a row for a quantity: it has a value, or an upper limit that tables show, or it is in
+ * every table. */
 bool
 HasRow(const QuantityEntry & entry, const Report & report)
 {
@@ -59,7 +60,7 @@ HasRow(const QuantityEntry & entry, const Report & report)
           (entry.shown == ShownIn::TableIfLimited && quantity->status == EstimateStatus::UpperLimit));
 }
 
-/** "5.0004" and "± 0.0026" as HTML; the second is "" where there is no error. */
+/** Returns "5.0004" and "± 0.0026" as HTML; the second is "" without an error. */
 std::pair<std::string, std::string>
 ValueAndError(const Quantity & quantity)
 {
@@ -70,7 +71,7 @@ ValueAndError(const Quantity & quantity)
                                  : std::pair(text.substr(0, at), "\u00B1&#160;" + text.substr(at + sign.size()));
 }
 
-/** "", "upper limit", "not identifiable" or "failed". */
+/** Returns "upper limit", "not identifiable" or "failed"; "" for an identified quantity. */
 std::string
 StatusWords(const Quantity & quantity)
 {
@@ -79,14 +80,15 @@ StatusWords(const Quantity & quantity)
   return words;
 }
 
-/** The unit, where there is a number that has it. */
+/** Returns the unit for a value or an upper limit; "" if there is no number. */
 std::string
 UnitOf(const Quantity & quantity, const char * unit)
 {
   return HasValue(quantity) || ValueText(quantity).front() == '<' ? UnitText(unit) : "";
 }
 
-/** "upper limit, limits 0 to 1.58"; a 95 % interval stands alone. */
+/** Returns the status and the range, for example "upper limit, limits 0 to 1.58". \a nameOfInterval replaces "limits "
+ * before a 95 % interval. */
 std::string
 StatusAndRange(const Quantity & quantity, const std::string & nameOfInterval)
 {
@@ -120,7 +122,8 @@ Card(const char * name, const Quantity & quantity, const char * unit, const std:
          (besides.empty() ? "" : "; <span class=\"nowrap\">" + Escaped(besides) + "</span>") + "</dd></div>\n";
 }
 
-/** The read noise in electrons, with its DN below; without a gain in DN alone. */
+/** Returns the card of the read noise in electrons, with its value in DN below. If only the value in DN is known, the
+ * card shows this value. */
 std::string
 ReadNoiseCard(const Report & report)
 {
@@ -184,13 +187,13 @@ QuantityTable(const Report & report)
 
 namespace
 {
-/** A quantity of EMVA standard 1288 beside what the report has of it. */
+/** Quantity of EMVA 1288 with its value from the report. */
 struct Emva1288Row
 {
   std::string symbol;
   std::string name;
-  std::string value;  ///< with its unit; "not given by this method", or "not known" of this report
-  std::string source; ///< what of the report it is, or is computed from
+  std::string value;  ///< value with its unit, "not given by this method", or "not known"
+  std::string source; ///< quantity of the report that it is, or from which it is computed
 };
 
 const char * const NotGiven = "not given by this method";
@@ -210,13 +213,14 @@ Found(const Quantity & quantity, const char * unit)
   return isKnown ? ValueText(quantity) + " " + UnitText(unit) : "not known";
 }
 
-/** What the standard's linear model makes of the report; null: something of it is not known. */
+/** Quantities that follow from the report by the linear model of EMVA 1288; none: an input of the formula is not known.
+ */
 struct Computations
 {
-  Number quantisationDn;      ///< sigma_q
-  Number darkNoiseDn;         ///< sigma_y.dark, rounding included
-  Number saturationElectrons; ///< mu_e.sat
-  Number thresholdElectrons;  ///< mu_e.min, where the signal is as large as its noise
+  Number quantisationDn;      ///< quantization noise sigma_q [DN]
+  Number darkNoiseDn;         ///< dark noise sigma_y.dark, with quantization noise [DN]
+  Number saturationElectrons; ///< saturation capacity mu_e.sat [e-]
+  Number thresholdElectrons;  ///< sensitivity threshold mu_e.min [e-], at which signal and noise are equal
 
   explicit Computations(const Report & report)
   {
@@ -239,7 +243,7 @@ struct Computations
     }
     if (darkNoiseDn)
     {
-      // n = sqrt(noise^2 + n) solved for n
+      // solves n = sqrt(noise^2 + n)
       thresholdElectrons = 0.5 + std::hypot(*darkNoiseDn / *gain, 0.5);
     }
   }
@@ -258,7 +262,7 @@ struct Computations
   }
 };
 
-/** Measured where exposures were given. */
+/** Returns the linearity error, which needs given exposures. */
 Emva1288Row
 LinearityRow(const Report & report)
 {
@@ -272,9 +276,9 @@ LinearityRow(const Report & report)
              };
 }
 
-/** What the standard asks for, as far as a burst of any scene tells: photons are not counted, so there is no quantum
- * efficiency and no measured SNR curve. What follows from gain, read noise, offset and the level of saturation is
- * computed, by the standard's linear model. */
+/** Returns the quantities that EMVA 1288 requires. Quantum efficiency and measured SNR curve need a count of photons,
+ * which a burst does not give. The linear model of the standard gives the quantities that follow from gain, read noise,
+ * offset and saturation level. */
 std::vector<Emva1288Row>
 Emva1288Rows(const Report & report)
 {
@@ -302,7 +306,7 @@ Emva1288Rows(const Report & report)
   };
 }
 
-/** With indices: "mu_y.dark" is mu with y.dark below the line, of letters and points. */
+/** Returns HTML with indices: "mu_y.dark" is mu with the index y.dark. An index has letters and full stops. */
 std::string
 WithIndices(const std::string & text)
 {

@@ -21,9 +21,9 @@ namespace sensornoise
 {
 namespace
 {
-constexpr double LeastSpread = 1.05; ///< of residuals [1], from which on the caption names it
+constexpr double LeastSpread = 1.05; ///< FigureData::residualSpread from which on the caption names it [1]
 
-/** A figure with its caption, if it has one, or the sentence that stands in its place. */
+/** Returns a figure with its caption, if any, or the sentence that replaces a figure without data. */
 std::string
 FigureElement(const std::string & figure, const std::string & caption)
 {
@@ -40,7 +40,7 @@ const char * const CurveWords =
   "variance (orange rings). Without them the variance is a line (blue discs), whose slope "
   "is the gain if the noise is white.";
 
-/** Sentences on the residuals below the curve. \a spread: FigureData's. */
+/** Returns sentences on the residuals below the curve. \a spread: FigureData::residualSpread [1]. */
 std::string
 ResidualWords(double spread)
 {
@@ -59,14 +59,14 @@ CurveCaption(const FigureData & data)
          (data.residuals.empty() ? "" : ResidualWords(data.residualSpread));
 }
 
-/** An item of a list; "" of none. */
+/** Returns an item of a list; "" for an empty sentence. */
 std::string
 Item(const std::string & sentence)
 {
   return sentence.empty() ? "" : "<li>" + Escaped(SentenceText(sentence)) + "</li>\n";
 }
 
-/** How well the line fits, whether the response is linear, and the class of the noise. */
+/** Returns a list: quality of the fit, linearity of the response, and noise class. */
 std::string
 FitList(const Report & report)
 {
@@ -86,7 +86,8 @@ WithHeading(const std::string & words, const std::string & body)
   return body.empty() ? "" : Heading("h2", words) + body;
 }
 
-/** The noise curve beside the warnings and the quality of the fit; the warnings first where there is no gain. */
+/** Returns the noise curve beside the warnings and the quality of the fit. The warnings come first if there is no gain.
+ */
 std::string
 CurveAndWarnings(const Report & report)
 {
@@ -99,7 +100,7 @@ CurveAndWarnings(const Report & report)
                            : "<div class=\"two first-words\">\n" + words + curve + "</div>\n";
 }
 
-/** All channels' curves side by side, where there is room for that. */
+/** Returns the noise curves of all channels, side by side on a wide screen. */
 std::string
 CurvesOfChannels(const ChannelReports & reports)
 {
@@ -117,7 +118,7 @@ CurvesOfChannels(const ChannelReports & reports)
          CurveWords + (hasResiduals ? ResidualWords(spread) : "") + "</p>\n";
 }
 
-/** "flicker sd 0.01 ± 0.001, motion sd x ..., y ... pixel", of what has a value. */
+/** Returns the known values, for example "flicker 0.01 ± 0.001; motion x 0.1, y 0.2 pixel". */
 std::string
 MotionSummary(const Report & report)
 {
@@ -153,7 +154,7 @@ MapsSection(const PageMaps & maps)
                                   "<div class=\"maps\">" + MeanPicture(maps) + PixelUsePicture(maps) + "</div>\n");
 }
 
-/** The levels by exposure, where exposures were given. */
+/** Returns the levels by exposure; "" if no exposures were given. */
 std::string
 LinearitySection(const Report & report)
 {
@@ -170,7 +171,7 @@ EmvaSection(const Report & report)
   return Details("EMVA 1288", "symbols of the standard", EmvaTable(report));
 }
 
-/** The files, and every setting. */
+/** Returns the input files and all settings. */
 std::string
 SettingsSection(const std::optional<InputRecord> & input, const Report & report)
 {
@@ -188,14 +189,15 @@ ChannelSection(const Report & report)
                    LinearitySection(report) + EmvaSection(report));
 }
 
-/** "Noise of " what the title says, else of the camera, else of \a kind. */
+/** Returns "Noise of " with the name of the title, else the camera, else \a kind. */
 std::string
 TitleText(const PageTitle & title, const CameraSettings & camera, const std::string & kind)
 {
   return "Noise of " + (!title.name.empty() ? title.name : !camera.camera.empty() ? camera.camera : kind);
 }
 
-/** Four columns, one a channel. */
+/** Returns a table of gain, offset and read noise with one row for each channel, and the results of all channels
+ * together. */
 std::string
 ChannelTable(const ChannelReports & reports)
 {

@@ -25,7 +25,7 @@ Fixed(double number, int decimals)
   return std::string(buffer, end);
 }
 
-/** 1, 2 or 5 times a power of ten, at least \a least. */
+/** Returns the least of 1, 2 or 5 times a power of ten that is at least \a least, which is above 0. */
 double
 RoundStep(double least)
 {
@@ -81,13 +81,13 @@ PlotAxis::LabelOf(double tick) const
     text.assign(buffer,
                 std::to_chars(buffer, buffer + sizeof(buffer), std::abs(tick), std::chars_format::general, 3).ptr);
   }
-  return tick < 0.0 ? "\u2212" + text : text; // a minus sign as wide as a plus
+  return tick < 0.0 ? "\u2212" + text : text;
 }
 
 double
 PlotAxis::LabelWidth() const
 {
-  constexpr double digit = 9.0; // of 14 pixels; the minus is counted by its three bytes: it is wider
+  constexpr double digit = 9.0; // at a font size of 14; a minus sign, three bytes of UTF-8, counts as 1.5 digits
   double           width = 0.0;
   for (const double tick : ticks)
   {
@@ -165,7 +165,7 @@ SvgPanel::SvgPanel(std::string &       svg,
   , m_Y(std::move(y))
 {
   this->DrawAxes(xName, yName);
-  // a figure in the figure cuts off by itself, without a name that another figure could have, too
+  // A nested svg element clips its content. A clipPath would need an id that no other figure of the page has.
   m_Svg += "<svg x=\"" + SvgNumber(box.left) + "\" y=\"" + SvgNumber(box.top) + "\" width=\"" + SvgNumber(box.width) +
            "\" height=\"" + SvgNumber(box.height) + "\">\n";
 }
@@ -211,7 +211,7 @@ SvgPanel::X(double x) const
 double
 SvgPanel::Y(double y) const
 {
-  // far outside is far enough: a number of many digits would only make the file long
+  // a number of many digits would only make the file longer
   const double place = m_Box.height * (m_Y.high - y) / (m_Y.high - m_Y.low);
   return std::clamp(place, -10.0 * m_Box.height, 11.0 * m_Box.height);
 }
@@ -268,7 +268,7 @@ SvgPanel::Band(const std::vector<double> & x,
   std::string       path;
   for (std::size_t i = 0; i < 2 * count; ++i)
   {
-    const std::size_t place = i < count ? i : 2 * count - 1 - i; // along one side and back along the other
+    const std::size_t place = i < count ? i : 2 * count - 1 - i; // forward along low, back along high
     const double      y = i < count ? low[place] : high[place];
     path += (i == 0 ? "M" : "L") + SvgNumber(this->X(x[place])) + " " + SvgNumber(this->Y(y));
   }

@@ -9,28 +9,31 @@
 namespace sensornoise
 {
 
-/** A range of numbers with round ticks inside it. */
+/** Axis of a plot: its range and the ticks inside it. */
 struct PlotAxis
 {
   double              low{ 0.0 };
   double              high{ 1.0 };
   std::vector<double> ticks;
-  int                 decimals{ 0 }; ///< of the ticks' labels
+  int                 decimals{ 0 }; ///< decimal places of the labels of the ticks
 
+  /** Returns the label of a tick. It has three significant digits if the axis has more than 5 decimals, or numbers from
+   * 1e7 on. */
   std::string
   LabelOf(double tick) const;
 
-  /** Room for the widest label, in a font of figures as wide as any common one has. */
+  /** Returns the width of the widest label in a font with wide digits [units of the figure]. */
   double
   LabelWidth() const;
 };
 
-/** The axis over [\a low, \a high], a little wider, with at most \a mostTicks ticks at multiples of 1, 2 or 5 times a
- * power of ten. Ends that are not finite, or equal, are replaced by such as can be drawn. */
+/** Returns the axis over [\a low, \a high] with a margin of 4 % on each side. The ticks are multiples of 1, 2 or 5
+ * times a power of ten, at most \a mostTicks + 1 and at most 20. If an end is not finite or is beyond 1e300, the ends
+ * are 0 and 1. Ends that are almost equal are each moved by half their magnitude. */
 PlotAxis
 MakeAxis(double low, double high, int mostTicks);
 
-/** The least and the largest finite number of lists. */
+/** Range of the finite numbers that were added. */
 class FiniteRange
 {
 public:
@@ -38,6 +41,7 @@ public:
   Add(const std::vector<double> & values);
   void
   Add(double value);
+  /** Returns the axis over the range, by MakeAxis(). Without numbers it is a narrow range about 0. */
   PlotAxis
   Axis(int mostTicks) const;
 
@@ -47,13 +51,13 @@ private:
   bool   m_IsEmpty{ true };
 };
 
-/** A number for an attribute: one decimal place, in any locale with a point. */
+/** Returns a number for an attribute of SVG, with one decimal place and a decimal point in any locale. */
 std::string
 SvgNumber(double number);
 
-/** Colours of the figures, light and dark: after those of Okabe and Ito, which people without colour vision tell apart,
- * too, and every kind has a shape or a dash of its own besides. Plain colours, no variables: not every viewer of SVG
- * files knows those. */
+/** Style of the figures, with light and dark colours after Okabe and Ito, which people without colour vision can
+ * distinguish. Shapes and dashes distinguish the series as well. The colours are literals, because some viewers of SVG
+ * files know no variables. */
 inline constexpr const char * FigureStyle = R"(
 svg text{fill:#1b1f24;font:14px system-ui,sans-serif}
 svg .paper{fill:#fff}
@@ -85,15 +89,16 @@ svg .error{stroke:#e6edf3}
 }
 )";
 
-/** Width of every figure in its units: small enough that text is still read where a telephone shows it 350 pixels wide.
- */
+/** Width of every figure [units of its viewBox]. Text stays legible on a telephone that shows the figure 350 pixels
+ * wide. */
 inline constexpr double FigureWidth = 480.0;
 
-/** The first tag of a figure. \a label: what it shows, for those who do not see it. */
+/** Returns the opening tag of a figure. \a height: in units of the figure. \a label: description for readers who do not
+ * see it. */
 std::string
 OpenSvg(double height, const std::string & label);
 
-/** A \a figure of a page as an SVG file of its own, light or dark as its viewer is. \a title: what was measured, in
+/** Returns a \a figure of a page as an SVG file, in light or dark colours as its viewer prefers. \a title: result in
  * words. */
 std::string
 AsSvgFile(std::string figure, const std::string & title);
@@ -106,9 +111,8 @@ enum class PlotMarker
 };
 
 /** \class SvgPanel
- * \brief Draws into one rectangle of an SVG figure, by the coordinates of its axes. What is not finite is left out, and
- * what lies outside is cut off. Colours are classes of FigureStyle.
- */
+ * \brief Draws into one rectangle of an SVG figure, in the coordinates of its axes. Points that are not finite are left
+ * out of points and lines, and content outside of the rectangle is clipped. A \a style is a class of FigureStyle. */
 class SvgPanel
 {
 public:
@@ -120,7 +124,8 @@ public:
     double height;
   };
 
-  /** Appends to \a svg the axes, their ticks and their names. \a xName "": the ticks of x have no labels. */
+  /** Appends the axes to \a svg, with their ticks and names, and opens the rectangle. With an empty \a xName the ticks
+   * of x have no labels. \a svg must outlive the panel. */
   SvgPanel(std::string &       svg,
            const Box &         box,
            PlotAxis            x,
@@ -133,23 +138,27 @@ public:
   /** Closes the rectangle. */
   ~SvgPanel();
 
+  /** Draws a marker at each point. */
   void
   Points(const std::vector<double> & x, const std::vector<double> & y, const char * style, PlotMarker marker);
-  /** Through the points, with a gap where one is not finite. */
+  /** Draws a line through the points, with a gap at each point that is not finite. */
   void
   Line(const std::vector<double> & x, const std::vector<double> & y, const char * style);
+  /** Fills the area between two lines. The numbers must be finite. */
   void
   Band(const std::vector<double> & x,
        const std::vector<double> & low,
        const std::vector<double> & high,
        const char *                style);
-  /** From side to side at \a y. */
+  /** Draws a horizontal line across the rectangle at \a y. */
   void
   Level(double y, const char * style);
 
-  /** Inside the rectangle. */
+  /** Returns the distance of \a x from the left edge of the rectangle [units of the figure]. */
   double
   X(double x) const;
+  /** Returns the distance of \a y from the upper edge, within 10 heights above and below the rectangle [units of the
+   * figure]. */
   double
   Y(double y) const;
 

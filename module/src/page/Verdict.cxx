@@ -26,7 +26,7 @@ WorstOf(const std::vector<Warning> & warnings)
   return worst;
 }
 
-/** The first error's own sentence, which has the numbers. */
+/** Returns the message of the first error, which has the numbers. */
 std::string
 WhyNot(const Report & report)
 {
@@ -78,7 +78,7 @@ IsCommand(const std::string & sentence)
     Commands.begin(), Commands.end(), [&](const char * command) { return sentence.rfind(command, 0) == 0; });
 }
 
-/** Begin of the last sentence that ends before \a end; 0 of the first. */
+/** Returns the position of the last sentence that begins before \a end; 0 for the first sentence. */
 std::size_t
 BeginOfSentence(const std::string & text, std::size_t end)
 {
@@ -93,7 +93,8 @@ BeginOfSentence(const std::string & text, std::size_t end)
   return 0;
 }
 
-/** Begin of a command behind the last colon: "the flicker is not known: give the offset". */
+/** Returns the position of a command behind the last colon, as in "the flicker is not known: give the offset". The
+ * length of the message if there is none. */
 std::size_t
 BeginOfClause(const std::string & message)
 {
@@ -105,7 +106,7 @@ BeginOfClause(const std::string & message)
   return IsCommand(SentenceText(message.substr(colon + 2))) ? colon + 2 : message.size();
 }
 
-/** Begin of the action at the end of a message; its length where there is none. */
+/** Returns the position of the action at the end of a message; the length of the message if there is none. */
 std::size_t
 BeginOfAction(const std::string & message)
 {
@@ -122,10 +123,10 @@ BeginOfAction(const std::string & message)
   return action < message.size() ? action : BeginOfClause(message);
 }
 
-/** Warnings of one code: of the channels of a mosaic, or of several partitions. */
+/** Warnings with the same code, of several channels or partitions. */
 using WarningGroup = std::vector<Warning>;
 
-/** Errors first, else in the order of the report. */
+/** Returns the warnings grouped by code, errors first, then warnings and notes, else in the order of the report. */
 std::vector<WarningGroup>
 GroupByCode(const std::vector<Warning> & warnings)
 {
@@ -149,7 +150,7 @@ GroupByCode(const std::vector<Warning> & warnings)
   return groups;
 }
 
-/** The name of a warning as words: "few frames". */
+/** Returns the name of a warning as words, for example "few frames". */
 std::string
 WordsOf(const WarningKind & kind)
 {
@@ -166,7 +167,7 @@ Title(const WarningKind & kind)
   return title;
 }
 
-/** Links to the boxes of the warnings of a severity. */
+/** Returns links to the boxes of the warnings of one severity. */
 std::vector<std::string>
 LinksTo(const std::vector<Warning> & warnings, Severity severity)
 {
@@ -182,7 +183,7 @@ LinksTo(const std::vector<Warning> & warnings, Severity severity)
   return links;
 }
 
-/** \a word: with the links behind it, the sentence. */
+/** Returns the box of a verdict: \a word, a colon and the links. */
 std::string
 Box(Severity severity, const std::string & word, const std::vector<std::string> & links)
 {
@@ -213,7 +214,7 @@ BoxOf(Severity severity, const std::vector<Warning> & warnings, const std::strin
   return Box(severity, links.empty() ? "Measured, without warnings" : "Measured; these effects are allowed for", links);
 }
 
-/** The findings of a group, and its actions, each once. */
+/** Returns the findings of a group and then its actions, each action once. */
 std::string
 Paragraphs(const WarningGroup & group)
 {
