@@ -28,7 +28,7 @@ Add(BytesInOrder & order, unsigned int pixel, unsigned int other, bool isSigned)
 bool
 BytesInOrder::IsSwapped(const BytesInOrder & other) const
 {
-  constexpr double clearly = 4.0; // chosen empirically: images of 8 to 16 bits have 20 and more
+  constexpr double clearly = 4.0; // chosen empirically: the ratio is 20 and more in images of 8 to 16 bits
   return usesLowByte && other.usesLowByte && roughness > clearly * other.roughness;
 }
 

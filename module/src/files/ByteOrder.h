@@ -13,7 +13,8 @@
 namespace sensornoise
 {
 
-/** The number in \a count bytes, at most 8, the highest or the lowest of them first. */
+/** Returns the unsigned number in \a count bytes, at most 8. \a isBigEndian: the highest byte is first, else the
+ * lowest. */
 inline std::uint64_t
 NumberInBytes(const unsigned char * bytes, std::size_t count, bool isBigEndian)
 {
@@ -25,7 +26,8 @@ NumberInBytes(const unsigned char * bytes, std::size_t count, bool isBigEndian)
   return number;
 }
 
-/** Returns the lowest \a count bytes of a number, at most 8, the highest or the lowest of them first. */
+/** Returns the lowest \a count bytes of a number, at most 8. \a isBigEndian: the highest byte is first, else the
+ * lowest. */
 inline std::string
 BytesOfNumber(std::uint64_t number, std::size_t count, bool isBigEndian)
 {
@@ -37,7 +39,7 @@ BytesOfNumber(std::uint64_t number, std::size_t count, bool isBigEndian)
   return bytes;
 }
 
-/** Returns the bytes of a float or a double as IEEE 754 has them. */
+/** Returns the bytes of a float or a double in the format of IEEE 754. */
 template <typename TReal>
 std::string
 BytesOfReal(TReal number, bool isBigEndian)
@@ -49,27 +51,29 @@ BytesOfReal(TReal number, bool isBigEndian)
   return BytesOfNumber(bits, sizeof bits, isBigEndian);
 }
 
-/** Pixels of 16 bits, read in one order of their bytes. */
+/** Properties of 16-bit pixels, read in one byte order. */
 struct BytesInOrder
 {
-  double       roughness{ 0.0 }; ///< sum of the differences of pixels two places apart, of one colour of a mosaic [DN]
-  unsigned int largest{ 0 };     ///< largest pixel, read as unsigned [DN]
-  bool         usesLowByte{ false };
+  double       roughness{ 0.0 }; ///< sum of |pixel - pixel two places before|: equal colours of a mosaic [DN]
+  unsigned int largest{ 0 };     ///< largest pixel from the third on, read as unsigned [DN]
+  /** True if the low byte of any of these pixels is not 0. */
+  bool usesLowByte{ false };
 
-  /** Whether the pixels are more than 4 times as rough as in the \a other order: then the other order is the right one,
-   * as images are smooth. Not where one byte is always 0, where both orders make sense. */
+  /** Returns whether the pixels are more than 4 times as rough as in the \a other order. The other order is then the
+   * right one, because images are smooth. Returns false if one byte of all pixels is 0, because both orders are then
+   * plausible. */
   bool
   IsSwapped(const BytesInOrder & other) const;
 };
 
-/** Pixels of 16 bits, read in both orders of their bytes. */
+/** Properties of 16-bit pixels, read in both byte orders. */
 struct ByteOrders
 {
-  BytesInOrder little{}; ///< the lowest byte first
-  BytesInOrder big{};    ///< the highest byte first
+  BytesInOrder little{}; ///< lowest byte first
+  BytesInOrder big{};    ///< highest byte first
 };
 
-/** Reads \a pixels pixels of 16 bits in both orders; \a isSigned: they are signed integers. */
+/** Reads \a pixels pixels of 16 bits in both byte orders. \a isSigned: they are signed integers. */
 ByteOrders
 CompareByteOrders(const unsigned char * bytes, std::size_t pixels, bool isSigned);
 

@@ -84,27 +84,28 @@ namespace
 {
 constexpr std::size_t CompressedBlockBytes = 65536;
 
-/** One compressed stream at its place in a file. */
+/** Place of one compressed stream in a file. */
 struct CompressedPlace
 {
   DataPlace        place{};
   InflateContainer container{ InflateContainer::Gzip };
-  std::uint64_t    compressedBytes{ 0 }; // 0: all up to the end of the file
-  std::uint64_t    bytes{ 0 };           // that it gives
+  std::uint64_t    compressedBytes{ 0 }; // [bytes]; 0: up to the end of the file
+  std::uint64_t    bytes{ 0 };           // inflated size [bytes]
 };
 
-/** Inflates such a stream progressively and checks it on the way. Holds 128 KiB. Errors are FileError. */
+/** Inflates a compressed stream progressively and checks it. Uses about 128 KiB of memory. Errors are FileError. */
 class InflatedBytes
 {
 public:
-  /** Throws if there are fewer compressed bytes than the header says. */
+  /** Throws if the file has fewer compressed bytes than the header declares. */
   InflatedBytes(const std::string & file, const CompressedPlace & from);
 
-  /** Inflates the next \a count bytes into \a out; null: drops them. Throws if the stream does not give so many. */
+  /** Inflates the next \a count bytes into \a out, or drops them if it is null. Throws if the stream has fewer bytes.
+   */
   void
   Read(void * out, std::uint64_t count);
 
-  /** Throws unless the stream ends here, with the right checksum, and the file with it. */
+  /** Throws unless the stream ends here with the right checksum, and the file ends with the stream. */
   void
   RequireEnd();
 
@@ -118,7 +119,7 @@ private:
   CompressedPlace            m_From;
   FileBytes                  m_Bytes;
   std::uint64_t              m_Found; // compressed bytes from the place to the end of the file
-  std::uint64_t              m_Next;  // offset of the compressed byte that comes next
+  std::uint64_t              m_Next;  // offset of the next compressed byte
   std::uint64_t              m_End;   // offset behind the compressed bytes
   std::vector<unsigned char> m_In;
   Inflater                   m_Inflater;
@@ -203,7 +204,7 @@ InflatedBytes::Refuse() const
                     " bytes and the end of the stream");
 }
 
-/** Throws FileError unless the stream gives exactly its bytes, and the file ends with it. */
+/** Throws FileError unless the stream has exactly from.bytes bytes, and the file ends with the stream. */
 void
 RequireInflates(const std::string & file, const CompressedPlace & from)
 {
@@ -212,8 +213,8 @@ RequireInflates(const std::string & file, const CompressedPlace & from)
   inflated.RequireEnd();
 }
 
-/** Reads frames of one compressed stream. A frame behind those that were read last continues the stream; one before
- * begins it anew. */
+/** Reads frames of one compressed stream. A frame behind the last read continues the stream; an earlier frame restarts
+ * it. */
 class InflatedFrames : public FrameReader
 {
 public:
@@ -235,7 +236,7 @@ private:
   CompressedPlace                        m_From;
   SampleFormat                           m_Sample;
   mutable std::mutex                     m_Mutex;
-  mutable std::unique_ptr<InflatedBytes> m_Stream;        // null: at its beginning
+  mutable std::unique_ptr<InflatedBytes> m_Stream;        // null: at the beginning
   mutable std::uint64_t                  m_Position{ 0 }; // inflated bytes that were read
 };
 
@@ -247,7 +248,7 @@ InflatedFrames::Read(const FrameFile & file, std::size_t first, std::size_t coun
   const std::size_t                 size = SizeOf(m_Sample.pixel, m_Sample.stored);
   const std::uint64_t               begin = std::uint64_t{ first } * pixels * size;
   const std::uint64_t               end = begin + std::uint64_t{ count } * pixels * size;
-  std::unique_ptr<InflatedBytes>    stream = std::move(m_Stream); // after an error the next reading begins anew
+  std::unique_ptr<InflatedBytes>    stream = std::move(m_Stream); // after an error the next call restarts the stream
   if (!stream || m_Position > begin)
   {
     stream = std::make_unique<InflatedBytes>(file.name, m_From);
@@ -259,14 +260,14 @@ InflatedFrames::Read(const FrameFile & file, std::size_t first, std::size_t coun
   ConvertStored(m_Sample.stored, count * pixels, buffer);
   if (end == m_From.bytes)
   {
-    stream->RequireEnd(); // and the file is closed
+    stream->RequireEnd(); // the stream and its file are then closed
     return;
   }
   m_Stream = std::move(stream);
   m_Position = end;
 }
 
-/** Frames of several files, the same number in each. */
+/** Reads frames of several files, one frame in each. */
 class JoinedFrames : public FrameReader
 {
 public:
@@ -288,7 +289,7 @@ private:
   std::vector<std::unique_ptr<const FrameReader>> m_Parts;
 };
 
-/** Checks the \a bytes of pixels at a place, and makes the reader of them. */
+/** Checks the \a bytes of pixels at a place. Returns the reader of their frames. Throws FileError. */
 std::unique_ptr<const FrameReader>
 ReaderOfPlace(const FrameFile & file, const DataPlace & place, const DataCoding & coding, std::uint64_t bytes)
 {

@@ -15,49 +15,50 @@
 namespace sensornoise
 {
 
-/** Where the pixels of a MetaImage or NRRD file are, or those of one of its frames. */
+/** Place of the pixels of a MetaImage or NRRD file, or of one of its frames. */
 struct DataPlace
 {
-  std::string   path{}; // of the file itself, or of its data file
+  std::string path{}; // path of the file itself, or of its data file
+  /** Offset of the first pixel in the file; with `fromEnd` its least value [bytes]. */
   std::uint64_t offset{ 0 };
-  bool fromEnd{ false }; // the pixels are the last bytes of the file; `offset` is then the least that it may be
-  bool attached{ true }; // in the file itself, behind its header
+  bool          fromEnd{ false }; // the pixels are the last bytes of the file
+  bool          attached{ true }; // the pixels are in the file itself, behind its header
 };
 
-/** Notes the identity of \a path among \a identities. Throws FileError where there is no regular file, and where it is
- * there already: the file whose data it should be, or that of another frame. */
+/** Adds the identity of \a path to \a identities. Throws FileError if it is no regular file, or if \a identities
+ * already has it: it is then the file itself, or the data file of another frame. */
 void
 AddDataFile(const std::string & file, const std::string & path, std::vector<FileIdentity> & identities);
 
-/** Returns where the pixels begin. Throws FileError unless the file holds exactly \a expected bytes at that place, up
- * to its end. Where only that end is known, fewer bytes than a frame has may be left over before: with more, the header
- * may have lost frames. */
+/** Returns the offset of the pixels [bytes]. Throws FileError unless the file has exactly \a expected bytes from this
+ * offset to its end. With DataPlace::fromEnd the offset follows from the end. Then fewer than \a frameBytes bytes may
+ * be left over before the pixels, because more could be frames that the header lacks. */
 std::uint64_t
 RequireExactly(const std::string & file, const DataPlace & place, std::uint64_t expected, std::uint64_t frameBytes);
 
-/** Throws FileError if \a left bytes, those behind the pixels, are any. */
+/** Throws FileError if bytes are left behind the pixels. \a left: their number. */
 void
 RequireNothingLeft(const std::string & file, const DataPlace & place, std::uint64_t left);
 
-/** " in its data file NAME", or nothing for a place in \a file itself. */
+/** Returns " in its data file NAME"; "" for a place in \a file itself. */
 std::string
 InDataFile(const std::string & file, const DataPlace & place);
 
-/** The path of a data file that the header of \a file names: relative to the folder of \a file. */
+/** Returns the path of a data file that the header of \a file names: relative to the folder of \a file. */
 std::string
 PathOfDataFile(const std::string & file, const std::string & name);
 
-/** How the numbers at the places of pixels are written. */
+/** Coding of the pixels at their places. */
 struct DataCoding
 {
   SampleFormat                    sample{};
   std::optional<InflateContainer> compression{};
-  std::uint64_t                   compressedBytes{ 0 }; // of one place; 0: all up to the end of its file
+  std::uint64_t                   compressedBytes{ 0 }; // size at one place [bytes]; 0: up to the end of the file
 };
 
-/** Checks that the places, one for all frames or one for each, hold exactly the pixels of \a file, whose size is set;
- * adds the identities of data files; and sets the reader of the frames. Calls \a beforeInflating before it inflates
- * compressed pixels. Throws FileError. */
+/** Checks the places of the pixels of \a file, whose size and pixel type are set. There is one place for all frames, or
+ * one for each frame. Each must have exactly its pixels. Adds the identities of data files, and sets the reader of the
+ * frames. Calls \a beforeInflating before it inflates compressed pixels. Throws FileError. */
 void
 SetDataFrames(FrameFile &                    file,
               const std::vector<DataPlace> & places,

@@ -14,12 +14,13 @@ namespace sensornoise
 {
 namespace
 {
-/** How many numbers a field has: so many for each dimension, or a fixed number. */
+/** Count of the numbers of a MetaImage field: `fixed`, or, for `power` above 0, the number of dimensions to this power.
+ */
 struct NumberField
 {
   const char * name;
   std::size_t  fixed;
-  std::size_t  power; // of the number of dimensions
+  std::size_t  power; // exponent of the number of dimensions
 };
 
 constexpr std::array<NumberField, 20> NumberFields{ { { "ID", 1, 0 },
@@ -81,7 +82,7 @@ IsTrueOrFalse(const std::string & value)
   return std::find(words.begin(), words.end(), value) != words.end();
 }
 
-/** Throws unless a known field has a value that it may have. */
+/** Throws FileError unless a known field has an allowed value. */
 void
 CheckMetaImageField(const std::string &     file,
                     const MetaImageHeader & header,
@@ -105,7 +106,7 @@ CheckMetaImageField(const std::string &     file,
   RequireNumbers(file, header, key, value);
 }
 
-/** Parts a line. Throws FileError. */
+/** Adds the field of a line to the header. Throws FileError. */
 void
 AddMetaImageField(const std::string & file, const TextHeader & text, const std::string & line, MetaImageHeader & header)
 {
@@ -169,7 +170,7 @@ ReadMetaImageHeader(const std::string & file, FileBytes & bytes)
         throw FileError(file, "has an empty line in its list of data files; expected a name in each");
       }
       isBlankBefore = isBlank;
-      // a last line without an end may have been cut off
+      // a last line without an end may be incomplete
       if (text.LineWasEnded() && !isBlank)
       {
         header.list.push_back(WithoutBlanks(*line));
@@ -214,7 +215,7 @@ constexpr std::array<const char *, 32> NrrdFields{ "content",
                                                    "data file",
                                                    "datafile" };
 
-/** The name of the field that `key` is, in any of its spellings; empty where it is none. */
+/** Returns the name of the field that `key` means, in any of its spellings; "" if it is none. */
 std::string
 FieldNamed(const std::string & key)
 {
@@ -231,7 +232,8 @@ FieldNamed(const std::string & key)
   return "";
 }
 
-/** Parts a line and keeps what it says. Returns the name of its field, empty where it is a comment or a key. */
+/** Adds the field of a line to the header. Returns the name of the field; "" for a comment or a key with its value.
+ * Throws FileError. */
 std::string
 AddNrrdField(const std::string & file, const TextHeader & text, const std::string & line, NrrdHeader & header)
 {

@@ -13,37 +13,39 @@
 namespace sensornoise
 {
 
-/** The fields of a MetaImage's header. */
+/** Fields of the header of a MetaImage. */
 struct MetaImageHeader
 {
   std::map<std::string, std::string> fields{};
-  std::vector<std::string>           list{};   // the names behind "ElementDataFile = LIST"
-  std::uint64_t                      end{ 0 }; // where the pixels begin if they are in the same file
+  std::vector<std::string>           list{};   // names of the data files behind "ElementDataFile = LIST"
+  std::uint64_t                      end{ 0 }; // size of the header [bytes]
 
-  /** The value of a field, empty where there is none. */
+  /** Returns the value of a field; "" if the header lacks it. */
   std::string
   Field(const std::string & key) const;
 };
 
-/** Reads the header. Each line is a name, a separator and a value; known fields have the values that they must have;
- * none comes twice. Throws FileError. */
+/** Reads the header. Each line must be a name, a separator and a value. Required fields must be present, known fields
+ * must have allowed values, and no field may occur twice. Throws FileError otherwise. A list of data files may end in
+ * an incomplete line, which is left out. */
 MetaImageHeader
 ReadMetaImageHeader(const std::string & file, FileBytes & bytes);
 
-/** The fields of a NRRD file's header, by their names in small letters and with their blanks. */
+/** Fields of the header of a NRRD file, by their names in lower case and with spaces. */
 struct NrrdHeader
 {
   std::map<std::string, std::string> fields{};
-  std::vector<std::string>           list{};   // the names behind "data file: LIST"
-  std::uint64_t                      end{ 0 }; // where the pixels begin if they are in the same file
+  std::vector<std::string>           list{};   // names of the data files behind "data file: LIST"
+  std::uint64_t                      end{ 0 }; // size of the header [bytes]
 
-  /** The value of a field, empty where there is none. */
+  /** Returns the value of a field; "" if the header lacks it. */
   std::string
   Field(const std::string & key) const;
 };
 
-/** Reads the header. Throws FileError for lines that are no fields of NRRD or come twice, and where the end of the
- * header is missing. */
+/** Reads the header. Throws FileError for another version than 1 to 5, an incomplete line, a field that occurs twice,
+ * and a line that is no field, comment or key. The empty line at the end may be missing only if the header names a data
+ * file. */
 NrrdHeader
 ReadNrrdHeader(const std::string & file, FileBytes & bytes);
 

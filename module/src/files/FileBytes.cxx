@@ -118,7 +118,7 @@ IdentityOfDataFile(const std::string & file, const std::string & dataFile)
 
 namespace
 {
-/** In front of what is wrong with a data file. */
+/** Returns the beginning of a message about a data file; "" for the file itself. */
 std::string
 PlaceOf(const std::string & file, const std::string & path)
 {
@@ -186,8 +186,9 @@ ByteReader::Fill()
 
 namespace
 {
-/** Whether what begins at `offset` follows what ends at `end`. Writers fill strips up to words of four bytes, which
- * leaves no room for a table between; between tables there may be a strip of a byte. */
+/** Returns whether a range from `offset` follows a range up to `end`. Writers pad strips of pixels to words of four
+ * bytes: a gap of up to 3 bytes is too small for a table. Between tables no gap is allowed, as a strip of one byte may
+ * be there. */
 bool
 Follows(std::uint64_t end, std::uint64_t offset, bool areTables)
 {
@@ -231,7 +232,7 @@ ByteRanges::Add(std::vector<Range> & ranges, std::uint64_t offset, std::uint64_t
     Join(ranges, mayShare);
     if (ranges.size() > MaximumRanges / 2)
     {
-      return false; // else it would soon be due again, and again
+      return false; // the ranges would soon have to be joined again
     }
   }
   ranges.emplace_back(offset, offset + count);
@@ -244,7 +245,7 @@ ByteRanges::FirstConflict()
   Join(m_Pixels, false);
   Join(m_Tables, true);
   std::size_t   table = 0;
-  std::uint64_t tablesEnd = 0; // of those that begin before the pixels' range
+  std::uint64_t tablesEnd = 0; // end of the tables that begin at or before the pixels
   for (std::size_t i = 0; i < m_Pixels.size(); ++i)
   {
     const Range & pixels = m_Pixels[i];

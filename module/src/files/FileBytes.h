@@ -17,6 +17,7 @@
 namespace sensornoise
 {
 
+/** Returns whether both are the same file in the same state: same size and same times of its changes. */
 SensorNoise_EXPORT bool
 operator==(const FileIdentity & a, const FileIdentity & b);
 
@@ -26,50 +27,52 @@ operator!=(const FileIdentity & a, const FileIdentity & b)
   return !(a == b);
 }
 
-/** Whether both are the same file, in whichever state, by whichever names. */
+/** Returns whether both are the same file, in any state and by any names. */
 SensorNoise_EXPORT bool
 AreSameFile(const FileIdentity & a, const FileIdentity & b);
 
-/** The identity of the regular file that \a name, or the link of that name, stands for. It is not opened: pipes and
- * devices cannot make this wait. Throws FileError where there is no file, or no regular one. */
+/** Returns the identity of the regular file \a name, or of the file to which the link \a name leads. The file is not
+ * opened, so that pipes and devices cannot block. Throws FileError if there is no file, or no regular file. */
 SensorNoise_EXPORT FileIdentity
 IdentityOf(const std::string & name);
 
-/** The same of a file whose name stands in another one, \a file, with which the errors then begin. */
+/** Returns the identity of the data file that the header of \a file names. Throws as IdentityOf(), with messages that
+ * begin with \a file. */
 SensorNoise_EXPORT FileIdentity
 IdentityOfDataFile(const std::string & file, const std::string & dataFile);
 
-/** Reads bytes of a file, at any place. */
+/** Reads bytes of a file at any place. */
 class FileBytes
 {
 public:
-  /** Of the file \a path, of which errors say that it is or belongs to \a file. Throws FileError unless it is a regular
-   * file that may be read. */
+  /** Opens the file \a path. Messages of errors begin with \a file, which is the same file or names it as its data
+   * file. Throws FileError unless \a path is a readable regular file. */
   FileBytes(const std::string & file, const std::string & path);
 
   explicit FileBytes(const std::string & file)
     : FileBytes(file, file)
   {}
 
-  /** [bytes] */
+  /** Returns the size of the file when it was opened [bytes]. */
   std::uint64_t
   Size() const
   {
     return m_Size;
   }
 
-  /** Whether all of these bytes lie in the file. */
+  /** Returns whether all these bytes are in the file. */
   bool
   Holds(std::uint64_t offset, std::uint64_t count) const
   {
     return offset <= m_Size && count <= m_Size - offset;
   }
 
-  /** Reads \a count bytes from \a offset on. Throws FileError where the file ends before. */
+  /** Reads \a count bytes from \a offset on. Throws FileError if the file ends before, or if they cannot be read. */
   void
   Read(std::uint64_t offset, void * buffer, std::size_t count);
 
-  /** Reads up to \a count bytes from \a offset on, fewer at the end of the file. Returns their number. */
+  /** Reads up to \a count bytes from \a offset on, fewer at the end of the file. Returns their number. Throws FileError
+   * if they cannot be read. */
   std::size_t
   ReadSome(std::uint64_t offset, void * buffer, std::size_t count);
 
@@ -81,7 +84,7 @@ private:
   std::ifstream m_Stream;
 };
 
-/** Reads bytes one after the other, through a small buffer. */
+/** Reads the bytes [offset, end) of a file one after the other, through a buffer of 16 KiB. */
 class ByteReader
 {
 public:
@@ -91,14 +94,14 @@ public:
     , m_End(end)
   {}
 
-  /** The next byte, or -1 at the end. */
+  /** Returns the next byte; -1 at the end. */
   int
   Next()
   {
     return m_Used < m_Held || Fill() ? m_Buffer[m_Used++] : -1;
   }
 
-  /** Of the byte that comes next. */
+  /** Returns the offset of the next byte [bytes]. */
   std::uint64_t
   Offset() const
   {
@@ -119,40 +122,42 @@ private:
   unsigned char m_Buffer[BufferBytes]{};
 };
 
-/** Which bytes of a file hold pixels and which hold tables, to find bytes that would be read twice over. Neighbours
- * that come one after the other are kept as one, and there is a limit to the number of others: at most 8 MiB are
- * needed. */
+/** Ranges of a file that hold pixels or tables, to find bytes that are used twice. Adjacent ranges are joined, and the
+ * number of other ranges is limited, so that at most 8 MiB are used. */
 class ByteRanges
 {
 public:
-  using Range = std::pair<std::uint64_t, std::uint64_t>; // its first byte and that behind its last
+  using Range = std::pair<std::uint64_t, std::uint64_t>; // offsets of its first byte and behind its last byte
 
-  /** Bytes that hold pixels. Returns false if there are too many ranges apart from each other. */
+  /** Adds bytes that hold pixels. Returns false if there are too many separate ranges. */
   bool
   AddPixels(std::uint64_t offset, std::uint64_t count)
   {
     return Add(m_Pixels, offset, count, false);
   }
 
-  /** Bytes that hold something else; these may be used several times. Returns false as AddPixels(). */
+  /** Adds bytes that hold a table; several tables may share bytes. Returns false if there are too many separate ranges.
+   */
   bool
   AddTable(std::uint64_t offset, std::uint64_t count)
   {
     return Add(m_Tables, offset, count, true);
   }
 
-  /** A byte that holds pixels twice, or pixels and something else. */
+  /** Returns the offset of a byte that holds pixels twice, or pixels and a table; none: there is no such byte. */
   std::optional<std::uint64_t>
   FirstConflict();
 
-  /** The places, of a file of that size, that belong to neither. */
+  /** Returns the ranges of a file of \a size bytes that are neither pixels nor tables. Gaps of up to 3 bytes between
+   * pixels are left out. */
   std::vector<Range>
   Gaps(std::uint64_t size);
 
 private:
   static constexpr std::size_t MaximumRanges = std::size_t{ 1 } << 18;
 
-  /** Sorts them, and makes one of those that touch each other, or, if they may share bytes, overlap. */
+  /** Sorts the ranges and joins ranges that follow each other. Ranges that may share bytes are also joined if they
+   * overlap. */
   static void
   Join(std::vector<Range> & ranges, bool mayShare);
 

@@ -21,16 +21,16 @@ namespace sensornoise
 {
 namespace
 {
-/** Which numbers a FITS image holds, and what makes values of them: zero + factor * number. */
+/** Numbers of a FITS image and their scale: value = zero + factor * number. */
 struct FitsScale
 {
-  int                         bitsOfPixel{ 16 }; // BITPIX; below 0: floating-point
+  int                         bitsOfPixel{ 16 }; // BITPIX; below 0: floating point
   double                      factor{ 1.0 };     // BSCALE
   double                      zero{ 0.0 };       // BZERO
-  std::optional<std::int64_t> blank{};           // the number of pixels without a value
+  std::optional<std::int64_t> blank{};           // BLANK, the number of pixels without a value
 };
 
-/** Values of numbers, which are in this machine's byte order. */
+/** Converts numbers in the byte order of this machine to pixels. Pixels without a value are NaN. */
 template <typename TStored, typename TPixel>
 void
 ScaleNumbers(const FitsScale & scale, const unsigned char * numbers, std::size_t count, void * pixels)
@@ -98,7 +98,8 @@ ScaleAll(FramePixel pixel, const FitsScale & scale, const unsigned char * number
   }
 }
 
-/** The smallest type that holds each value exactly; double where the scale makes other values. */
+/** Returns the smallest pixel type that represents each value exactly; double for a scale with other values and for
+ * pixels without a value. */
 FramePixel
 PixelOf(const FitsScale & scale)
 {
@@ -125,7 +126,7 @@ PixelOf(const FitsScale & scale)
 class FitsFrames : public FrameReader
 {
 public:
-  /** \a begin: the byte of the first pixel. */
+  /** \a begin: offset of the first pixel [bytes]. */
   FitsFrames(std::uint64_t begin, const FitsScale & scale)
     : m_Begin(begin)
     , m_Scale(scale)
@@ -142,7 +143,7 @@ private:
 void
 FitsFrames::Read(const FrameFile & file, std::size_t first, std::size_t count, void * buffer) const
 {
-  constexpr std::size_t      block = std::size_t{ 1 } << 17; // pixels at a time: a MiB of double
+  constexpr std::size_t      block = std::size_t{ 1 } << 17; // pixels per block: 1 MiB as double
   FileBytes                  bytes(file.name);
   const std::size_t          size = static_cast<std::size_t>(std::abs(m_Scale.bitsOfPixel)) / 8;
   const std::size_t          frame = file.width * file.height;
@@ -164,7 +165,8 @@ IsImageOfFits(const FitsHeader & header)
   return (extension.empty() || extension == "IMAGE") && !header.axes.empty();
 }
 
-/** The only image of the file. */
+/** Returns the header of the only image of the file. Throws FileError unless there is exactly one, without compression.
+ */
 FitsHeader
 FindImage(const std::string & file, FileBytes & bytes)
 {
@@ -203,8 +205,8 @@ FindImage(const std::string & file, FileBytes & bytes)
   return images.front();
 }
 
-/** Throws FileError unless the data have the checksum that the header may give: the sum of all 32-bit numbers, highest
- * byte first, in ones' complement. FITS standard, Appendix J. */
+/** Throws FileError unless the data have the checksum of the header, if it gives one: the sum of all 32-bit numbers,
+ * highest byte first, in ones' complement (FITS standard, Appendix J). */
 void
 CheckDataSum(const FitsHeader & header, FileBytes & bytes)
 {
@@ -227,12 +229,12 @@ CheckDataSum(const FitsHeader & header, FileBytes & bytes)
       word = 0;
     }
   }
-  if (count % 4 != 0) // zeros fill the block
+  if (count % 4 != 0) // zeros pad the block
   {
     sum += static_cast<std::uint64_t>(word) << (8 * (4 - count % 4));
     sum = (sum & 0xFFFFFFFF) + (sum >> 32);
   }
-  // 0 and all bits set are the same number in ones' complement
+  // 0 and all bits set are equal in ones' complement
   const std::uint64_t given = static_cast<std::uint64_t>(*expected);
   if (sum % 0xFFFFFFFF != given % 0xFFFFFFFF)
   {
@@ -242,7 +244,7 @@ CheckDataSum(const FitsHeader & header, FileBytes & bytes)
   }
 }
 
-/** Which numbers the data are, and what makes values of them. */
+/** Returns the type of the numbers and their scale. Throws FileError for BSCALE 0 and integers of 64 bits. */
 FitsScale
 ScaleOfFits(const FitsHeader & header)
 {
@@ -262,7 +264,8 @@ ScaleOfFits(const FitsHeader & header)
   return scale;
 }
 
-/** The pattern counts from the first row of the file only if the header says so. */
+/** Sets camera, Bayer pattern and exposure time [s]. The pattern is set only if ROWORDER says that rows are stored from
+ * the top and if its offsets are 0. */
 void
 ReadCameraOfFits(const FitsHeader & header, CameraSettings & camera)
 {

@@ -19,10 +19,10 @@ namespace
 {
 constexpr std::uint64_t FitsBlockBytes = 2880;
 constexpr std::size_t   FitsCardBytes = 80;
-constexpr std::size_t   MostFitsCards = 36000; // 1000 blocks
+constexpr std::size_t   MostFitsCards = 36000; // cards in 1000 blocks
 constexpr std::int64_t  MostFitsAxes = 999;    // FITS standard, 4.4.1
 
-/** The value of a card, from its 11th character on. */
+/** Returns the value of a card, without quotation marks, comment and spaces around it. */
 std::string
 ValueOfCard(const std::string & card)
 {
@@ -41,14 +41,14 @@ ValueOfCard(const std::string & card)
       {
         break;
       }
-      ++i; // two stand for one
+      ++i; // two quotation marks mean one
     }
     text += field[i];
   }
   return WithoutBlanks(text);
 }
 
-/** Whether other pixels would be read with another value. */
+/** Returns whether the pixels depend on the value of the keyword. */
 bool
 DecidesPixels(const std::string & key)
 {
@@ -58,7 +58,7 @@ DecidesPixels(const std::string & key)
   return key.rfind("NAXIS", 0) == 0 || std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-/** Reads the cards up to END into header.values; returns where the data begin. */
+/** Reads the cards up to END into header.values. Returns the offset of the data [bytes]. Throws FileError. */
 std::uint64_t
 ReadCards(FileBytes & bytes, std::uint64_t offset, FitsHeader & header)
 {
@@ -86,7 +86,7 @@ ReadCards(FileBytes & bytes, std::uint64_t offset, FitsHeader & header)
     }
     const bool hasValue = card.compare(8, 2, "= ") == 0;
     const bool isNew = !hasValue || header.values.emplace(key, ValueOfCard(card)).second;
-    if (!isNew && DecidesPixels(key)) // programs write others several times
+    if (!isNew && DecidesPixels(key)) // programs repeat other keywords
     {
       throw FileError(header.name, "damaged: the keyword " + key + " comes twice; expected each once");
     }
@@ -106,7 +106,7 @@ RequiredInteger(const FitsHeader & header, const std::string & key)
   return *number;
 }
 
-/** Returns the bytes of the data, by axes, BITPIX, PCOUNT and GCOUNT; 0 where there are no data. */
+/** Returns the size of the data [bytes] from axes, BITPIX, PCOUNT and GCOUNT; 0 without axes. Throws FileError. */
 std::uint64_t
 DataBytesOf(const FitsHeader & header)
 {
@@ -157,7 +157,7 @@ FitsHeader::Number(const std::string & key) const
   {
     return std::nullopt;
   }
-  std::replace(text.begin(), text.end(), 'D', 'E'); // as Fortran writes exponents
+  std::replace(text.begin(), text.end(), 'D', 'E'); // the exponent in Fortran
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
   double number = 0.0;
@@ -224,7 +224,7 @@ ReadFitsHeader(const std::string & name, FileBytes & bytes, std::uint64_t offset
                           std::to_string(header.dataBegin) + " on, but the file has " + std::to_string(bytes.Size()));
       }
       header.next = header.dataBegin + (header.dataBytes + FitsBlockBytes - 1) / FitsBlockBytes * FitsBlockBytes;
-      if (header.next > bytes.Size()) // bytes may be missing anywhere, and others stand in their place
+      if (header.next > bytes.Size()) // with an incomplete last block, bytes may be missing anywhere before
       {
         throw FileError(name,
                         "truncated: its last block ends at byte " + std::to_string(header.next) +

@@ -14,33 +14,34 @@
 namespace sensornoise
 {
 
-/** The header of one unit (HDU) of a FITS file, and where its data are. */
+/** Header of one unit (HDU) of a FITS file, and the place of its data. */
 struct FitsHeader
 {
-  std::string                        name{};   // of the unit, for errors: "file.fits, HDU 1"
-  std::map<std::string, std::string> values{}; // by keyword; of texts without quotation marks
-  std::vector<std::uint64_t>         axes{};   // NAXIS1 first
+  std::string                        name{};   // name of the unit for messages: "file.fits, HDU 1"
+  std::map<std::string, std::string> values{}; // values by keyword, texts without quotation marks
+  std::vector<std::uint64_t>         axes{};   // sizes of the axes, NAXIS1 first
   std::int64_t                       bitsOfPixel{ 0 };
-  std::uint64_t                      dataBegin{ 0 }; // [byte]
-  std::uint64_t                      dataBytes{ 0 }; // without what fills the last block
-  std::uint64_t                      next{ 0 };      // where the next unit would be [byte]
+  std::uint64_t                      dataBegin{ 0 }; // offset of the data [bytes]
+  std::uint64_t                      dataBytes{ 0 }; // size of the data without padding [bytes]
+  std::uint64_t                      next{ 0 };      // offset behind the last block [bytes]
 
-  /** The value of a keyword as text; empty where there is none. */
+  /** Returns the value of a keyword as text; "" if the header lacks it. */
   std::string
   Text(const std::string & key) const;
 
-  /** The value of a keyword as a number; nothing where there is no such keyword. Throws FileError unless it is a finite
+  /** Returns the value of a keyword as a number; none if the header lacks it. Throws FileError unless it is a finite
    * number. */
   std::optional<double>
   Number(const std::string & key) const;
 
-  /** The value of a keyword as a whole number, as Number() returns others. */
+  /** Returns the value of a keyword as an integer; none if the header lacks it. Throws FileError unless it is an
+   * integer of at most 18 digits. */
   std::optional<std::int64_t>
   Integer(const std::string & key) const;
 };
 
-/** Reads the header of the unit that begins at a byte of the file. Throws FileError unless it is one of the FITS
- * standard, version 4, and all its data are in the file. */
+/** Reads the header of the unit at \a offset [bytes]. Throws FileError unless it is a header of the FITS standard,
+ * version 4, and the file has all blocks of its data. */
 FitsHeader
 ReadFitsHeader(const std::string & name, FileBytes & bytes, std::uint64_t offset);
 

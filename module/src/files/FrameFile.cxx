@@ -18,7 +18,7 @@ namespace sensornoise
 {
 namespace
 {
-/** The number of bytes of the character of UTF-8 that begins at `at`; 0 where none does. */
+/** Returns the number of bytes of the UTF-8 character at `at`; 0 for invalid bytes and control characters. */
 std::size_t
 CharacterBytes(const std::string & text, std::size_t at)
 {
@@ -63,7 +63,7 @@ FileError::FileError(const std::string & file, const std::string & what)
 
 namespace
 {
-/** What a file that cannot be checked is, where its beginning tells. */
+/** Returns words for a file in no supported format: the name of its format, if its first bytes identify it. */
 std::string
 OtherFormat(const std::string & head, const std::string & name)
 {
@@ -122,7 +122,7 @@ InspectFrameFile(const std::string & name, const BeforeInflating & beforeInflati
   }
   FileBytes bytes(name);
   InspectByContents(bytes, file, beforeInflating);
-  // what was inspected is what these identities stand for
+  // the file must not have changed during the inspection
   RequireUnchanged(file);
   return file;
 }
@@ -147,7 +147,7 @@ RequireUnchanged(const FrameFile & file)
 
 namespace
 {
-/** Reads every so many-th frame of another reader. */
+/** Reads every `step`-th frame of another reader. */
 class EveryFrame : public FrameReader
 {
 public:
@@ -173,7 +173,7 @@ private:
   std::size_t                        m_Step;
 };
 
-/** "3 channels, 5 planes and 20 times" */
+/** Returns the axes in words, for example "3 channels, 5 planes and 20 times". */
 std::string
 DescribeAxes(const std::vector<FrameAxis> & axes)
 {
@@ -188,7 +188,7 @@ DescribeAxes(const std::vector<FrameAxis> & axes)
   return text;
 }
 
-/** Which of the channels or planes is chosen. */
+/** Returns the chosen position on an axis. Throws FileError if none is chosen, or if the axis lacks it. */
 std::size_t
 PlaceOnAxis(const FrameFile & file, const FrameAxis & axis, const std::optional<std::size_t> & chosen)
 {
@@ -245,8 +245,8 @@ ChooseFrames(FrameFile & file, const FrameChoice & choice)
     return;
   }
   std::size_t first = 0;
-  std::size_t stride = 1; // of the axis at hand
-  std::size_t step = 1;   // from a time to the next
+  std::size_t stride = 1; // frames between neighbours on the axis
+  std::size_t step = 1;   // frames between successive times
   std::size_t times = 1;
   for (const FrameAxis & axis : file.axes)
   {

@@ -15,7 +15,7 @@ namespace sensornoise
 {
 namespace
 {
-/** The pixels of a group, from its bytes as a number, lowest byte first. */
+/** Calls \a unpack for the bytes and pixels of each group. */
 template <typename TUnpack>
 void
 UnpackGroups(const SampleFormat &  format,
@@ -150,7 +150,7 @@ namespace
 {
 constexpr std::size_t BlockBytes = std::size_t{ 1 } << 20;
 
-/** Pixels that follow each other without a gap. */
+/** Reads \a samples pixels that follow each other without a gap. */
 void
 ReadRun(FileBytes & bytes, const SampleFormat & format, std::uint64_t offset, std::size_t samples, char * pixels)
 {
@@ -173,7 +173,7 @@ ReadRun(FileBytes & bytes, const SampleFormat & format, std::uint64_t offset, st
   }
 }
 
-/** Rows with a gap behind each. */
+/** Reads the rows of a frame, with a gap behind each row. */
 void
 ReadRows(FileBytes & bytes, const FramePlaces & places, std::uint64_t offset, const FrameFile & file, char * pixels)
 {
@@ -193,7 +193,8 @@ ReadRows(FileBytes & bytes, const FramePlaces & places, std::uint64_t offset, co
   }
 }
 
-/** The bytes of a frame. Throws FileError. */
+/** Returns the size of a frame [bytes]. Throws FileError if its pixels do not fill whole groups, or if a row has more
+ * bytes than places.rowBytes. */
 std::uint64_t
 BytesOfFrame(const FrameFile & file, const FramePlaces & places)
 {
@@ -221,6 +222,7 @@ BytesOfFrame(const FrameFile & file, const FramePlaces & places)
   return *bytes;
 }
 
+/** Returns a + b; none if it exceeds INT64_MAX. */
 std::optional<std::uint64_t>
 CheckedSum(std::uint64_t a, std::uint64_t b)
 {
@@ -228,7 +230,7 @@ CheckedSum(std::uint64_t a, std::uint64_t b)
   return a > largest || b > largest - a ? std::nullopt : std::optional<std::uint64_t>(a + b);
 }
 
-/** In words, behind those of a frame's own bytes. */
+/** Returns the bytes behind the frames in words, to follow the size of a frame in a message. */
 std::string
 BytesBesideFrames(const FramePlaces & places)
 {
@@ -275,7 +277,7 @@ SetFramePlaces(FrameFile &                  file,
   }
   const std::optional<std::uint64_t> all = CheckedProduct(places.frameBytes, number);
   const std::optional<std::uint64_t> trailer = CheckedProduct(trailerBytes, number);
-  // the last frame may have nothing behind it
+  // the gap behind the last frame may be missing
   const std::uint64_t least = all ? *all - std::min(*all, places.gapBytes) : 0;
   if (!all || inFrames < least || (inFrames != least && inFrames != *all && inFrames - least != trailer))
   {

@@ -16,7 +16,7 @@ namespace sensornoise
 
 struct FrameFile;
 
-/** Reads frames of a file that was inspected, with this library's own code, a few at a time. */
+/** Reads frames of an inspected file, a few at a time. */
 class FrameReader
 {
 public:
@@ -26,14 +26,15 @@ public:
   FrameReader &
   operator=(const FrameReader &) = delete;
 
-  /** Reads \a count frames from the frame \a first on, one after the other, into \a buffer, which has room for so many
-   * pixels of the file's type. Holds a MiB or two beside them. Throws FileError where the file has changed in a way
-   * that does not let them be read; RequireUnchanged() tells of others. May be called from several threads at once. */
+  /** Reads \a count frames from the frame \a first on into \a buffer, which has space for so many frames of type
+   * file.pixel. Uncompressed frames need at most about 2 MiB of memory beside the buffer. Throws FileError if the file
+   * has changed so that the frames cannot be read; RequireUnchanged() detects other changes. May be called from several
+   * threads at once. */
   virtual void
   Read(const FrameFile & file, std::size_t first, std::size_t count, void * buffer) const = 0;
 
-  /** Returns whether frames have to be read in their order to be read fast: those of one compressed stream. Then
-   * several threads would wait for each other. */
+  /** Returns whether frames can be read fast only in their order, as from one compressed stream. Several threads would
+   * then wait for each other. */
   virtual bool
   IsSequential() const
   {
@@ -41,67 +42,67 @@ public:
   }
 };
 
-/** How the bits of pixels that follow each other lie in bytes. */
+/** Packing of the bits of successive pixels into bytes. */
 enum class SamplePacking
 {
-  Whole,        ///< each pixel has bytes of its own
-  LowestFirst,  ///< a stream of bits, lowest first: GenICam's Mono10p, Mono12p, Mono14p
-  HighestFirst, ///< a stream of bits, highest first: Photron's .mraw
-  GigE,         ///< two pixels in three bytes, what is lowest of both in the middle: GigE Vision's Mono12Packed
-  Mipi          ///< the eight highest bits of some pixels, then what is lowest of all: MIPI CSI-2's RAW10, RAW12, RAW14
+  Whole,        ///< each pixel has its own bytes
+  LowestFirst,  ///< bit stream, lowest bit first: GenICam's Mono10p, Mono12p, Mono14p
+  HighestFirst, ///< bit stream, highest bit first: Photron's .mraw
+  GigE,         ///< two pixels in three bytes, their low bits in the middle byte: GigE Vision's Mono12Packed
+  Mipi          ///< the 8 high bits of 2 or 4 pixels, then the low bits of all: MIPI CSI-2's RAW10, RAW12, RAW14
 };
 
-/** How pixels are written in a file. */
+/** Format of the pixels in a file. */
 struct SampleFormat
 {
-  FramePixel    pixel{ FramePixel::UnsignedShort }; ///< what they are read as
+  FramePixel    pixel{ FramePixel::UnsignedShort }; ///< type of the pixels that are read
   SamplePacking packing{ SamplePacking::Whole };
-  bool          isBigEndian{ false };                ///< of Whole
-  unsigned      bits{ 16 };                          ///< that a pixel takes in a stream; of Whole those of its type
-  StoredNumber  stored{ StoredNumber::SameAsPixel }; ///< of Whole
+  bool          isBigEndian{ false }; ///< whether the highest byte is first; for Whole
+  unsigned      bits{ 16 }; ///< bits of a pixel in a bit stream; for Whole the bit depth, if a format gives it
+  StoredNumber  stored{ StoredNumber::SameAsPixel }; ///< type of the numbers in the file; for Whole
 };
 
-/** Pixels of the type of \a file, each in bytes of its own. */
+/** Returns the format of whole pixels of the type of \a file. */
 SampleFormat
 WholeSample(const FrameFile & file, bool isBigEndian);
 
-/** The smallest number of pixels whose bytes are all their own. */
+/** Returns the smallest number of pixels that fill whole bytes. */
 std::size_t
 SamplesInGroup(const SampleFormat & format);
 
-/** The bytes of such a group. */
+/** Returns the size of a group of SamplesInGroup() pixels [bytes]. */
 std::size_t
 BytesInGroup(const SampleFormat & format);
 
-/** Unpacks \a groups groups of pixels into \a pixels, which are of format.pixel, in this machine's byte order. */
+/** Unpacks \a groups groups of pixels into \a pixels of type format.pixel, in the byte order of this machine. */
 void
 UnpackSamples(const SampleFormat & format, const unsigned char * bytes, std::size_t groups, void * pixels);
 
-/** Turns the bytes of each pixel around where \a isBigEndian is not this machine's order. */
+/** Reverses the bytes of each pixel unless \a isBigEndian is the byte order of this machine. */
 void
 ToOwnByteOrder(bool isBigEndian, std::size_t bytesOfPixel, std::size_t count, void * pixels);
 
-/** Where the frames of a file are: one after the other, each the same number of bytes. */
+/** Places of the frames of a file: one after the other, at equal distances. Distances and offsets are in bytes. */
 struct FramePlaces
 {
-  std::string   path{};          // of the file that holds them
-  std::uint64_t offset{ 0 };     // of the first
-  std::uint64_t frameBytes{ 0 }; // from a frame to the next; set by SetFramePlaces()
-  std::uint64_t rowBytes{ 0 };   // from a row to the next; 0: bits run on from row to row
-  std::uint64_t gapBytes{ 0 };   // behind each frame; behind the last they may be missing
-  std::uint64_t endBytes{ 0 };   // behind all frames
+  std::string   path{};          // path of the file that has the frames
+  std::uint64_t offset{ 0 };     // offset of the first frame
+  std::uint64_t frameBytes{ 0 }; // distance of two frames; set by SetFramePlaces()
+  std::uint64_t rowBytes{ 0 };   // distance of two rows; 0: the bits of the next row follow without a gap
+  std::uint64_t gapBytes{ 0 };   // gap behind each frame; behind the last frame it may be missing
+  std::uint64_t endBytes{ 0 };   // bytes behind all frames
   SampleFormat  sample{};
 };
 
-/** The bytes that \a samples pixels take, without a gap; nothing where they do not fill their last byte or group, or
- * cannot be counted. */
+/** Returns the size of \a samples pixels without gaps [bytes]; none if they do not fill whole groups, or if it exceeds
+ * INT64_MAX. */
 std::optional<std::uint64_t>
 PackedBytes(const SampleFormat & format, std::uint64_t samples);
 
-/** Sets where the frames of \a file are, whose size is known, and the reader of them. \a frames: how many there must
- * be; nothing: as many as the bytes hold. \a trailerBytes: bytes for each frame that may follow behind the last. Throws
- * FileError unless the bytes from places.offset on are exactly so many whole frames, with the bytes that \a places has
- * between and behind them. */
+/** Sets the places of the frames of \a file, whose width and height are set, its size and its reader. \a fileBytes:
+ * size of the file [bytes]. \a frames: required number of frames; none: as many as the file has. \a trailerBytes: bytes
+ * for each frame that may follow the last frame. Throws FileError unless the bytes from places.offset on are exactly so
+ * many whole frames, with the bytes that \a places has between and behind them. */
 void
 SetFramePlaces(FrameFile &                  file,
                FramePlaces                  places,
@@ -109,7 +110,7 @@ SetFramePlaces(FrameFile &                  file,
                std::optional<std::uint64_t> frames,
                std::uint64_t                trailerBytes = 0);
 
-/** Reads frames from such places. */
+/** Reads uncompressed frames from FramePlaces. */
 class PackedFrames : public FrameReader
 {
 public:

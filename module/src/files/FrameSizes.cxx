@@ -54,7 +54,7 @@ SetFrameSizes(FrameFile & file, const std::vector<std::uint64_t> & sizes)
   std::string                  text;
   for (std::size_t i = 0; i < sizes.size(); ++i)
   {
-    // ITK, MetaIO and libtiff keep sizes as int in places
+    // ITK, MetaIO and libtiff store some sizes as int
     if (sizes[i] == 0 || sizes[i] > std::uint64_t{ std::numeric_limits<std::int32_t>::max() })
     {
       throw FileError(file.name,
@@ -91,7 +91,8 @@ SeveralComponents(std::uint64_t components)
 
 namespace
 {
-/** From the last number to the first: a pixel is longer than a number, and covers no number before its own. */
+/** Converts numbers to double from the last to the first: a double is at least as long, so that it overwrites no number
+ * before it. */
 template <typename TStored>
 void
 WidenInPlace(std::size_t count, void * numbers)

@@ -15,7 +15,7 @@
 namespace sensornoise
 {
 
-/** a b, or nothing where that is above what 64 bits hold with their sign. */
+/** Returns a * b; none if it exceeds INT64_MAX. */
 inline std::optional<std::uint64_t>
 CheckedProduct(std::uint64_t a, std::uint64_t b)
 {
@@ -23,38 +23,38 @@ CheckedProduct(std::uint64_t a, std::uint64_t b)
   return b != 0 && a > largest / b ? std::nullopt : std::optional<std::uint64_t>(a * b);
 }
 
-/** Sets the size and the bytes of \a file by the sizes along its axes. Throws FileError unless there are two or three,
- * each of at least 1, and the whole can be counted. */
+/** Sets width, height, frames and bytes of \a file, whose pixel type is set, from the sizes along its axes. Throws
+ * FileError unless there are two or three axes of 1 to 2^31 - 1, and the bytes can be counted. */
 void
 SetFrameSizes(FrameFile & file, const std::vector<std::uint64_t> & sizes);
 
-/** The words that refuse a component type by its name. */
+/** Returns the message for a component type that is not supported. */
 std::string
 UnsupportedPixel(const std::string & name);
 
-/** The words that refuse pixels of more than a value. */
+/** Returns the message for pixels of several components. */
 std::string
 SeveralComponents(std::uint64_t components);
 
-/** The size in bytes of a pixel in the file. */
+/** Returns the size of a pixel in the file [bytes]. */
 SensorNoise_EXPORT std::size_t
 SizeOf(FramePixel pixel, StoredNumber stored);
 
-/** The type of a pixel in the file, as C++ calls it. */
+/** Returns the name in C++ of the type of a pixel in the file. */
 SensorNoise_EXPORT std::string
 NameOf(FramePixel pixel, StoredNumber stored);
 
-/** The bytes of all pixels in the file, uncompressed. */
+/** Returns the size of all pixels in the file without compression [bytes]. */
 SensorNoise_EXPORT std::uint64_t
 StoredBytesOf(const FrameFile & file);
 
-/** Converts \a count numbers, which lie at the beginning of \a numbers in this machine's byte order, to pixels in
- * place. The buffer has room for as many pixels. */
+/** Converts \a count numbers at the beginning of \a numbers to pixels in place, in the byte order of this machine. The
+ * buffer must have space for \a count pixels. */
 SensorNoise_EXPORT void
 ConvertStored(StoredNumber stored, std::size_t count, void * numbers);
 
-/** Returns a geometry as a header gives it with the default in place of what an image cannot have. A spacing below 0 is
- * a direction turned around. */
+/** Returns the geometry of a header, with the default for values that an image cannot have. A spacing below 0 becomes
+ * its magnitude, with the opposite direction. */
 StackGeometry
 UsableGeometry(const StackGeometry & given);
 

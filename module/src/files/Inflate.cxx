@@ -74,7 +74,7 @@ Inflater::Add(const unsigned char * bytes, std::size_t count)
 {
   Offer(bytes, count);
   std::size_t made = m_Out.size();
-  while (WantsMore() && made == m_Out.size()) // else what came is used up
+  while (WantsMore() && made == m_Out.size()) // an output that is not full means that all input is used
   {
     made = Take(m_Out.data(), m_Out.size());
     if (m_Sink && m_Found <= m_Expected)

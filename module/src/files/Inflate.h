@@ -15,7 +15,7 @@ namespace sensornoise
 
 class FileBytes;
 
-/** What stands around compressed bytes, and holds their checksum. */
+/** Format around the compressed bytes, which has their checksum. */
 enum class InflateContainer
 {
   Zlib,
@@ -23,52 +23,53 @@ enum class InflateContainer
   ZlibOrGzip
 };
 
-/** Inflates a stream whose bytes come in pieces, and tells whether it gives exactly the bytes that are expected, a
- * clean end and the right checksum. Keeps nothing of them but 64 KiB. */
+/** Inflates a stream whose bytes come in pieces. Checks that it has exactly the expected bytes, a regular end and the
+ * right checksum. Keeps at most 64 KiB of the bytes. */
 class Inflater
 {
 public:
   using Sink = std::function<void(const unsigned char * bytes, std::size_t count)>;
 
-  /** What it inflates goes to \a sink, where there is one. */
+  /** \a expectedBytes: size of the inflated bytes. Add() gives these to \a sink, if there is one. Throws std::bad_alloc
+   * if zlib cannot be set up. */
   Inflater(InflateContainer container, std::uint64_t expectedBytes, Sink sink = {});
   ~Inflater();
   Inflater(const Inflater &) = delete;
   Inflater &
   operator=(const Inflater &) = delete;
 
-  /** Inflates the next compressed bytes into the sink. Returns WantsMore(). */
+  /** Inflates the next compressed bytes and gives the result to the sink. Returns WantsMore(). */
   bool
   Add(const unsigned char * bytes, std::size_t count);
 
-  /** Hands over the next compressed bytes, which must stay where they are until Take() has returned 0. */
+  /** Sets the next compressed bytes, less than 4 GiB. They must stay valid until Take() returns 0. */
   void
   Offer(const unsigned char * bytes, std::size_t count);
 
-  /** Inflates up to \a count bytes into \a out. Returns their number; 0: all compressed bytes are used up, or
-   * WantsMore() is false. */
+  /** Inflates up to \a count bytes into \a out. Returns their number. 0 means that all compressed bytes are used, or
+   * that WantsMore() is false. */
   std::size_t
   Take(unsigned char * out, std::size_t count);
 
-  /** Returns whether the stream goes on: not after its end, an error, or more bytes than expected. */
+  /** Returns whether the stream continues. It does not after its end, an error, or more bytes than expected. */
   bool
   WantsMore() const
   {
     return !m_Ended && m_Error.empty() && m_Found <= m_Expected;
   }
 
-  /** Whether the stream has ended, with a right checksum and the expected number of bytes. */
+  /** Returns whether the stream has ended with the right checksum and the expected number of bytes. */
   bool
   IsWhole() const;
 
-  /** Compressed bytes that belonged to the stream. */
+  /** Returns the number of compressed bytes of the stream so far. */
   std::uint64_t
   UsedBytes() const
   {
     return m_Used;
   }
 
-  /** What came, in words: "280 bytes and then an error (incorrect data check)". */
+  /** Returns the inflated bytes in words, for example "280 bytes and then an error (incorrect data check)". */
   std::string
   ReceivedBytes() const;
 
@@ -85,7 +86,7 @@ private:
   std::array<unsigned char, 65536> m_Out{};
 };
 
-/** Adds the bytes [offset, offset + count) of the file. */
+/** Adds the bytes [offset, offset + count) of a file to \a inflater, until it wants no more or the file ends. */
 void
 InflateFrom(FileBytes & bytes, std::uint64_t offset, std::uint64_t count, Inflater & inflater);
 

@@ -20,14 +20,14 @@ namespace sensornoise
 {
 namespace
 {
-/** A file as LibRaw reads it, which tells whether it was asked for bytes behind its end: many of LibRaw's decoders take
- * these for zeros, and say nothing. */
+/** Stream of a file for LibRaw that detects reads behind the end of the file. Many decoders of LibRaw take zeros for
+ * the missing bytes and report no error. */
 class LibRawStream : public LibRaw_bigfile_datastream
 {
 public:
   explicit LibRawStream(const std::string & file);
 
-  /** From here on; what reads a header may look too far. */
+  /** Detects reads behind the end from now on. The reader of the header may read behind the end without damage. */
   void
   WatchForEnd()
   {
@@ -46,12 +46,13 @@ public:
   get_char() override;
 
 private:
-  /** What a decoder gets at the end: an exception, unless it may run in several threads, which no exception leaves. */
+  /** Records a read behind the end. Throws in the decoder, unless it may run in several threads, which an exception
+   * cannot leave. */
   void
   OnEnd();
 
   bool              m_Watches{ false };
-  bool              m_ReadsBlocks{ false }; // of a fixed size, also the last
+  bool              m_ReadsBlocks{ false }; // decoders read blocks, and the last block may be short
   bool              m_MayThrow{ false };
   std::atomic<bool> m_HasEnded{ false };
 };
@@ -67,7 +68,7 @@ LibRawStream::LibRawStream(const std::string & file)
   FileBytes bytes(file);
   bytes.ReadSome(0, head, sizeof(head));
   m_MayThrow = std::memcmp(head, "II", 2) == 0 || std::memcmp(head, "MM", 2) == 0;
-  m_ReadsBlocks = std::memcmp(head, "IIU", 3) == 0; // Panasonic's
+  m_ReadsBlocks = std::memcmp(head, "IIU", 3) == 0; // Panasonic
 }
 
 int
@@ -102,7 +103,7 @@ LibRawStream::OnEnd()
   }
 }
 
-/** Calls LibRaw, whose errors come as numbers, and some as exceptions. Returns the words for an error, or nothing. */
+/** Calls LibRaw, which reports errors as numbers or exceptions. Returns the error in words; "" if there is none. */
 template <typename TCall>
 std::string
 ErrorOf(TCall call)
@@ -122,7 +123,7 @@ ErrorOf(TCall call)
   }
 }
 
-/** Without it several shots, a mosaic that is turned by 45 degrees, or colours would be taken for a frame. */
+/** Throws FileError for several frames, several colours per pixel, and a mosaic that is turned by 45 degrees. */
 void
 RequireOneMosaic(const std::string & file, LibRaw & raw)
 {
@@ -154,7 +155,8 @@ RequireInside(const std::string & file, const libraw_image_sizes_t & sizes)
   }
 }
 
-/** No raw file packs more: hostile ones declare what takes minutes and all memory. */
+/** Throws FileError for more than 32 pixels per byte of the file. No raw file packs more, and decoding a hostile header
+ * could take minutes and all memory. */
 void
 RequireSomeBytes(const std::string & file, const libraw_image_sizes_t & sizes, double bytes)
 {
@@ -175,8 +177,8 @@ struct LibRawFrame::Implementation
     : stream(file)
     , raw(0)
   {
-    // without it decoders that meet what they do not understand print and go on; the place is of either width of
-    // integer
+    // Without a handler, decoders print a message about data that they cannot decode, and continue. The type of the
+    // position differs between versions of LibRaw.
     raw.set_dataerror_handler([](void * seen, const char *, auto) { *static_cast<bool *>(seen) = true; },
                               &hasDataError);
 #  if LIBRAW_VERSION < LIBRAW_MAKE_VERSION(0, 21, 0)
@@ -187,7 +189,7 @@ struct LibRawFrame::Implementation
   }
 
   bool         hasDataError{ false };
-  LibRawStream stream; // outlives what reads it
+  LibRawStream stream; // must outlive `raw`, which reads it
   LibRaw       raw;
 };
 
@@ -240,7 +242,7 @@ void
 LibRawFrame::Decode()
 {
   constexpr double bytesPerPixel = 2.0;
-  constexpr double moreRows = 8.0; // that LibRaw takes
+  constexpr double moreRows = 8.0; // rows that LibRaw allocates in addition
   RequireMemory(bytesPerPixel * static_cast<double>(RawWidth()) * (static_cast<double>(RawHeight()) + moreRows),
                 m_File + " is decoded whole: it");
   m_Raw->stream.WatchForEnd();

@@ -12,40 +12,40 @@
 namespace sensornoise
 {
 
-/** The frame of a raw file, opened by LibRaw. Without LibRaw none of this is built. */
+/** Frame of a raw file, opened by LibRaw. Without LibRaw it is not built. */
 class LibRawFrame
 {
 public:
-  /** Reads the header. Throws FileError for what LibRaw does not read, several frames or colours a pixel, and what is
-   * known to be compressed with loss. */
+  /** Reads the header. Throws FileError for a file that LibRaw cannot read, several frames, several colours per pixel,
+   * and compression that is known to be lossy. */
   explicit LibRawFrame(const std::string & file);
   ~LibRawFrame();
   LibRawFrame(const LibRawFrame &) = delete;
   LibRawFrame &
   operator=(const LibRawFrame &) = delete;
 
-  /** Of the visible area. [pixels] */
+  /** Width and height of the visible area [pixel]. */
   std::size_t
   Width() const;
   std::size_t
   Height() const;
 
-  /** Of all that the file has, with the masked borders. [pixels] */
+  /** Width and height with the masked borders [pixel]. */
   std::size_t
   RawWidth() const;
   std::size_t
   RawHeight() const;
 
-  /** Decodes the codes. Throws FileError where LibRaw meets an error or the end of the file, and std::runtime_error
-   * where there is not enough memory. */
+  /** Decodes the digital numbers. Throws FileError for an error of LibRaw, a read behind the end of the file, and
+   * pixels that are no mosaic. Throws std::runtime_error if there is not enough memory. */
   void
   Decode();
 
-  /** Copies the codes of the visible area, after Decode(). */
+  /** Copies the Width() x Height() digital numbers of the visible area, row by row, after Decode(). */
   void
   CopyTo(unsigned short * codes) const;
 
-  /** What the file says of the camera, after Decode(). */
+  /** Returns the settings of the camera that the file records, after Decode(). */
   CameraSettings
   Camera() const;
 

@@ -17,7 +17,7 @@ namespace sensornoise
 {
 namespace
 {
-/** Maker and model, the maker once. */
+/** Returns maker and model. A model that begins with the maker stands alone. */
 std::string
 CameraNameOf(const libraw_iparams_t & about)
 {
@@ -26,7 +26,7 @@ CameraNameOf(const libraw_iparams_t & about)
   return make.empty() || model.rfind(make, 0) == 0 ? model : PrintableText(make + " " + model);
 }
 
-/** At the first pixel of the visible area; empty where the colours are no 2 x 2 mosaic. */
+/** Returns the Bayer pattern at the first pixel of the visible area; "" if the colours are no 2 x 2 mosaic. */
 std::string
 BayerPatternOf(LibRaw & raw)
 {
@@ -55,7 +55,7 @@ BayerPatternOf(LibRaw & raw)
   return std::any_of(known.begin(), known.end(), [&](const char * name) { return pattern == name; }) ? pattern : "";
 }
 
-/** The black level that holds at every pixel; NaN where there is none. */
+/** Returns the black level if it is the same at every pixel [DN]; else NaN. */
 double
 BlackLevelOf(LibRaw & raw)
 {
@@ -115,8 +115,8 @@ BitDepthOf(const LibRaw & raw)
   return bits;
 }
 
-/** Mean and standard error of the pixels that the file says are masked. Noise of whole rows is in both, since a row
- * counts as one. */
+/** Sets mean and standard error of the optical-black pixels that the file declares, if they have 8 rows or more. The
+ * error is computed from the means of the rows, so that it includes row noise. */
 void
 AddOpticalBlack(const LibRaw & raw, CameraSettings & camera)
 {
@@ -205,14 +205,14 @@ LossOf(LibRaw & raw)
   {
     return name;
   }
-  // EXIF of Nikon: 1 and 4 are "lossy" of the first and second kind
+  // Nikon's EXIF: 1 and 4 are the lossy types 1 and 2
   const unsigned nikon = raw.imgdata.makernotes.nikon.NEFCompression;
   if (has("nikon") && (nikon == 1 || nikon == 4))
   {
     return "Nikon's lossy NEF";
   }
 #  if LIBRAW_VERSION >= LIBRAW_MAKE_VERSION(0, 21, 0)
-  // ExifTool's Canon tags: 7 is CRAW; older versions of LibRaw do not tell
+  // ExifTool's Canon tags: 7 is CRAW; older versions of LibRaw lack the tag
   if (has("crx") && raw.imgdata.makernotes.canon.Quality == 7)
   {
     return "Canon's C-RAW";

@@ -13,13 +13,13 @@
 namespace sensornoise
 {
 
-/** What LibRaw says of a file whose codes are decoded. Colours that are no 2 x 2 mosaic (X-Trans, four colours) have no
- * pattern; a black level that is not the same everywhere is none. Where the file has 16 bits a code, the bit depth is
- * that of the white level if all codes fit it, else it is not known. */
+/** Returns the settings of the camera of a file whose pixels are decoded. The Bayer pattern is "" for colours that are
+ * no 2 x 2 mosaic (X-Trans, four colours). The black level is NaN unless it is uniform. If the file gives no bit depth
+ * below 16, the bit depth is computed from the white level. It is then 0, not known, if a digital number exceeds it. */
 CameraSettings
 CameraSettingsOf(LibRaw & raw);
 
-/** In which way the file is known to be compressed with loss, in words; empty: in none, or LibRaw does not tell. */
+/** Returns the known lossy compression of the file in words; "" if there is none, or if LibRaw does not report it. */
 std::string
 LossOf(LibRaw & raw);
 

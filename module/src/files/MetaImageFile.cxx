@@ -64,7 +64,8 @@ IsTrue(const std::string & value)
   return !value.empty() && std::string("Tt1").find(value[0]) != std::string::npos;
 }
 
-/** The number of compressed bytes, 0 where the pixels are not compressed. */
+/** Returns the size of the compressed pixels [bytes]; 0 if they are not compressed. Throws FileError if the header does
+ * not give it. */
 std::uint64_t
 CompressedBytesOf(const std::string & file, const MetaImageHeader & header)
 {
@@ -89,7 +90,7 @@ CompressedBytesOf(const std::string & file, const MetaImageHeader & header)
   return *size;
 }
 
-/** Throws unless the rest of the header means a binary image of one component. */
+/** Throws FileError unless the image is binary, has one component per pixel, and has one byte order. */
 void
 CheckMetaImageMeaning(const std::string & file, const MetaImageHeader & header)
 {
@@ -115,7 +116,7 @@ CheckMetaImageMeaning(const std::string & file, const MetaImageHeader & header)
   }
 }
 
-/** The numbers of the last of these fields that the header has; empty: it has none of them. */
+/** Returns the numbers of the last of these fields that the header has; empty if it has none. */
 std::vector<double>
 NumbersOfLast(const MetaImageHeader & header, std::initializer_list<const char *> keys)
 {
@@ -127,7 +128,8 @@ NumbersOfLast(const MetaImageHeader & header, std::initializer_list<const char *
   return numbers;
 }
 
-/** Fields of old and new versions of MetaIO, in the order in which it prefers them. */
+/** Returns the geometry from the fields of old and new versions of MetaIO. The last field that the header has counts,
+ * as in MetaIO. */
 StackGeometry
 GeometryOfMetaImage(const MetaImageHeader & header, std::size_t axes)
 {
@@ -147,7 +149,8 @@ GeometryOfMetaImage(const MetaImageHeader & header, std::size_t axes)
   return UsableGeometry(geometry);
 }
 
-/** Where the header says that pixels begin: 0, a number of bytes, or nothing where they are at the end of the file. */
+/** Returns the offset of the pixels that the header gives [bytes]; 0 if it gives none. None if the pixels are the last
+ * bytes of the file. Throws FileError. */
 std::optional<std::uint64_t>
 HeaderSizeOf(const std::string & file, const MetaImageHeader & header)
 {
@@ -164,8 +167,8 @@ HeaderSizeOf(const std::string & file, const MetaImageHeader & header)
   return size;
 }
 
-/** Where the pixels of a MetaImage of \a size bytes are, or, in a list, those of each frame. Throws FileError where
- * that is within the header, or a pattern of names, or not a file for each frame. */
+/** Returns the place of the pixels of a MetaImage of \a size bytes, or in a list the place of each frame. Throws
+ * FileError for a place within the header, a pattern of names, and a list without one file for each frame. */
 std::vector<DataPlace>
 PlacesOfMetaImage(const FrameFile & file, const MetaImageHeader & header, std::uint64_t size)
 {

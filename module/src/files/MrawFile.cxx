@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t MaximumHeader = std::size_t{ 4 } << 20;
 constexpr std::size_t MaximumDepth = 64;
 
-/** Without the blanks and ends of lines around it. */
+/** Returns \a text without spaces, tabs and line ends around it. */
 std::string
 Trimmed(const std::string & text)
 {
@@ -38,7 +38,8 @@ Trimmed(const std::string & text)
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/** What comes twice and is not the same, as elements of a list do, is no value that anything could be made of. */
+/** Adds a field. A field that occurs with different values, as elements of a list do, gets a value that is no number.
+ */
 void
 AddField(std::map<std::string, std::string> & fields, const std::string & name, const std::string & value)
 {
@@ -49,7 +50,7 @@ AddField(std::map<std::string, std::string> & fields, const std::string & name, 
   }
 }
 
-/** Reads the elements of a text of XML: no more of it than such headers have. */
+/** Parses elements of XML, as far as headers of Photron cameras have them. */
 class PhotronElements
 {
 public:
@@ -105,7 +106,7 @@ private:
   {
     if (tag.empty() || tag[0] == '!' || tag[0] == '?')
     {
-      return; // comments, declarations
+      return; // comments and declarations
     }
     if (tag[0] == '/')
     {
@@ -162,7 +163,7 @@ private:
   std::map<std::string, std::string> m_Fields{};
 };
 
-/** Lines "Name : value", up to one that is empty. */
+/** Returns the fields of lines "Name : value". Other lines are skipped. */
 std::map<std::string, std::string>
 ReadLines(const std::string & text)
 {
@@ -180,10 +181,10 @@ ReadLines(const std::string & text)
   return fields;
 }
 
-/** The fields of a .cihx file by the path of their elements below <cih>, "frameInfo/totalFrame", with their text; those
- * of an older .cih file by their names, "Total Frame". Of a .cihx only what is between <cih> and </cih> is read, as
- * there may be anything around it. Fields that come twice with different texts have the text "two values". \a file
- * begins the errors. Throws FileError for elements that are not closed, and above 4 MiB. */
+/** Returns the fields of the header with their text. The fields of a .cihx file are named by the path of their elements
+ * below <cih>, "frameInfo/totalFrame"; the bytes outside of <cih> are skipped. The fields of an older .cih file are
+ * named "Total Frame". A field that occurs with different texts has the text "two values". Messages begin with \a file.
+ * Throws FileError for elements that are not closed, and for more than 4 MiB. */
 std::map<std::string, std::string>
 ReadPhotronHeader(const std::string & file, FileBytes & bytes)
 {
@@ -195,7 +196,7 @@ ReadPhotronHeader(const std::string & file, FileBytes & bytes)
   }
   std::string text(static_cast<std::size_t>(bytes.Size()), '\0');
   bytes.Read(0, text.data(), text.size());
-  // an XML file begins with its declaration, whatever stands before
+  // XML begins with its declaration, which other bytes may precede
   const bool isXml = text.find("<?xml") != std::string::npos || text.find("<cih>") != std::string::npos;
   return isXml ? PhotronElements(file, text).Read() : ReadLines(text);
 }
@@ -213,7 +214,7 @@ IsMraw(const std::string & name)
   return HasEnding(LowerCaseText(name), { ".mraw" });
 }
 
-/** The other file of the recording. Throws FileError where there is none. */
+/** Returns the path of the other file of the recording. Throws FileError if there is none. */
 std::string
 CompanionOf(const std::string & name)
 {
@@ -234,7 +235,7 @@ CompanionOf(const std::string & name)
                     expected.string() + (IsMraw(name) ? ", or one that ends in .cih" : ""));
 }
 
-/** What the header says, by either of the names that a field has. */
+/** Fields of the header, by path in a .cihx file or by name in a .cih file. */
 class PhotronFields
 {
 public:
@@ -269,7 +270,7 @@ private:
   std::map<std::string, std::string> m_Fields;
 };
 
-/** Of nanoseconds, or of "1/5000"; NaN for what could be anything else. */
+/** Returns the exposure time [s], from nanoseconds or from "1/5000"; NaN for other texts. */
 double
 ExposureOf(const PhotronFields & fields)
 {
@@ -325,7 +326,7 @@ ReadCamera(const PhotronFields & fields, const SampleFormat & format, CameraSett
   const std::optional<std::uint64_t> depth =
     WholeNumber(fields.Text("imageDataInfo/effectiveBit/depth", "EffectiveBit Depth"));
   const std::string side = LowerCaseText(fields.Text("imageDataInfo/effectiveBit/side", "EffectiveBit Side"));
-  // codes that were moved up have all bits of what holds them
+  // digital numbers that are shifted up use all bits of their format
   const bool isLower = side == "lower" && depth && *depth >= 1 && *depth <= format.bits;
   camera.bitDepth = isLower ? static_cast<unsigned>(*depth) : format.bits;
 }

@@ -17,9 +17,9 @@ namespace sensornoise
 {
 namespace
 {
-constexpr std::uint64_t LongestNpyHeader = 65536; // [bytes]; numpy writes some 100
+constexpr std::uint64_t LongestNpyHeader = 65536; // [bytes]; numpy writes about 100
 
-/** The dictionary of the header, as text, and where the pixels begin. */
+/** Header: its dictionary as text, and the offset of the pixels [bytes]. */
 struct NpyHeader
 {
   std::string   text{};
@@ -52,7 +52,7 @@ ReadNpyHeader(const std::string & file, FileBytes & bytes)
   return header;
 }
 
-/** The text behind "'key':", without blanks before it. Throws FileError unless the key is there exactly once. */
+/** Returns the text behind "'key':", without spaces before it. Throws FileError unless the key occurs exactly once. */
 std::string
 ValueInDictionary(const std::string & file, const std::string & text, const std::string & key)
 {
@@ -66,7 +66,7 @@ ValueInDictionary(const std::string & file, const std::string & text, const std:
   return begin == std::string::npos ? "" : text.substr(begin);
 }
 
-/** Takes numpy's name of a type, '<u2' for instance. */
+/** Returns the format of a type in the notation of numpy, for example '<u2'. Throws FileError for other types. */
 SampleFormat
 FormatOfNpy(const std::string & file, const std::string & value)
 {
@@ -104,7 +104,7 @@ FormatOfNpy(const std::string & file, const std::string & value)
   return format;
 }
 
-/** The axes of '(60, 480, 640)', the slowest first. */
+/** Returns the axes of '(60, 480, 640)', the slowest first. Throws FileError if it is no shape. */
 std::vector<std::uint64_t>
 ShapeOfNpy(const std::string & file, const std::string & value)
 {

@@ -95,7 +95,7 @@ SizesOfNrrd(const std::string & file, const NrrdHeader & header)
   return sizes;
 }
 
-/** Throws unless each axis is one of the image, none the components of a pixel. */
+/** Throws FileError unless each axis is an axis of the image: no axis is the components of a pixel. */
 void
 CheckKinds(const std::string & file, const NrrdHeader & header, const std::vector<std::uint64_t> & sizes)
 {
@@ -116,7 +116,8 @@ CheckKinds(const std::string & file, const NrrdHeader & header, const std::vecto
   }
 }
 
-/** Where pixels in a file of their own, or in this one, begin. */
+/** Returns the place of pixels in the file \a path, from \a begin + \a skip on. \a begin is above 0 if this is the file
+ * itself. Throws FileError. */
 DataPlace
 PlaceOfNrrd(const FrameFile & file, const std::string & path, const std::string & skip, std::uint64_t begin)
 {
@@ -128,7 +129,7 @@ PlaceOfNrrd(const FrameFile & file, const std::string & path, const std::string 
   return { path, begin + skipped.value_or(0), !skipped, begin > 0 };
 }
 
-/** The path of a data file. Throws where the name stands for several files. */
+/** Returns the path of a data file. Throws FileError if the name means several files. */
 std::string
 PathOfNrrdData(const std::string & file, const std::string & name)
 {
@@ -174,7 +175,8 @@ PlacesOfNrrd(const FrameFile & file, const NrrdHeader & header)
   return places;
 }
 
-/** Whether the pixels are in streams of gzip. Throws unless they are, or raw. */
+/** Returns whether the pixels are compressed by gzip. Throws FileError unless they are, or are raw, with a byte order
+ * and skips that can be checked. */
 bool
 IsGzip(const FrameFile & file, const NrrdHeader & header)
 {
@@ -202,7 +204,7 @@ IsGzip(const FrameFile & file, const NrrdHeader & header)
   return isGzip;
 }
 
-/** A number, or NaN where the header says that it is not known. */
+/** Returns the number of a word, NaN for "nan", which means not known; none for other words. */
 std::optional<double>
 NumberOrNaN(const std::string & word)
 {
@@ -210,7 +212,7 @@ NumberOrNaN(const std::string & word)
                                                       : FiniteNumber(WithoutBlanks(word));
 }
 
-/** The numbers of "(1,0,0)". Throws where they are not \a count. */
+/** Returns the numbers of "(1,0,0)". Throws FileError unless there are \a count. */
 std::vector<double>
 VectorIn(const std::string & file, const std::string & text, std::size_t count)
 {
@@ -237,7 +239,8 @@ VectorIn(const std::string & file, const std::string & text, std::size_t count)
   return numbers;
 }
 
-/** Returns the vectors of a field, one for each axis. The vector of an axis outside of space is empty. */
+/** Returns the vectors of a field, one for each axis. The vector of an axis outside of space is empty. Throws FileError
+ * unless there are \a count. */
 std::vector<std::vector<double>>
 VectorsIn(const std::string & file, const std::string & text, std::size_t count)
 {
@@ -258,7 +261,8 @@ VectorsIn(const std::string & file, const std::string & text, std::size_t count)
   return vectors;
 }
 
-/** The signs by which coordinates of a space become those of ITK; as many as the space has axes, 0 without a space. */
+/** Returns the signs that convert coordinates of a space to coordinates of ITK, one for each axis of the space; empty
+ * without a space. */
 std::vector<double>
 SignsOfSpace(const std::string & file, const NrrdHeader & header)
 {
@@ -301,10 +305,10 @@ SetSpacings(const std::string & file, const std::string & text, std::size_t axes
   }
 }
 
-/** Returns the positions that the header of a NRRD image of \a axes axes gives, in the coordinates of ITK (left,
- * posterior, superior), to which RAS and LAS are converted. Without a space, `spacings` count; with a space of another
- * number of axes, the default stands. Throws FileError where a field cannot be read. Source: the fields "Space and
- * orientation information" of the definition of the format, https://teem.sourceforge.net/nrrd/format.html. */
+/** Returns the geometry that the header of a NRRD image of \a axes axes gives, in the coordinates of ITK (left,
+ * posterior, superior). RAS and LAS are converted to these. `spacings` apply to axes without a space direction. A space
+ * with another number of axes is not used. Throws FileError for a field that cannot be read. Source: "Space and
+ * orientation information" in the definition of the format, https://teem.sourceforge.net/nrrd/format.html. */
 StackGeometry
 GeometryOfNrrd(const std::string & file, const NrrdHeader & header, std::size_t axes)
 {
@@ -336,7 +340,7 @@ GeometryOfNrrd(const std::string & file, const NrrdHeader & header, std::size_t 
       geometry.spacing[axis] = length;
       for (std::size_t row = 0; row < axes; ++row)
       {
-        geometry.direction[row][axis] = signs[row] * (1.0 / length) * vectors[axis][row]; // the same last bit as in ITK
+        geometry.direction[row][axis] = signs[row] * (1.0 / length) * vectors[axis][row]; // rounded as in ITK
       }
     }
   }

@@ -14,15 +14,15 @@
 namespace sensornoise
 {
 
-/** A chunk of a PNG file. */
+/** Chunk of a PNG file. */
 struct PngChunk
 {
   std::string   type{};
-  std::uint64_t data{ 0 };   // where its data begins
-  std::uint64_t length{ 0 }; // of its data
+  std::uint64_t data{ 0 };   // offset of its data [bytes]
+  std::uint64_t length{ 0 }; // size of its data [bytes]
 };
 
-/** Reads the chunks of a PNG file, one after the other. */
+/** Reads the chunks of a PNG file one after the other. */
 class PngChunks
 {
 public:
@@ -30,51 +30,50 @@ public:
 
   PngChunks(const std::string & file, FileBytes & bytes);
 
-  /** The head of the next chunk. Throws FileError where the file ends before the chunk does. */
+  /** Returns the next chunk, without its data. Throws FileError if its name is damaged, or if the file ends before the
+   * chunk. */
   PngChunk
   Next();
 
-  /** Reads the data of a chunk, which goes to \a sink, where there is one. Throws FileError if its checksum is wrong.
-   */
+  /** Reads the data of a chunk and gives it to \a sink, if there is one. Throws FileError if the checksum is wrong. */
   void
   Read(const PngChunk & chunk, const Sink & sink = {});
 
 private:
   std::string                m_File;
   FileBytes &                m_Bytes;
-  std::uint64_t              m_Offset{ 8 }; // of the next chunk
+  std::uint64_t              m_Offset{ 8 }; // offset of the next chunk [bytes]
   std::vector<unsigned char> m_Buffer;
 };
 
-/** A number of four bytes, the highest first, as PNG has them. */
+/** Returns an unsigned number of four bytes, highest byte first. */
 std::uint32_t
 PngNumber(const unsigned char * bytes);
 
-/** The rows of a grey PNG, as they come out of its inflated stream: a byte that names the filter, then the filtered
- * bytes. */
+/** Rows of a grey PNG from its inflated stream: each is a byte with the filter, followed by the filtered bytes. */
 class PngRows
 {
 public:
-  /** Undoes filters and interlacing into \a pixels, which has room for all pixels, with the highest byte first; null:
-   * the rows are checked alone. */
+  /** Removes filters and interlacing from the rows into \a pixels, which has space for all pixels, with the highest
+   * byte first. With null, the rows are only checked. */
   PngRows(std::size_t     width,
           std::size_t     height,
           std::size_t     bytesPerPixel,
           bool            interlaced,
           unsigned char * pixels = nullptr);
 
-  /** The bytes of all rows together. */
+  /** Returns the size of all filtered rows [bytes]. */
   std::uint64_t
   Bytes() const
   {
     return m_Bytes;
   }
 
-  /** The next bytes, which come in pieces of any size. Not more than Bytes() in all. */
+  /** Adds the next bytes, in pieces of any size. Bytes after the first Bytes() are ignored. */
   void
   Add(const unsigned char * bytes, std::size_t count);
 
-  /** Empty while all is well, else what is wrong with a row. */
+  /** Returns the error of the first damaged row; "" if there is none. */
   const std::string &
   Error() const
   {
@@ -82,7 +81,7 @@ public:
   }
 
 private:
-  /** The pixels of a pass of Adam7, or all of them. */
+  /** Pixels of a pass of Adam7, or all pixels. */
   struct Pass
   {
     std::size_t x, y, stepX, stepY;
@@ -102,9 +101,9 @@ private:
   std::uint64_t              m_Bytes{ 0 };
   std::size_t                m_Pass{ 0 };
   std::size_t                m_Row{ 0 };
-  std::size_t                m_Filled{ 0 }; // bytes of the row that have come, with the filter
+  std::size_t                m_Filled{ 0 }; // bytes of the row so far, with the filter
   unsigned char              m_Filter{ 0 };
-  std::vector<unsigned char> m_Current; // only where there are m_Pixels
+  std::vector<unsigned char> m_Current; // only with m_Pixels
   std::vector<unsigned char> m_Previous;
   std::string                m_Error;
 };

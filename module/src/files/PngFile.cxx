@@ -19,11 +19,11 @@ namespace sensornoise
 {
 namespace
 {
-/** What is read from a PNG on the way through its chunks. */
+/** Reads a PNG chunk by chunk and checks it. */
 class PngInspection
 {
 public:
-  /** Pixels go to \a pixels, which has room for \a room bytes; null: they are checked alone. */
+  /** The pixels are written to \a pixels, which has space for \a room bytes. With null, they are only checked. */
   PngInspection(FileBytes &             bytes,
                 FrameFile &             file,
                 const BeforeInflating & beforeInflating,
@@ -57,7 +57,7 @@ private:
     throw FileError(m_File.name, what);
   }
 
-  /** Throws unless the chunk is at its place. */
+  /** Throws FileError unless the chunk is allowed at its place. */
   void
   CheckChunk(const PngChunk & chunk)
   {
@@ -105,7 +105,7 @@ private:
     const unsigned      colour = header[9];
     const std::uint64_t width = PngNumber(header.data());
     const std::uint64_t height = PngNumber(header.data() + 4);
-    m_Chunks.Read(chunk); // before the header is believed
+    m_Chunks.Read(chunk); // checks the checksum before the header is used
     if (colour != 0)
     {
       const std::uint64_t components = colour == 4 ? 2 : colour == 6 ? 4 : 3;
@@ -132,8 +132,8 @@ private:
     }
   }
 
-  /** The size of a pixel: a unit, and width and height as text. What cannot be read is left out: PNG has it as a hint.
-   */
+  /** Sets the spacing from the size of a pixel: a unit, and width and height as text. The chunk is a hint, so that a
+   * size which cannot be read is no error. */
   void
   ReadScale(const PngChunk & chunk)
   {
@@ -199,7 +199,7 @@ private:
   FrameFile &               m_File;
   const BeforeInflating &   m_BeforeInflating;
   unsigned char *           m_Pixels;
-  std::uint64_t             m_Room; // of m_Pixels [bytes]
+  std::uint64_t             m_Room; // space in m_Pixels [bytes]
   bool                      m_HasHeader{ false };
   bool                      m_Interlaced{ false };
   bool                      m_PixelsEnded{ false };
@@ -208,7 +208,7 @@ private:
   std::unique_ptr<Inflater> m_Inflater;
 };
 
-/** Reads the frame of a PNG by the same inspection, which hands out the pixels this time. */
+/** Reads the frame of a PNG by a second inspection, which writes the pixels. */
 class PngFrame : public FrameReader
 {
 public:

@@ -14,13 +14,13 @@ namespace sensornoise
 {
 namespace
 {
-/** The header of an image. */
+/** Header of an image. */
 struct PgmHeader
 {
   std::uint64_t width{ 0 };
   std::uint64_t height{ 0 };
   std::uint64_t maximum{ 0 };
-  std::uint64_t bytes{ 0 }; // of the header
+  std::uint64_t bytes{ 0 }; // size of the header [bytes]
 
   bool
   operator==(const PgmHeader & other) const
@@ -35,7 +35,7 @@ IsBlankOfPgm(int byte)
   return byte == ' ' || (byte >= '\t' && byte <= '\r');
 }
 
-/** Reads the numbers of a header: blanks and comments, then digits, then one blank. */
+/** Reads a header: P5, then three numbers, each behind spaces or comments; one space ends the header. */
 class PgmReader
 {
 public:
@@ -61,7 +61,7 @@ public:
     header.width = Number("width");
     header.height = Number("height");
     header.maximum = Number("largest value");
-    header.bytes = m_Reader.Offset() - m_Begin; // one blank is behind the last number
+    header.bytes = m_Reader.Offset() - m_Begin; // includes the one space behind the last number
     if (header.maximum < 1 || header.maximum > 65535)
     {
       throw FileError(m_File,
@@ -105,7 +105,7 @@ private:
   void
   RequireLength()
   {
-    constexpr std::uint64_t longest = 65536; // bytes, comments included
+    constexpr std::uint64_t longest = 65536; // [bytes], with comments
     if (m_Reader.Offset() - m_Begin > longest)
     {
       throw FileError(m_File, "damaged: a header of more than " + std::to_string(longest) + " bytes; expected less");
@@ -118,7 +118,7 @@ private:
   int                 m_Byte{ -1 };
 };
 
-/** Throws for the other formats of the family. */
+/** Throws FileError for the other formats of Netpbm. */
 void
 RequirePgm(const std::string & file, FileBytes & bytes)
 {
@@ -138,7 +138,7 @@ RequirePgm(const std::string & file, FileBytes & bytes)
   }
 }
 
-/** n where the largest value is 2^n - 1, else 0. */
+/** Returns n if the largest value is 2^n - 1, else 0. */
 unsigned
 BitsOfMaximum(std::uint64_t maximum)
 {
@@ -186,7 +186,7 @@ InspectPnm(FileBytes & bytes, FrameFile & file, const BeforeInflating & /*before
   }
   SetFramePlaces(file, places, bytes.Size(), frames);
   const unsigned bits = BitsOfMaximum(header.maximum);
-  file.camera.bitDepth = bits == 16 ? 0 : bits; // 16 is what programs write for any sensor
+  file.camera.bitDepth = bits == 16 ? 0 : bits; // programs write 65535 for sensors of any bit depth
 }
 
 } // namespace sensornoise

@@ -23,7 +23,7 @@ IsTiffHead(const std::string & head)
   return TiffBytes::IsTiff(reinterpret_cast<const unsigned char *>(head.data()), head.size());
 }
 
-/** By the ending of the name, of those raw files that begin as a TIFF. */
+/** Returns the kind of a raw file that begins as a TIFF, from the ending of its name; "" for other endings. */
 std::string
 KindByName(const std::string & name)
 {
@@ -57,7 +57,7 @@ KindByName(const std::string & name)
   return "";
 }
 
-/** Of what begins as a TIFF. */
+/** Returns the kind of a raw file that begins as a TIFF; "" for other TIFF files. */
 std::string
 KindOfTiff(const std::string & head, const std::string & name)
 {
@@ -81,11 +81,11 @@ KindOfTiff(const std::string & head, const std::string & name)
   }
   catch (const std::exception &)
   {
-    return byName; // damaged: its reader says so
+    return byName; // damaged: its reader reports this
   }
 }
 
-/** What raw file of a camera it is; empty: none. */
+/** Returns the kind of the raw file of a camera; "" for other files. */
 std::string
 KindOf(const std::string & head, const std::string & name)
 {
@@ -111,7 +111,7 @@ KindOf(const std::string & head, const std::string & name)
 }
 
 #ifdef SENSORNOISE_LIBRAW
-/** Decodes the file anew. */
+/** Decodes the file again for each reading. */
 class RawCameraReader : public FrameReader
 {
 public:

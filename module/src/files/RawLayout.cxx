@@ -97,7 +97,7 @@ FormatOfNumbers(const std::string & name)
   return format;
 }
 
-/** Of the bits and the end of a name: "12p". */
+/** Returns the format of the bits and the end of a name, for example "12p"; none for other names. */
 std::optional<SampleFormat>
 FormatOfBits(const std::string & bitsAndEnd, SamplePacking packing, const std::string & end)
 {
@@ -126,7 +126,7 @@ struct NameOfPacking
   SamplePacking packing;
 };
 
-/** The format of a name without a pattern. */
+/** Returns the format of a name without a Bayer pattern; none for unknown names. */
 std::optional<SampleFormat>
 FormatOfCamera(const std::string & name)
 {
@@ -151,7 +151,8 @@ FormatOfCamera(const std::string & name)
   return std::nullopt;
 }
 
-/** Takes the pattern out of "bayerrg12p" or "srggb10p", leaving "mono12p" or "s10p"; returns the pattern. */
+/** Removes the pattern from "bayerrg12p" or "srggb10p", which leaves "mono12p" or "s10p". Returns the pattern; "" if
+ * there is none. */
 std::string
 TakePattern(std::string & name)
 {
@@ -213,7 +214,7 @@ ReadCount(const std::string & text, const std::string & what, const std::string 
   return *number;
 }
 
-/** Returns a warning where the bytes of 16-bit pixels look swapped in the first frame; else an empty text. */
+/** Returns a warning if the bytes of 16-bit pixels seem swapped in the first frame; else "". */
 std::string
 WarningOfByteOrder(FileBytes & bytes, const RawLayout & layout)
 {
@@ -223,7 +224,7 @@ WarningOfByteOrder(FileBytes & bytes, const RawLayout & layout)
   {
     return "";
   }
-  constexpr std::uint64_t    most = std::uint64_t{ 1 } << 16; // pixels
+  constexpr std::uint64_t    most = std::uint64_t{ 1 } << 16; // [pixels]
   const auto                 pixels = static_cast<std::size_t>(std::min(layout.width * layout.height, most));
   std::vector<unsigned char> held(2 * pixels);
   bytes.Read(layout.skipBytes, held.data(), held.size());
@@ -240,7 +241,7 @@ WarningOfByteOrder(FileBytes & bytes, const RawLayout & layout)
          type + (isBig ? "le" : "be");
 }
 
-/** Not in the table of formats: nothing tells such a file. */
+/** Format of raw frames. It is not in the table of formats, because nothing identifies such a file. */
 const FrameFormat RawFormat{ "raw frames without a header", false, nullptr, nullptr };
 } // namespace
 

@@ -54,7 +54,8 @@ ReadSerHeader(FileBytes & bytes)
   return header;
 }
 
-/** Throws FileError unless a pixel is one raw value; returns its pattern of colours, if it is one that is known. */
+/** Returns the Bayer pattern; "" for grey pixels and other mosaics. Throws FileError unless a pixel is one raw value.
+ */
 std::string
 BayerPatternOfSer(const FrameFile & file, std::uint64_t color)
 {
@@ -69,14 +70,14 @@ BayerPatternOfSer(const FrameFile & file, std::uint64_t color)
                     "colours of three values a pixel (ColorID " + std::to_string(color) +
                       "), which are made of others; expected the sensor's own, grey or a mosaic");
   }
-  if (color != 0 && (color < 16 || color > 19)) // of cyan, magenta and yellow
+  if (color != 0 && (color < 16 || color > 19)) // 16 to 19: mosaics of cyan, magenta and yellow
   {
     throw FileError(file.name, "damaged: ColorID is " + std::to_string(color) + "; expected 0, 8 to 11 or 16 to 19");
   }
   return "";
 }
 
-/** The first frame, or its first million pixels. */
+/** Reads the first frame, at most 2^20 pixels of it, in both byte orders. */
 ByteOrders
 ReadFirstFrame(FileBytes & bytes, const SerHeader & header)
 {
@@ -87,7 +88,7 @@ ReadFirstFrame(FileBytes & bytes, const SerHeader & header)
   return CompareByteOrders(held.data(), pixels, false);
 }
 
-/** Whether the highest byte comes first, see InspectSer(). */
+/** Returns whether the highest byte is first; InspectSer() has the rule. */
 bool
 IsBigEndian(const SerHeader & header, const ByteOrders & frame)
 {
@@ -129,7 +130,7 @@ InspectSer(FileBytes & bytes, FrameFile & file, const BeforeInflating & /*before
   const std::uint64_t whole = (bytes.Size() - SerHeaderBytes) / file.bytes;
   if (header.frames == 0 && whole > 0)
   {
-    // The number of frames is what a program writes last.
+    // Programs write the number of frames when they close the file.
     header.frames = whole;
     places.endBytes = (bytes.Size() - SerHeaderBytes) % file.bytes;
     file.warning = "says 0 frames, but holds " + std::to_string(whole) + " and " + std::to_string(places.endBytes) +
@@ -145,7 +146,7 @@ InspectSer(FileBytes & bytes, FrameFile & file, const BeforeInflating & /*before
   const ByteOrders frame = ReadFirstFrame(bytes, header);
   places.sample.isBigEndian = IsBigEndian(header, frame);
   SetFramePlaces(file, places, bytes.Size(), header.frames, SerTimeBytes);
-  // 16 is what programs write for any sensor, and some move the codes up
+  // programs write 16 for any sensor, and some shift the digital numbers up
   const unsigned int largest = (places.sample.isBigEndian ? frame.big : frame.little).largest;
   file.camera.bitDepth = header.depth < 16 && (largest >> header.depth) == 0 ? static_cast<unsigned>(header.depth) : 0;
 }

@@ -127,7 +127,7 @@ WholeNumber(const std::string & text)
 std::optional<double>
 FiniteNumber(const std::string & text)
 {
-  // not strtod(): the program's locale may want a comma
+  // not strtod(), which uses the decimal comma of some locales
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
   double number = 0;

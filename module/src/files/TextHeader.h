@@ -14,32 +14,33 @@
 namespace sensornoise
 {
 
-/** The lines at the head of a MetaImage or NRRD file: text without control characters, at most 4096 bytes in a line
- * (the longest path of Linux), 100,000 lines, and 4 MiB. */
+/** Lines of the header of a MetaImage or NRRD file: text without control characters, at most 4096 bytes per line (the
+ * longest path in Linux), 100,000 lines, and 4 MiB. */
 class TextHeader
 {
 public:
   TextHeader(const std::string & file, FileBytes & bytes);
 
-  /** The next line, without its end; nothing at the end of the file. Throws FileError. */
+  /** Returns the next line without its end; none at the end of the file. Throws FileError for other characters and for
+   * more than these limits. */
   std::optional<std::string>
   Next();
 
-  /** Whether the line that came last had an end, other than that of the file. */
+  /** Returns whether a line feed ended the line that Next() returned, not the end of the file. */
   bool
   LineWasEnded() const
   {
     return m_Ended;
   }
 
-  /** Of the line that came last, from 1. */
+  /** Returns the number of the line that Next() returned, from 1. */
   std::size_t
   LineNumber() const
   {
     return m_Line;
   }
 
-  /** Of the byte behind the line that came last. */
+  /** Returns the offset of the byte behind the line that Next() returned [bytes]. */
   std::uint64_t
   Offset() const
   {
@@ -53,31 +54,31 @@ private:
   bool        m_Ended{ false };
 };
 
-/** Without the blanks around it. */
+/** Returns \a text without spaces and tabs around it. */
 std::string
 WithoutBlanks(const std::string & text);
 
-/** With small letters, of ASCII. */
+/** Returns \a text with ASCII letters in lower case. */
 std::string
 InSmallLetters(std::string text);
 
-/** The characters of ASCII that are no control characters, without blanks around them, at most 100. */
+/** Returns the first 100 printable ASCII characters of \a text, without spaces around them. */
 std::string
 PrintableText(const std::string & text);
 
-/** The words of a text, which blanks part. */
+/** Returns the words of a text, which spaces and tabs separate. */
 std::vector<std::string>
 WordsOf(const std::string & text);
 
-/** A whole number of digits alone, below 2^63. */
+/** Returns the whole number of a text that has only digits, at most 18; else none. */
 std::optional<std::uint64_t>
 WholeNumber(const std::string & text);
 
-/** The number that a text is, with a point whatever the program's locale; infinite and NaN: nothing. */
+/** Returns the number of a text, with a decimal point in any locale; none for other texts, infinity and NaN. */
 std::optional<double>
 FiniteNumber(const std::string & text);
 
-/** The finite numbers in a text, which blanks part; empty where a word is none. */
+/** Returns the finite numbers of a text, which spaces and tabs separate; empty if a word is no finite number. */
 std::vector<double>
 NumbersOf(const std::string & text);
 

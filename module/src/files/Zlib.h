@@ -3,7 +3,7 @@
 #ifndef sensornoise_files_Zlib_h
 #define sensornoise_files_Zlib_h
 
-// In a build of ITK, the zlib that ITK was built with; else the system's.
+// Includes the zlib of ITK in a build of ITK, else the zlib of the system.
 #if defined(__has_include)
 #  if __has_include("itk_zlib.h")
 #    include "itk_zlib.h"
