@@ -6,7 +6,6 @@
 #include "report/JsonWriter.h"
 #include "report/ReportJson.h"
 #include "report/ReportTable.h"
-#include "report/Signs.h"
 #include "sensornoise/Version.h"
 
 #include <algorithm>

@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/Quantities.h"
 
+#include "base/Text.h"
+#include "sensornoise/ReportText.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 
 namespace sensornoise
 {
@@ -121,6 +126,132 @@ SetSensorParameters(Report & report, EstimateStatus status)
                                &report.totalIntercept })
   {
     *quantity = Quantity::Without(status);
+  }
+}
+
+namespace
+{
+/** Warnings that contradict the dark level, and the read noise, which is the noise at that level. */
+constexpr std::array AgainstDarkLevel{ WarningCode::DarkFramesDiffer, WarningCode::OffsetOutOfRange };
+
+void
+WithdrawIfIdentified(Quantity & quantity, EstimateStatus status)
+{
+  if (quantity.status == EstimateStatus::Identified || quantity.status == EstimateStatus::UpperLimit)
+  {
+    quantity = Quantity::Without(status, quantity.bracket);
+  }
+}
+
+/** Takes back what depends on the offset: the read noise, and the offset's part of the covariance. */
+void
+WithdrawReadNoise(Report & report, EstimateStatus status)
+{
+  for (Quantity * const quantity : { &report.readNoise, &report.readNoiseMedian, &report.readNoiseElectrons })
+  {
+    WithdrawIfIdentified(*quantity, status);
+  }
+  if (report.covariance)
+  {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      (*report.covariance)[k][2] = (*report.covariance)[2][k] = unknown;
+    }
+  }
+}
+
+void
+WithdrawDarkLevel(Report & report)
+{
+  const bool isContradicted = std::any_of(report.warnings.begin(), report.warnings.end(), [](const Warning & warning) {
+    return std::find(AgainstDarkLevel.begin(), AgainstDarkLevel.end(), warning.code) != AgainstDarkLevel.end();
+  });
+  if (isContradicted)
+  {
+    WithdrawIfIdentified(report.offset, EstimateStatus::Failed);
+    WithdrawReadNoise(report, EstimateStatus::Failed);
+  }
+}
+
+void
+WithdrawVibration(Report & report)
+{
+  for (Quantity * const vibration : { &report.vibrationSdX, &report.vibrationSdY })
+  {
+    if (vibration->value.value_or(0.0) > LargestVibrationPixels)
+    {
+      *vibration = Quantity::Without(EstimateStatus::Failed);
+      report.vibrationCovariance = Quantity::Without(EstimateStatus::Failed);
+    }
+  }
+}
+
+void
+WithdrawGain(Report & report, EstimateStatus status, const std::string & contradiction)
+{
+  SetSensorParameters(report, status);
+  report.covariance.reset();
+  report.Warn(WarningCode::Contradicted,
+              contradiction + ", so no gain is given. Record one unprocessed burst of one scene, with more lit frames");
+}
+
+void
+WithdrawContradictedGain(Report & report)
+{
+  const Quantity & gain = report.gain;
+  const auto &     chi2 = report.fit.reducedChi2;
+  if (gain.status != EstimateStatus::Identified)
+  {
+    return;
+  }
+  if (chi2 && !(*chi2 >= LeastReducedChi2))
+  {
+    WithdrawGain(report,
+                 EstimateStatus::Failed,
+                 "the variance scatters about its line only " + RoundedApart(*chi2, LeastReducedChi2) +
+                   " times as much as by chance (reduced chi2, expected at least " + Rounded(LeastReducedChi2) + ")");
+  }
+  else if (const Quantity filed = Filed(gain, QuantityDomain::Positive); filed.status != EstimateStatus::Identified)
+  {
+    const bool holdsZero = !(gain.interval95->low.value_or(-1.0) > 0.0);
+    WithdrawGain(report,
+                 filed.status,
+                 holdsZero ? "the interval of the gain contains 0"
+                           : "the gain is " + Measured(*gain.value, gain.standardError.value_or(0.0)) +
+                               " DN/e-, with an error above " + Percent(LargestRelativeError));
+  }
+}
+
+/** The signal of the brightest pixels that are used, above the offset \a quantity [DN]; infinite where none are. */
+double
+SignalAbove(const Report & report, const Quantity & quantity)
+{
+  const auto brightest = std::max_element(report.scatter.mean.begin(), report.scatter.mean.end());
+  return brightest == report.scatter.mean.end() || !quantity.value ? std::numeric_limits<double>::infinity()
+                                                                   : std::max(0.0, *brightest - *quantity.value);
+}
+} // namespace
+
+void
+FileStatuses(Report & report)
+{
+  WithdrawDarkLevel(report);
+  WithdrawVibration(report);
+  WithdrawContradictedGain(report);
+  const bool hadOffset = report.offset.status == EstimateStatus::Identified;
+  for (const QuantityEntry & entry : QuantityList())
+  {
+    // The list is also that of reports which must not be changed; this one may be.
+    if (auto * const quantity = const_cast<Quantity *>(entry.of(report)))
+    {
+      const double signalDn = entry.domain == QuantityDomain::Offset ? SignalAbove(report, *quantity) : 0.0;
+      *quantity = Filed(*quantity, entry.domain, signalDn);
+    }
+  }
+  if (hadOffset && report.offset.status != EstimateStatus::Identified)
+  {
+    WithdrawReadNoise(report, report.offset.status);
   }
 }
 

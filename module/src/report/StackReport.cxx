@@ -8,12 +8,19 @@
 #include "sensornoise/StepResults.h"
 #include "moments/MosaicLevels.h"
 #include "moments/StackFrames.h"
+#include "base/ChiSquare.h"
+#include "report/Quantities.h"
+#include "moments/Constants.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <limits>
 #include <string>
+#include <vector>
 
 namespace sensornoise
 {
+
 namespace
 {
 /** Between which levels the data lie; of floating-point data one end may be open. */
@@ -182,6 +189,167 @@ FillBaselines(Report & report, const RegressionData & raw, const ParallelFor & p
   const auto [affine, parabola] = FitLineAndParabola(raw, parallelFor);
   report.affineBaseline = Report::Baseline{ 0.0, affine.slope, affine.intercept };
   report.quadraticBaseline = Report::Baseline{ parabola.curvature, parabola.slope, parabola.intercept };
+}
+
+namespace
+{
+/** "frame 1 equals frame 0, frame 3 equals frame 2, ...": the first ones. */
+std::string
+TextOfRepeated(const DistinctFrames & frames)
+{
+  constexpr std::size_t most = 2;
+  std::string           text;
+  std::size_t           count = 0;
+  for (std::size_t t = 0; t < frames.Given() && count <= most; ++t)
+  {
+    if (frames.OriginalOf(t) != t)
+    {
+      text += count == 0 ? "" : ", ";
+      text +=
+        count == most ? "..." : "frame " + std::to_string(t) + " equals frame " + std::to_string(frames.OriginalOf(t));
+      ++count;
+    }
+  }
+  return text;
+}
+
+/** "frame 3: no-noise, frame 31: other-shape, ...": the first ones. */
+std::string
+TextOfLeftOut(const std::vector<LeftOutFrame> & leftOut)
+{
+  constexpr std::size_t most = 4;
+  std::string           text;
+  for (std::size_t k = 0; k < leftOut.size() && k <= most; ++k)
+  {
+    text += k == 0 ? "" : ", ";
+    text += k == most ? "..." : "frame " + std::to_string(leftOut[k].frame) + ": " + NameOf(leftOut[k].fault);
+  }
+  return text;
+}
+
+template <typename TValue>
+void
+SpreadOverFrames(std::vector<TValue> & series, const DistinctFrames & frames, const TValue & ofLeftOut)
+{
+  if (!series.empty())
+  {
+    series = frames.OfGiven(series, ofLeftOut);
+  }
+}
+
+std::string
+OfFrames(std::size_t count, std::size_t all)
+{
+  return std::to_string(count) + " of " + std::to_string(all) + " frames " + (count == 1 ? "is" : "are");
+}
+} // namespace
+
+void
+ReportAllFrames(Report & report, const DistinctFrames & frames, const std::vector<LeftOutFrame> & leftOut)
+{
+  report.frames = frames.Given();
+  report.framesDistinct = frames.Count();
+  report.framesLeftOut = leftOut;
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  SpreadOverFrames(report.flicker, frames, unknown);
+  SpreadOverFrames(report.flickerRows,
+                   frames,
+                   std::vector<double>(report.flickerRows.empty() ? 0 : report.flickerRows.front().size(), unknown));
+  SpreadOverFrames(report.motion, frames, { unknown, unknown });
+  // In front: what follows is of the frames that are counted.
+  if (frames.Repeated() > 0)
+  {
+    const Warning warning{ WarningCode::RepeatedFrames,
+                           OfFrames(frames.Repeated(), frames.Given()) + " equal to an earlier one (" +
+                             TextOfRepeated(frames) + "; the first is 0): each is counted once" };
+    report.warnings.insert(report.warnings.begin(), warning);
+  }
+  if (!leftOut.empty())
+  {
+    const Warning warning{ WarningCode::FramesLeftOut,
+                           OfFrames(leftOut.size(), frames.Given()) + " unlike the others (" + TextOfLeftOut(leftOut) +
+                             "; the first is 0): all else is measured without " +
+                             (leftOut.size() == 1 ? "it" : "them") };
+    report.warnings.insert(report.warnings.begin(), warning);
+  }
+}
+
+void
+ReportLinearity(Report & report, const std::optional<ExposureFit> & fit)
+{
+  if (!fit)
+  {
+    return;
+  }
+  constexpr double  percent = 100.0;
+  LinearityRecord & linearity = report.linearity;
+  linearity.reason = fit->reason;
+  linearity.saturationDn = fit->saturationDn;
+  linearity.saturationSource = fit->saturationSource;
+  linearity.levels.clear();
+  for (const ExposureFit::Level & level : fit->levels)
+  {
+    linearity.levels.push_back({ level.exposure, level.frames, level.meanDn, std::nullopt });
+    if (level.deviation)
+    {
+      linearity.levels.back().deviationPercent = percent * *level.deviation;
+    }
+  }
+  const double student = fit->dof > 0.0 ? StudentQuantile(0.975, fit->dof) : 0.0;
+  if (fit->squaredError)
+  {
+    linearity.errorPercent = RootOf(
+      percent * percent * fit->squaredError->value, percent * percent * fit->squaredError->standardError, student);
+  }
+  if (fit->offsetDn)
+  {
+    linearity.offsetSource = fit->isOffsetOfDarkFrames ? "dark frames" : "line";
+    linearity.offsetDn = fit->isOffsetOfDarkFrames || student == 0.0
+                           ? WithError(fit->offsetDn->value, fit->offsetDn->standardError)
+                           : WithError(fit->offsetDn->value, fit->offsetDn->standardError, student);
+  }
+  if (fit->responsivity)
+  {
+    linearity.responsivity = WithError(fit->responsivity->value, fit->responsivity->standardError, student);
+  }
+}
+
+namespace
+{
+/** Whether a warning may be there only because the scene changes: what was clipped was so, and codes are what they are.
+ */
+bool
+MayFollow(WarningCode code)
+{
+  return KindOf(code).severity == Severity::Error || code == WarningCode::NearClipLevel ||
+         code == WarningCode::StrongVibration || code == WarningCode::LocalLight || code == WarningCode::NotStatic ||
+         code == WarningCode::OffsetLineMisfit || code == WarningCode::OffsetAboveDarkest ||
+         code == WarningCode::OffsetNotIdentifiable || code == WarningCode::FlickerNotIdentifiable ||
+         code == WarningCode::CorrectedVarianceCurved || code == WarningCode::PoorFit ||
+         code == WarningCode::RollingShutter || code == WarningCode::LinesWithoutFlicker;
+}
+} // namespace
+
+void
+ReportSceneChange(Report & report, const SceneChange & change)
+{
+  if (report.gain.status == EstimateStatus::Identified || !change.IsLarge())
+  {
+    return;
+  }
+  auto & warnings = report.warnings;
+  warnings.erase(
+    std::remove_if(warnings.begin(), warnings.end(), [](const Warning & warning) { return MayFollow(warning.code); }),
+    warnings.end());
+  const Warning warning{ WarningCode::SceneChanges,
+                         "the frames do not show one static scene: " +
+                           PercentApart(change.share, InMoments.sceneChangeFraction) +
+                           " of the differences between areas change from frame to frame (expected less than " +
+                           Percent(InMoments.sceneChangeFraction) +
+                           "). Check whether another axis was taken for time, the scene or camera moves, a pulsed lamp "
+                           "is off in some frames "
+                           "(leave them out: --frames), or the bytes of each pixel are swapped (--raw WxH:uint16be)" };
+  warnings.insert(warnings.begin(), warning);
 }
 
 } // namespace sensornoise

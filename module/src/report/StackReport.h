@@ -9,9 +9,14 @@
 #include "base/PolynomialFit.h"
 #include "moments/StackMaps.h"
 #include "sensornoise/Report.h"
+#include "moments/StackFrames.h"
+#include "moments/UnlikeFrames.h"
+#include "moments/ExposureFit.h"
+#include "moments/FrameThumbnails.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace sensornoise
@@ -54,6 +59,22 @@ FillScatter(Report &                          report,
 /** Files the line and the parabola through the uncorrected variance, what tools that ignore flicker would say. */
 SensorNoise_EXPORT void
 FillBaselines(Report & report, const RegressionData & raw, const ParallelFor & parallelFor);
+
+/** Makes of the report of the distinct frames that of the frames given: their number, which are left out, the series
+ * with the values of a frame's original, or NaN where it is left out, and the warnings `repeated-frames` and
+ * `frames-left-out`. */
+SensorNoise_EXPORT void
+ReportAllFrames(Report & report, const DistinctFrames & frames, const std::vector<LeftOutFrame> & leftOut);
+
+/** Files the linearity of the response. The linearity error is an upper limit where its 95 % interval holds 0, and
+ * `not-identifiable` where no exposures were given (null) or too few of their levels are in the range. */
+SensorNoise_EXPORT void
+ReportLinearity(Report & report, const std::optional<ExposureFit> & fit);
+
+/** Where there is no gain, and the frames show no still scene, says so in place of what else was found wrong, which
+ * follows from it. */
+SensorNoise_EXPORT void
+ReportSceneChange(Report & report, const SceneChange & change);
 
 } // namespace sensornoise
 
