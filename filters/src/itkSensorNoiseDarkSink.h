@@ -21,7 +21,7 @@
 #include "itkSensorNoiseStackSink.h"
 #include "base/Simd.h"
 #include "sensornoise/Parallel.h"
-#include "mosaic/PlaneFrames.h"
+#include "mosaic/MosaicGeometry.h"
 #include "sensornoise/Settings.h"
 #include "moments/DarkFrames.h"
 #include "moments/TemporalMoments.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/LinearityReport.h"
+#include "report/StackReport.h"
 #include "sensornoise/ReportPage.h"
 #include "sensornoise/ReportText.h"
 

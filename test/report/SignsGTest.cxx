@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/Signs.h"
+#include "report/ReportTable.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/ReportText.h"
 

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/Statuses.h"
 #include "report/Quantities.h"
 #include "helpers/ReportTestHelper.h"
 

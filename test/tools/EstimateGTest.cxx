@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "helpers/EstimateToolTestHelper.h"
 #include "base/Text.h"
-#include "report/Signs.h"
+#include "report/ReportTable.h"
 #include "sensornoise/ReportText.h"
 
 #include <cmath>

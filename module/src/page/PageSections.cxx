@@ -7,7 +7,6 @@
 #include "page/SvgPanel.h"
 #include "report/ReportJson.h"
 #include "report/ReportTable.h"
-#include "report/Signs.h"
 #include "sensornoise/ReportText.h"
 #include "sensornoise/Version.h"
 

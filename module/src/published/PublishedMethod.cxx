@@ -5,7 +5,7 @@
 #include "base/Text.h"
 #include "published/PublishedPasses.h"
 #include "published/Vibration.h"
-#include "report/ExcessNoise.h"
+#include "report/StackSettings.h"
 #include "sensornoise/Settings.h"
 
 #include <memory>

@@ -7,12 +7,9 @@
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Report.h"
 #include "moments/StackMaps.h"
-#include "report/AllFrames.h"
-#include "report/ExcessNoise.h"
-#include "report/Statuses.h"
-#include "report/SceneChangeReport.h"
 #include "report/StackReport.h"
 #include "report/StackSettings.h"
+#include "report/Quantities.h"
 
 #include <cmath>
 #include <cstddef>

@@ -7,7 +7,7 @@
 #include "moments/Exposures.h"
 #include "refined/MemoryNeed.h"
 #include "refined/RefinedPasses.h"
-#include "report/ExcessNoise.h"
+#include "report/StackSettings.h"
 #include "sensornoise/Settings.h"
 
 #include <cmath>

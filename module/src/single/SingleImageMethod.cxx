@@ -3,7 +3,6 @@
 #include "sensornoise/SingleImageMethod.h"
 
 #include "base/NothingToMeasure.h"
-#include "report/ExcessNoise.h"
 #include "report/StackSettings.h"
 #include "single/ImageNoise.h"
 #include "single/SingleImageReport.h"

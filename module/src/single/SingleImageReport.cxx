@@ -5,10 +5,8 @@
 #include "base/ChiSquare.h"
 #include "base/Constants.h"
 #include "base/Text.h"
-#include "report/ExcessNoise.h"
-#include "report/Quantities.h"
 #include "report/StackSettings.h"
-#include "report/Statuses.h"
+#include "report/Quantities.h"
 #include "sensornoise/SingleImageMethod.h"
 #include "single/Constants.h"
 

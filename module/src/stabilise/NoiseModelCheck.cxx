@@ -5,7 +5,7 @@
 #include "base/Quantiles.h"
 #include "base/Text.h"
 #include "report/JsonWriter.h"
-#include "report/Signs.h"
+#include "report/ReportTable.h"
 #include "stabilise/PoissonGaussianLaw.h"
 
 #include <algorithm>
