@@ -22,11 +22,11 @@ namespace sensornoise
 /** Reason for which a frame is left out. */
 enum class FrameFault : std::uint8_t
 {
-  NotFinite,   ///< most of its pixels are NaN or infinite
-  NoNoise,     ///< most of its pixels equal their neighbours: zeros, or saturated
-  OtherShape,  ///< it does not show the scene of the other frames at another illumination: another scene, a shadow
-  OtherOffset, ///< its level differs by the same amount in dark and in bright areas: another dark offset
-  OtherNoise   ///< its noise differs from the noise of the other frames at its level: another gain or processing
+  NotFinite,   ///< most pixels of the frame are NaN or infinite
+  NoNoise,     ///< most pixels of the frame equal their neighbours: the frame is zero or saturated
+  OtherShape,  ///< the frame shows another scene, or a shadow: illumination and offset do not explain the difference
+  OtherOffset, ///< the level of the frame differs equally in dark and bright areas: another dark offset
+  OtherNoise   ///< the noise of the frame differs from the noise of the others at its level: another gain or processing
 };
 
 /** Returns the name of the reason in the JSON record. The names are stable, for programs. */
@@ -36,29 +36,29 @@ NameOf(FrameFault fault);
 /** Frame of the given stack that is left out of the measurement. */
 struct LeftOutFrame
 {
-  std::size_t frame{ 0 }; ///< number of the frame in the stack, from 0
-  FrameFault  fault{ FrameFault::OtherShape };
+  std::size_t frame{ 0 };                      ///< number of the frame in the stack, from 0
+  FrameFault  fault{ FrameFault::OtherShape }; ///< reason for which the frame is left out
 };
 
-/** Use of a pixel in the estimate of the gain, or the reason for which it is left out: the values of the pixel-use map.
- */
+/** Use of a pixel in the estimate of the gain, or the reason for which the pixel is left out. These are the values of
+ * the pixel-use map. */
 enum class PixelUse : std::uint8_t
 {
-  Used = 0,
-  Clipped = 1,        ///< it attains a clip level in a frame
-  NotFinite = 2,      ///< it is NaN or infinite in a frame
-  Vibration = 3,      ///< its gradient is larger than noise explains (published method)
-  Border = 4,         ///< it has no centred difference
-  Constant = 5,       ///< it has the same value in all frames
-  FlickerUnknown = 6, ///< its row has no pixels of the bright set, so that its flicker is not known
-  Masked = 7,         ///< the user left it out
-  NearClip = 8,       ///< its noise or the flicker could have reached a clip level, or a neighbour is clipped
-  NotStatic = 9,      ///< its variance and the variance around it do not fit a static scene: something moved
-  Outlier = 10,       ///< its variance is too far from the line, or it is defective in the dark frames
-  CoarseCodes = 11,   ///< its noise is below half a quantization step
-  OutsideRange = 12,  ///< its level is outside the range that the user chose
-  Edge = 13,          ///< it is beside an edge of filtered frames: noise of pixels of another level is mixed in
-  MaskedBorder = 14   ///< it is in a strip along the border that is no part of the scene, as optical-black columns
+  Used = 0,           ///< the pixel takes part in the estimate of the gain
+  Clipped = 1,        ///< the pixel attains a clip level in a frame
+  NotFinite = 2,      ///< the pixel is NaN or infinite in a frame
+  Vibration = 3,      ///< the gradient at the pixel is larger than noise explains (published method)
+  Border = 4,         ///< the pixel is at the border, where no centred difference exists
+  Constant = 5,       ///< the pixel has the same value in all frames
+  FlickerUnknown = 6, ///< the row of the pixel has no pixels of the bright set, so that its flicker is not known
+  Masked = 7,         ///< the mask of the user excludes the pixel
+  NearClip = 8,       ///< noise or flicker could have reached a clip level, or a neighbour is clipped
+  NotStatic = 9,      ///< the variance of the pixel and around it does not fit a static scene: an object moved
+  Outlier = 10,       ///< the variance is too far from the line, or the pixel is defective in the dark frames
+  CoarseCodes = 11,   ///< the noise of the pixel is below half a quantization step
+  OutsideRange = 12,  ///< the level of the pixel is outside the range that the user chose
+  Edge = 13,          ///< the frames are filtered, and an edge is near: noise of pixels of another level is mixed in
+  MaskedBorder = 14   ///< the pixel is in a strip at the border without the scene, for example optical black
 };
 
 /** Status of an estimated quantity. */
@@ -142,7 +142,7 @@ struct NoiseCorrelationRecord
   std::string       kind;
   std::vector<Lag>  space;           ///< coefficients by lag in space; of each pair of opposite lags one is listed
   std::vector<Lag>  time;            ///< coefficients by lag in time
-  std::vector<Line> covarianceLines; ///< lag 0 and the summed lags in space; empty: no correlation between pixels
+  std::vector<Line> covarianceLines; ///< lines of lag 0 and of the summed lags in space; empty: no correlation in space
   Quantity          rowNoise;        ///< standard deviation of the noise common to a row of one frame [DN]
   Quantity          columnNoise;     ///< standard deviation of the noise common to a column of one frame [DN]
   Quantity          excessKurtosis;  ///< excess kurtosis of the noise of a pixel [1]; 0: normal noise
@@ -191,25 +191,27 @@ struct LinearityRecord
 /** Results of the single-image method besides the line. */
 struct SingleImageRecord
 {
-  /** A line and its standard errors. */
+  /** Variance of the noise as a function of the level: slope times level + intercept. */
   struct Line
   {
-    double slope{ 0.0 }; ///< [DN/e-]
-    double slopeStandardError{ 0.0 };
-    double intercept{ 0.0 }; ///< [DN^2]
-    double interceptStandardError{ 0.0 };
+    double slope{ 0.0 };                  ///< slope of the variance against the level [DN/e-]
+    double slopeStandardError{ 0.0 };     ///< standard error of the slope [DN/e-]
+    double intercept{ 0.0 };              ///< variance at level 0 [DN^2]
+    double interceptStandardError{ 0.0 }; ///< standard error of the intercept [DN^2]
   };
   double evenFraction{ 0.0 }; ///< fraction of the finite windows that are without edges and texture [1]
-  /** Variance of horizontal and vertical details, relative to the variance of diagonal ones, less 1 [1]: 0 in white
-   * noise.
-   */
+  /** Variance of the horizontal and vertical wavelet details over the variance of the diagonal details, minus 1 [1].
+   * White noise has 0. */
   double                           bandExcess{ 0.0 };
-  double                           bandExcessStandardError{ 0.0 };
-  std::vector<std::optional<Line>> frames; ///< line of each frame; null: it has none
-  /** Squared scatter of the slopes of the frames, relative to their squared errors [1]; null: fewer than two lines. */
+  double                           bandExcessStandardError{ 0.0 }; ///< standard error of bandExcess [1]
+  std::vector<std::optional<Line>> frames;                         ///< line of each frame; null: not determined
+  /** Reduced chi-square of the slopes of the frames about their weighted mean [1]. 1 is expected. Null: fewer than two
+   * lines. */
   std::optional<double> frameReducedChi2;
-  /** The line of the mean image, times the number of frames: the same as that of the frames where all of the variance
-   * is temporal noise. Null: one frame, or no line. */
+  /** Line of the mean image of all frames: slope, intercept and their standard errors, each multiplied by the number of
+   * frames. It equals the line of a single frame if the whole variance is temporal noise, because averaging T frames
+   * divides this variance by T. A larger slope shows fixed-pattern noise or texture, which averaging does not reduce.
+   * Null: there is only one frame, or no line is determined. */
   std::optional<Line> meanImage;
 };
 
@@ -257,13 +259,13 @@ struct Report
   /** Value of a setting. */
   using SettingValue = std::variant<double, bool, std::string, std::vector<double>>;
 
-  std::string                                       method;   ///< "refined" or "published"
+  std::string                                       method;   ///< "refined", "published" or "single-image"
   std::vector<std::pair<std::string, SettingValue>> settings; ///< settings that change a number, by JSON name
-  std::optional<InputRecord>                        input;    ///< record of the frames read; null: not asked for
+  std::optional<InputRecord>                        input; ///< identification of the frames read; null: not requested
 
   std::size_t frames{ 0 }; ///< number of frames that were given
-  /** Number of frames that count: each of equal frames once, without the frames that are left out. All results but the
-   * series are measured from them. */
+  /** Number of frames that are counted: equal frames are counted once, and frames that are left out are not. All
+   * results except the series are measured from the counted frames. */
   std::size_t               framesDistinct{ 0 };
   std::vector<LeftOutFrame> framesLeftOut;            ///< frames that are unlike the others
   std::size_t               width{ 0 };               ///< columns of a frame [pixel]
@@ -273,9 +275,9 @@ struct Report
   std::optional<int>        bitDepth;                 ///< bit depth of the digital numbers; null: not known
   std::string               bitDepthSource{ "none" }; ///< "given", "data" or "none"
   std::optional<double>     quantisationStepDn;       ///< quantization step [DN]; null: the data are not quantized
-  std::optional<double>     clipLowDn;                ///< a pixel that attains it is clipped [DN]; null: none
-  std::optional<double>     clipHighDn;               ///< a pixel that attains it is clipped [DN]; null: none
-  std::string clipSource{ "none" }; ///< "given", "pile-up", "code range", "none", or "low: ..., high: ..."
+  std::optional<double>     clipLowDn;  ///< lower clip level: a pixel that attains it is clipped [DN]; null: none
+  std::optional<double>     clipHighDn; ///< upper clip level: a pixel that attains it is clipped [DN]; null: none
+  std::string clipSource{ "none" };     ///< "given", "pile-up", "code range", "none", or "low: ..., high: ..."
 
   /** Numbers of pixels. */
   struct Pixels
@@ -287,7 +289,9 @@ struct Report
     std::size_t notFinite{ 0 }; ///< pixels that are NaN or infinite in a frame
   } pixels;
 
-  Quantity gain; ///< system gain g, from the total covariance over lags, over a given excess noise factor [DN/e-]
+  /** System gain g [DN/e-], from the total covariance over lags. It is divided by the excess noise factor if one is
+   * given. */
+  Quantity gain;
   /** Slope of the variance of a pixel against its level, in the frames as they are [DN/e-]. With totalIntercept it is
    * the noise model for a denoiser. It equals the gain if the noise is white and the quantization is uniform. */
   Quantity varianceSlope;
@@ -295,7 +299,7 @@ struct Report
   Quantity readNoise; ///< read noise sigma, rms over all pixels that are not defective, without quantization noise [DN]
   /** Read noise of the median pixel [DN], for sensors whose pixels differ. Only dark frames determine it. */
   Quantity readNoiseMedian{ Quantity::Without(EstimateStatus::NotIdentifiable) };
-  Quantity readNoiseElectrons; ///< read noise over gain [e-]
+  Quantity readNoiseElectrons; ///< read noise divided by the gain [e-]
   Quantity intercept;          ///< sigma^2 - g mu, without quantization noise [DN^2]
   Quantity totalIntercept;     ///< variance of a pixel at level 0, in the frames as they are [DN^2]
   /** Covariance matrix of the errors of gain [DN/e-], intercept [DN^2] and offset [DN], in this order. Without an
@@ -318,9 +322,9 @@ struct Report
   /** Polynomial of the variance [DN^2] as a function of the level x [DN]: curvature x^2 + gain x + intercept. */
   struct Baseline
   {
-    double curvature{ 0.0 }; ///< [1]
-    double gain{ 0.0 };      ///< [DN/e-]
-    double intercept{ 0.0 }; ///< [DN^2]
+    double curvature{ 0.0 }; ///< quadratic coefficient [1]; 0: a line
+    double gain{ 0.0 };      ///< linear coefficient [DN/e-]
+    double intercept{ 0.0 }; ///< variance at level 0 [DN^2]
   };
   /** Quality of the fits. A member is null if the fit was not made. */
   struct Fit
@@ -339,7 +343,7 @@ struct Report
   std::optional<Baseline> affineBaseline; ///< line through the uncorrected variance, for comparison; null: not fitted
   std::optional<Baseline> quadraticBaseline; ///< parabola through the uncorrected variance, (2.21); null: not fitted
 
-  std::vector<Warning> warnings;
+  std::vector<Warning> warnings; ///< warnings about the measurement; empty: none
 
   /** Noise curve: averages over intensity bins that hold equal numbers of the used pixels, from dark to bright (Figure
    * 4 of Sur & Gredi\'ac 2015). All vectors have one value per bin. */

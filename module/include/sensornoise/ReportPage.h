@@ -37,15 +37,15 @@ struct PageTitle
   std::string date; ///< date of the files, for example "2026-11-24 23:30 UTC"; "": not known
 };
 
-/** Returns the report as one HTML page, without network access and scripts. The first screen has the verdict in one
- * sentence, gain, read noise and offset with their errors, the noise curve, and each warning with its action. Below are
- * all quantities, the other figures, the symbols of EMVA 1288, and the settings. The maps are shown with at most
- * 256 x 256 points; without \a maps the page has none. */
+/** Returns the report as one HTML page, which needs no network and has no scripts. The first screen has the verdict in
+ * one sentence, gain, read noise and offset with their errors, the noise curve, and each warning with its action. Below
+ * are all quantities, the other figures, the symbols of EMVA 1288, and the settings. The page shows \a maps with at
+ * most 256 x 256 points, or no maps if they are empty. */
 SensorNoise_EXPORT std::string
 ToHtml(const Report & report, const PageMaps & maps = {}, const PageTitle & title = {});
 
 /** Returns the reports of a mosaic as one HTML page: a table of all channels and their noise curves, followed by the
- * report of each channel. The maps are maps of the whole frame. */
+ * report of each channel. \a maps has the size of the whole frame. */
 SensorNoise_EXPORT std::string
 ToHtml(const ChannelReports & reports, const PageMaps & maps = {}, const PageTitle & title = {});
 
@@ -56,7 +56,8 @@ ToSvg(const Report & report);
 /** Returns the numbers of the figures (FigureData) as a JSON object, for plots in other languages. Its members are
  * arrays, with null for unknown values: `mean`, `variance` and `corrected_variance`; `residual_mean` and `residual`;
  * `line_mean`, `line_variance`, `band_low` and `band_high`; `flicker`, `motion_x` and `motion_y`; and `lags`, each as
- * in the report. `residual_spread` is a number, and `is_indicative` is true or false. */
+ * in the report. `residual_spread` is the largest factor by which noise correlation between neighbours enlarges
+ * the scatter of the residuals [1]. `is_indicative` is true or false. */
 SensorNoise_EXPORT std::string
 FigureAsJson(const Report & report);
 

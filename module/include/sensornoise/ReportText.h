@@ -12,7 +12,7 @@
 #include <vector>
 
 /** \file
- * A report as JSON and as a table, and the list of its quantities. */
+ * Writes a report as JSON and as a table, and lists its quantities. */
 
 namespace sensornoise
 {
@@ -20,11 +20,11 @@ namespace sensornoise
 /** Condition for a row of a quantity in the table. The JSON record has all quantities. */
 enum class ShownIn : std::uint8_t
 {
-  EveryTable,        ///< if the report has the quantity, with or without a value
-  TableIfKnown,      ///< if it has a value
-  TableIfNotTheGain, ///< if it has a value that differs from the value of the gain
-  TableIfLimited,    ///< if it has a value or an upper limit
-  Record             ///< never
+  EveryTable,        ///< shown if the report has the quantity, with or without a value
+  TableIfKnown,      ///< shown if the quantity has a value
+  TableIfNotTheGain, ///< shown if the quantity has a value that differs from the value of the gain
+  TableIfLimited,    ///< shown if the quantity has a value or an upper limit
+  Record             ///< never shown
 };
 
 /** Description of one quantity of a report. */
@@ -66,7 +66,8 @@ ToJson(const Report & report);
 SensorNoise_EXPORT std::string
 MakeTable(const Report & report);
 
-/** Returns the warning as a line: "warning: message [code]". "note" or "error" replaces "warning" by the severity. */
+/** Returns the warning as a line, with its line break: "warning: message [code]". The first word is the severity:
+ * "note", "warning" or "error". */
 SensorNoise_EXPORT std::string
 TextOf(const Warning & warning);
 
@@ -78,14 +79,16 @@ TextOfCounted(const Report & report);
 SensorNoise_EXPORT std::string
 MakeText(const Report & report);
 
-/** Returns the reports of a mosaic as one JSON object, schema "itk-sensornoise-report/1". Its members are `bayer`
- * (`pattern`, `source`), `joint` (`offset`, `precision_gain`, `reduced_chi2`; or null), `joint_vibration`, `warnings`
- * about all channels, and `channels`: the reports of R, G1, G2 and B, in this order. */
+/** Returns the reports of a mosaic as one JSON object, schema "itk-sensornoise-report/1". Its members are `schema`,
+ * `version`, `input` (if it was requested), `bayer` (`pattern`, `source`), `joint` (`offset`, `precision_gain`,
+ * `reduced_chi2`; or null), `joint_vibration` (`sd_x`, `sd_y`, `covariance`, `motion`; or null), `warnings` about all
+ * channels, and `channels`: the reports of R, G1, G2 and B, in this order. */
 SensorNoise_EXPORT std::string
 ToJson(const ChannelReports & reports);
 
 /** Returns the reports of a mosaic as a table for people, one line per channel, as in Table 6 of Sur & Grédiac 2015.
- * Motion and flicker follow after the parameters of the sensor, then the joint offset. It has no warnings. */
+ * The columns are the parameters of the sensor, the motion and the flicker. The joint offset and the joint vibration
+ * follow below, if they were measured. The table has no warnings. */
 SensorNoise_EXPORT std::string
 MakeTable(const ChannelReports & reports);
 

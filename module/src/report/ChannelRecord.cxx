@@ -17,7 +17,7 @@ namespace sensornoise
 
 namespace
 {
-/** A column of the table. */
+/** Column of the table of channels: a quantity. Title and unit are in ASCII. */
 struct Column
 {
   const char * title;
@@ -41,7 +41,7 @@ Columns()
   return columns;
 }
 
-/** The value with its error; what limits it; or why there is none. */
+/** Returns the value with its error, else the upper limit, else the name of the status. */
 std::string
 CellOf(const Quantity & quantity)
 {
@@ -58,7 +58,8 @@ CellOf(const Quantity & quantity)
   return NameOf(quantity.status);
 }
 
-/** Rows of cells, each column as wide as its widest cell. */
+/** Returns the rows as text, each column as wide as its widest cell and two blanks. All rows have the same number of
+ * cells. */
 std::string
 Align(const std::vector<std::vector<std::string>> & rows)
 {
@@ -83,6 +84,7 @@ Align(const std::vector<std::vector<std::string>> & rows)
   return table;
 }
 
+/** Returns a line about the joint offset, or about the contradiction between the channels. */
 std::string
 DescribeJoint(const JointOffset & joint)
 {
@@ -93,6 +95,8 @@ DescribeJoint(const JointOffset & joint)
   return "joint offset: " + CellOf(joint.offset) + " DN, " + Rounded(*joint.precisionGain) +
          " times as precise as the best channel's (chi2 of the four " + Rounded(joint.reducedChi2) + ")\n";
 }
+
+/** Returns a line about the joint vibration. */
 std::string
 DescribeMotion(const JointMotion & motion)
 {
@@ -176,7 +180,7 @@ std::vector<Warning>
 WarningsOf(const ChannelReports & reports)
 {
   std::vector<Warning>     all = reports.warnings;
-  std::vector<std::string> channels; // that have it, of each warning of a channel
+  std::vector<std::string> channels; // for each of ofChannels: names of the channels with this warning
   std::vector<Warning>     ofChannels;
   for (const Report & channel : reports.channels)
   {

@@ -21,13 +21,14 @@ namespace sensornoise
 
 namespace
 {
-/** A number and its standard error. */
+/** Number with its standard error, which is above 0. Both have the unit of the quantity. */
 struct Measurement
 {
   double value;
   double error;
 };
 
+/** Returns the value and the standard error of a quantity; null: it lacks one of them. */
 std::optional<Measurement>
 MeasurementOf(const Quantity & quantity)
 {
@@ -38,7 +39,7 @@ MeasurementOf(const Quantity & quantity)
   return Measurement{ *quantity.value, *quantity.standardError };
 }
 
-/** Whether the offset of a report was told to it, without an own look at dark frames. */
+/** Returns whether the dark offset was given as a number, without dark frames. */
 bool
 IsOffsetGiven(const Report & report)
 {
@@ -47,6 +48,7 @@ IsOffsetGiven(const Report & report)
   });
 }
 
+/** Returns the weighted mean of the measured offsets; null: fewer than two channels measured an offset. */
 std::optional<JointOffset>
 JoinOffsets(const std::array<Report, 4> & channels)
 {
@@ -81,7 +83,7 @@ JoinOffsets(const std::array<Report, 4> & channels)
   }
   JointOffset joint;
   joint.reducedChi2 = chi2 / dof;
-  // More than chance: whatever it is that makes them differ is in the mean, too.
+  // If the offsets differ by more than chance (5 %), the cause of the difference is an error of the mean, too.
   const bool   isMore = chi2 > ChiSquareQuantile(0.95, dof);
   const double error = std::sqrt((isMore ? joint.reducedChi2 : 1.0) / weights);
   if (error < best)
@@ -96,7 +98,8 @@ JoinOffsets(const std::array<Report, 4> & channels)
   return joint;
 }
 
-/** The two greens have the same filter, pixel and amplifier: gains that differ tell of something else. */
+/** Warns if the gains of the two greens differ. Their filters, pixels and amplifiers are equal, so that a difference
+ * shows another pattern, or rows with different amplifiers. */
 void
 CompareGreens(ChannelReports & reports)
 {
@@ -121,7 +124,7 @@ CompareGreens(ChannelReports & reports)
   }
 }
 
-/** The mean level of the pixels used of a plane; null: none are [DN]. */
+/** Returns the mean level of the used pixels of a plane [DN]; null: no pixels are used. */
 std::optional<double>
 MeanLevelOf(const Report & report)
 {
@@ -135,9 +138,9 @@ MeanLevelOf(const Report & report)
   return pixels > 0.0 ? std::optional<double>(sum / pixels) : std::nullopt;
 }
 
-/** All planes see one scene, each through its colour: the two planes of one colour have the same mean level, as far as
- * noise and edges let them. If the two that are not called green are alike, and those that are differ, they are the
- * greens. */
+/** Warns if the levels contradict the pattern. All planes show one scene, each through its colour filter: two planes of
+ * one colour have the same mean level, except for noise and edges. If the planes called red and blue have equal levels,
+ * and the planes called green have different levels, then red and blue are the greens. */
 void
 CompareLevels(ChannelReports & reports)
 {
@@ -164,7 +167,8 @@ CompareLevels(ChannelReports & reports)
   }
 }
 
-/** Found from the codes of each plane, of which some are darker than others: the converter has one. */
+/** Sets the bit depth of all channels that have one to the largest of them. A dark plane may show too small a bit
+ * depth, but all planes have one converter. */
 void
 ShareBitDepth(std::array<Report, 4> & channels)
 {
@@ -233,22 +237,23 @@ MakeChannelReports(BayerPattern pattern, BayerSource source, std::array<Report, 
 
 namespace
 {
+/** Shift (x, y) of every frame [pixel]; NaN: the frame is left out. */
 using Motion = std::vector<std::array<double, 2>>;
 
-/** Not where the frame is left out. */
+/** Returns whether the shift of a frame is known; the shift of a frame that is left out is NaN. */
 bool
 IsKnown(const std::array<double, 2> & shift)
 {
   return std::isfinite(shift[0]);
 }
 
-/** The mean of two planes that together have every column and every row, less its mean over time. */
+/** Returns the mean of two motions, minus its mean over time [pixel]. Both motions have the same number of frames. */
 Motion
 MeanOf(const Motion & first, const Motion & second)
 {
   Motion                mean(first.size());
   std::array<double, 2> sum{};
-  double                known = 0.0; // frames
+  double                known = 0.0; // number of frames with a known shift
   for (std::size_t t = 0; t < mean.size(); ++t)
   {
     for (std::size_t axis = 0; axis < 2; ++axis)
@@ -266,19 +271,23 @@ MeanOf(const Motion & first, const Motion & second)
   return mean;
 }
 
-/** Sums of products over time, over the frames less one, of R and B's motion with G1 and G2's. */
+/** Variances and covariance of the motion, from products of the mean motion a of R and B with the mean motion b of G1
+ * and G2. Each sum over time is divided by the number of frames minus 1. The noise of a and the noise of b are
+ * independent, and do not bias the products. */
 struct JointProducts
 {
-  double dof{ 0.0 };            ///< frames that differ, less one
-  double square[2]{ 0.0, 0.0 }; ///< along each axis: the noise is not in it [pixel^2]
-  double noise[2]{ 0.0, 0.0 };  ///< the variance of what both differ by [pixel^2]
-  double covariance{ 0.0 };     ///< of the axes [pixel^2]
+  double dof{ 0.0 };            ///< degrees of freedom: number of distinct frames minus 1
+  double square[2]{ 0.0, 0.0 }; ///< variance of the motion along x and y, without noise [pixel^2]
+  double noise[2]{ 0.0, 0.0 };  ///< variance of a - b along x and y [pixel^2]
+  double covariance{ 0.0 };     ///< covariance of the motions along x and along y [pixel^2]
 
+  /** Returns the standard error of square[axis] [pixel^2]. */
   double
   ErrorOfSquare(std::size_t axis) const
   {
     return std::sqrt((std::max(0.0, square[axis]) * noise[axis] + 0.25 * noise[axis] * noise[axis]) / dof);
   }
+  /** Returns the standard error of the covariance [pixel^2]. */
   double
   ErrorOfCovariance() const
   {
@@ -287,6 +296,7 @@ struct JointProducts
   }
 };
 
+/** Returns the products of the motions \a a and \a b, which have the same number of frames. */
 JointProducts
 ProductsOf(const Motion & a, const Motion & b, std::size_t framesDistinct)
 {
@@ -311,7 +321,7 @@ ProductsOf(const Motion & a, const Motion & b, std::size_t framesDistinct)
   return products;
 }
 
-/** The smallest standard error that a plane has of it; 0: none has one. */
+/** Returns the smallest standard error of a quantity among the channels, in its unit; 0: no channel has one. */
 double
 SmallestError(const std::array<Report, 4> & channels, Quantity Report::* member)
 {
@@ -326,7 +336,8 @@ SmallestError(const std::array<Report, 4> & channels, Quantity Report::* member)
   return smallest.value_or(0.0);
 }
 
-/** Adds what \a quantity differs by from \a joint to its error; its interval does not go below \a lowest. */
+/** Adds the deviation of \a quantity from \a joint to its standard error, as a root sum of squares. The 95 % interval
+ * follows from the new error, and has no values below \a lowest. */
 void
 Widen(Quantity & quantity, const Quantity & joint, double lowest)
 {
@@ -353,6 +364,7 @@ JoinMotion(const std::array<Report, 4> & channels)
   const auto motionOf = [&channels](BayerPlane plane) -> const Motion & {
     return channels.at(static_cast<std::size_t>(plane)).motion;
   };
+  // Each of the two pairs samples every column and every row of the mosaic.
   const Motion        redBlue = MeanOf(motionOf(BayerPlane::R), motionOf(BayerPlane::B));
   const Motion        greens = MeanOf(motionOf(BayerPlane::G1), motionOf(BayerPlane::G2));
   const JointProducts products = ProductsOf(redBlue, greens, channels.front().framesDistinct);

@@ -8,17 +8,19 @@
 namespace sensornoise
 {
 
-/** The numbers of the room `report`. */
+/** Constants of the component `report`. */
 struct ReportConstants
 {
-  /** Difference of the gains of the two greens, relative to them, from which on it counts [1]. Set by hand: what is
-   * smaller matters to nobody. */
+  /** Least difference of the gains of the two greens, relative to their mean, that is reported [1]. Chosen by the size
+   * of the effect: a difference of 0.5 % has no practical consequence. */
   double leastGreenDifference{ 0.005 };
-  /** Difference of the mean levels of the two planes called green, relative to that of green to the two others, from
-   * which on they are no greens [1]: as InMoments.leastColourDifference; planes of one colour differ by what the scene
-   * has within a pixel, less than a hundredth. The two others are alike if they differ by less than this part of it
-   * [1]. Chosen empirically. */
+  /** Least difference of the mean levels of the two planes called green, for which they are not the greens [1]. It is
+   * relative to the larger of two differences: between the mean of the greens and the mean of the two other planes, and
+   * between the two other planes. It equals InMoments.leastColourDifference. Planes of one colour differ by less than
+   * 0.01, the contrast of the scene within a pixel. */
   double leastLevelDifference{ 0.08 };
+  /** Difference of the mean levels of the planes called red and blue, relative to the difference of the two planes
+   * called green, below which red and blue are of one colour [1]. Chosen empirically. */
   double largestLevelDifference{ 0.1 };
 };
 

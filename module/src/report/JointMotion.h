@@ -14,13 +14,18 @@
 namespace sensornoise
 {
 
-/** Of the reports of the planes R, G1, G2, B, in this order; null unless all four have a motion. The standard
- * deviations are roots of the covariance of R and B's mean with G1 and G2's, which share no noise. Each error is the
- * one that follows, and the smallest of the planes' own, which holds what all have in common. */
+/** Returns the joint motion of the planes, whose reports are in the order of BayerPlanes; null: a report has no motion,
+ * or motion of another number of frames.
+ *
+ * Let a be the mean motion of R and B, and b the mean motion of G1 and G2. The variance along an axis is the covariance
+ * of a and b, which contains no noise because the noise of a and the noise of b are independent. Each standard error is
+ * the root sum of squares of two errors: the error from the noise of a and b, and the smallest standard error among the
+ * planes, which contains the errors common to all planes. Estimator.md, 3.3. */
 SensorNoise_EXPORT std::optional<JointMotion>
 JoinMotion(const std::array<Report, 4> & channels);
 
-/** Adds what each plane's vibration differs by from that of all to its error and interval. */
+/** Adds the deviation of the vibration of each channel from the joint vibration to its standard error, as a root sum of
+ * squares, and widens its 95 % interval accordingly. */
 SensorNoise_EXPORT void
 WidenVibration(std::array<Report, 4> & channels, const JointMotion & joint);
 

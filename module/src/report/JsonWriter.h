@@ -17,15 +17,18 @@ namespace sensornoise
 
 /** \class JsonWriter
  * \brief Appends JSON to a string.
- * Numbers are the shortest that read back as the same double; NaN and infinity, which JSON
- * does not know, are null. */
+ *
+ * A number has the fewest digits that are read back as the same double. NaN and infinity are written as null, because
+ * JSON cannot represent them. Strings are UTF-8; quotes, backslashes and control characters are escaped. */
 class SensorNoise_EXPORT JsonWriter
 {
 public:
+  /** Constructs a writer that appends to \a text, which must outlive the writer. */
   explicit JsonWriter(std::string & text)
     : m_Text(text)
   {}
 
+  /** Writes a value: a number, true or false, a string, an array, or null for an empty optional. */
   void
   Write(double number);
   void
@@ -71,7 +74,8 @@ public:
   {
     this->WriteList(values);
   }
-  /** Any other type: by a function WriteJson(JsonWriter &, const T &) beside it. */
+  /** Writes a value of another type. It calls the function WriteJson(JsonWriter &, const T &) in the namespace of the
+   * type. */
   template <typename T>
   void
   Write(const T & value)
@@ -79,7 +83,7 @@ public:
     WriteJson(*this, value);
   }
 
-  /** Writes {...} around the members that \a members writes. */
+  /** Writes an object. \a members() writes its members. */
   template <typename TMembers>
   void
   Object(TMembers members)
@@ -90,6 +94,7 @@ public:
     m_Text += '}';
     m_First = false;
   }
+  /** Writes a member of the current object, and returns the writer for the next one. */
   template <typename T>
   JsonWriter &
   Member(const char * name, const T & value)
@@ -99,6 +104,7 @@ public:
     m_First = false;
     return *this;
   }
+  /** Writes a member that is an object. \a members() writes its members. Returns the writer. */
   template <typename TMembers>
   JsonWriter &
   ObjectMember(const char * name, TMembers members)
@@ -109,6 +115,7 @@ public:
   }
 
 private:
+  /** Writes the name of a member with its colon, after a comma unless the member is the first one. */
   void
   Name(const char * name);
   template <typename TValues>
@@ -127,7 +134,7 @@ private:
   }
 
   std::string & m_Text;
-  bool          m_First{ true };
+  bool          m_First{ true }; // the current object has no member yet
 };
 
 } // namespace sensornoise

@@ -17,7 +17,7 @@ namespace sensornoise
 
 namespace
 {
-/** Whether two intervals have a number in common; an end that is missing is not bounded. */
+/** Returns whether two intervals overlap. A bound that is null is infinite. */
 bool
 Overlap(const Interval & a, const Interval & b)
 {
@@ -26,6 +26,7 @@ Overlap(const Interval & a, const Interval & b)
          b.low.value_or(-infinity) <= a.high.value_or(infinity);
 }
 
+/** Returns a positive quantity with its final status; \a mayBeZero: 0 is one of its possible values. */
 Quantity
 FiledPositive(const Quantity & quantity, bool mayBeZero)
 {
@@ -43,6 +44,7 @@ FiledPositive(const Quantity & quantity, bool mayBeZero)
   return Quantity::Without(EstimateStatus::NotIdentifiable, quantity.bracket ? quantity.bracket : known);
 }
 
+/** Returns a dark offset with its final status. \a signalDn is the signal of the brightest pixels [DN]. */
 Quantity
 FiledOffset(const Quantity & quantity, double signalDn)
 {
@@ -131,9 +133,10 @@ SetSensorParameters(Report & report, EstimateStatus status)
 
 namespace
 {
-/** Warnings that contradict the dark level, and the read noise, which is the noise at that level. */
+/** Warnings that contradict the dark offset, and with it the read noise. */
 constexpr std::array AgainstDarkLevel{ WarningCode::DarkFramesDiffer, WarningCode::OffsetOutOfRange };
 
+/** Replaces the value of an identified quantity, or its upper limit, by a status without a value. */
 void
 WithdrawIfIdentified(Quantity & quantity, EstimateStatus status)
 {
@@ -143,7 +146,7 @@ WithdrawIfIdentified(Quantity & quantity, EstimateStatus status)
   }
 }
 
-/** Takes back what depends on the offset: the read noise, and the offset's part of the covariance. */
+/** Withdraws the quantities that depend on the offset: the read noise, and the covariances of the offset. */
 void
 WithdrawReadNoise(Report & report, EstimateStatus status)
 {
@@ -161,6 +164,7 @@ WithdrawReadNoise(Report & report, EstimateStatus status)
   }
 }
 
+/** Withdraws offset and read noise if a warning contradicts them. */
 void
 WithdrawDarkLevel(Report & report)
 {
@@ -174,6 +178,7 @@ WithdrawDarkLevel(Report & report)
   }
 }
 
+/** Withdraws a vibration that is above LargestVibrationPixels. */
 void
 WithdrawVibration(Report & report)
 {
@@ -187,6 +192,7 @@ WithdrawVibration(Report & report)
   }
 }
 
+/** Withdraws all parameters of the sensor, and adds a warning with the reason \a contradiction, a clause. */
 void
 WithdrawGain(Report & report, EstimateStatus status, const std::string & contradiction)
 {
@@ -196,6 +202,7 @@ WithdrawGain(Report & report, EstimateStatus status, const std::string & contrad
               contradiction + ", so no gain is given. Record one unprocessed burst of one scene, with more lit frames");
 }
 
+/** Withdraws a gain whose line the variance does not follow, or that Filed() does not identify. */
 void
 WithdrawContradictedGain(Report & report)
 {
@@ -223,7 +230,8 @@ WithdrawContradictedGain(Report & report)
   }
 }
 
-/** The signal of the brightest pixels that are used, above the offset \a quantity [DN]; infinite where none are. */
+/** Returns the signal of the brightest intensity bin: its mean level minus the offset \a quantity [DN]; infinite: there
+ * are no bins, or the offset has no value. */
 double
 SignalAbove(const Report & report, const Quantity & quantity)
 {
@@ -242,7 +250,8 @@ FileStatuses(Report & report)
   const bool hadOffset = report.offset.status == EstimateStatus::Identified;
   for (const QuantityEntry & entry : QuantityList())
   {
-    // The list is also that of reports which must not be changed; this one may be.
+    // QuantityEntry::of returns a pointer to const, because it also reads constant reports. This report is not
+    // constant.
     if (auto * const quantity = const_cast<Quantity *>(entry.of(report)))
     {
       const double signalDn = entry.domain == QuantityDomain::Offset ? SignalAbove(report, *quantity) : 0.0;

@@ -9,57 +9,73 @@
 namespace sensornoise
 {
 
-/** Standard error of a positive quantity that is a number, relative to its value [1]. Chosen: a number that is wrong by
- * half of itself once in three times says no more than its order of magnitude. */
+/** Largest standard error of an identified positive quantity, relative to its value [1]. Chosen by the size of the
+ * effect: with a larger error one value in three is wrong by more than half of itself, and gives only the order of
+ * magnitude. */
 inline constexpr double LargestRelativeError = 0.5;
-/** Width of the 95 % interval of an offset that is a number, relative to the signal of the brightest pixels [1].
- * Chosen: an offset that is less certain leaves every signal, and so the flicker, uncertain by an eighth or more. */
+/** Largest width of the 95 % interval of an identified offset, relative to the signal of the brightest pixels [1].
+ * Chosen by the size of the effect: with a wider interval every signal, and with it the flicker, is uncertain by 1/8 or
+ * more. */
 inline constexpr double LargestOffsetInterval = 0.25;
 
-/** The rule by which a quantity that was estimated is identified, or is not. The one place where that is decided.
+/** Returns the quantity with its final status, by its domain. All estimated quantities get their status here.
  *
  * A positive quantity is `identified` if its 95 % interval excludes 0 and its standard error is at most
- * LargestRelativeError of it. Otherwise it is an `upper-limit` where the interval holds 0 and 0 is one of its values
- * (QuantityDomain::NonNegative), else `not-identifiable`, and its interval becomes its bracket. An offset, of which 0
- * is a value like others, is `identified` if its interval overlaps its bracket, else `failed`, and if the interval is
- * narrower than LargestOffsetInterval of \a signalDn, the signal of the brightest pixels. A quantity of any sign needs
- * an interval with two ends. A quantity without an interval, as the published method has, or without a value, is
- * returned as it is. */
+ * LargestRelativeError times its value. If the interval contains 0 and the domain is QuantityDomain::NonNegative, it is
+ * an `upper-limit`. Otherwise it is `not-identifiable`.
+ *
+ * An offset is `failed` if its interval does not overlap its bounds (Quantity::bracket). It is `identified` if the
+ * width of the interval is at most LargestOffsetInterval times \a signalDn, the signal of the brightest pixels [DN].
+ * Otherwise it is `not-identifiable`.
+ *
+ * A quantity of any sign is `identified` if its interval has two bounds, and otherwise `not-identifiable`.
+ *
+ * A quantity that becomes `not-identifiable` keeps its bounds, or gets its interval as bounds. A quantity that is not
+ * `identified`, or has no value or no interval, is returned unchanged. The published method gives no intervals. */
 SensorNoise_EXPORT Quantity
 Filed(const Quantity & quantity, QuantityDomain domain, double signalDn = 0.0);
 
-/** A value with its standard error and 95 % interval. */
+/** Returns an identified quantity with its standard error and its 95 % interval: \a value +- \a student times
+ * \a standardError. \a student is the 97.5 % quantile of Student's distribution [1], by default for many degrees of
+ * freedom. */
 SensorNoise_EXPORT Quantity
 WithError(double value, double standardError, double student = 1.96);
 
-/** What is not distinguishable from 0: no value, and an interval up to \a high. */
+/** Returns a quantity that is not distinguished from 0: it has no value, and interval and bounds from 0 to \a high. */
 SensorNoise_EXPORT Quantity
 UpperLimit(double high);
 
-/** A root of a squared quantity, Filed() as one that is not negative: its interval is the root of the square's, cut at
- * 0. Noise that carried the square below 0 does not lower an upper limit. */
+/** Returns the square root of an estimate with its final status, see Filed(), as a quantity of 0 or more. \a
+ * standardError is the standard error of \a square. The 95 % interval contains the roots of the interval of the square;
+ * negative values count as 0. A negative estimate does not lower the upper limit. */
 SensorNoise_EXPORT Quantity
 RootOf(double square, double standardError, double student = 1.96);
 
-/** Marks every parameter of the sensor \a status, without a value. */
+/** Sets the status of all parameters of the sensor, and removes their values: gain, variance slope, offset, read noise
+ * (also in electrons), intercept and total intercept. */
 SensorNoise_EXPORT void
 SetSensorParameters(Report & report, EstimateStatus status);
 
-/** The variance's reduced chi-square about its line, below which the line is not that of the variance: it scatters less
- * than chance allows [1]. Chosen empirically: of 121 simulated bursts under changing illumination whose gain was right
- * the least was 0.50; those whose gain was wrong by more than a tenth had 0.003 to 0.1. How much more than by chance it
- * may scatter depends on the method, as responses bend. */
+/** Least reduced chi-square of the variance about its line for which the gain is valid [1]. Below it the variance
+ * scatters less than chance allows, and the line is wrong. Chosen empirically on 121 simulated bursts under changing
+ * illumination: the least value with a correct gain was 0.50, and gains that were wrong by more than 10 % had 0.003 to
+ * 0.1. Each method has its own upper limit, because responses may be non-linear. */
 inline constexpr double LeastReducedChi2 = 0.2;
-/** Standard deviation of the motion along an axis beyond which it is no motion of the scene [pixel]: the flicker of a
- * ramp looks like it. Chosen empirically: where a simulated scene moved by so much, none was measured. */
+/** Largest standard deviation of the motion along an axis that is reported [pixel]. A larger one is not a motion of the
+ * scene, but for example the flicker of a ramp, which looks like a shift. Chosen empirically: no motion was measured in
+ * simulated scenes that moved this far. */
 inline constexpr double LargestVibrationPixels = 5.0;
 
-/** Gives each quantity of the report its final status. First every quantity that a warning of the report contradicts
- * becomes `failed`: offset and read noise after `dark-frames-differ`, and `offset-out-of-range`, and a vibration that
- * is too large to be one. Then all quantities of QuantityList() pass Filed(). Without its gain a report keeps no
- * parameter of the sensor, and has the warning `contradicted`; without its offset it keeps no read noise that depends
- * on the offset. The function may be called again: it changes nothing then.
- */
+/** Gives each quantity of the report its final status.
+ *
+ * First it withdraws the quantities that the report contradicts. Offset and read noise become `failed` after the
+ * warning `dark-frames-differ` or `offset-out-of-range`. A vibration above LargestVibrationPixels becomes `failed`. A
+ * gain whose reduced chi-square is below LeastReducedChi2 becomes `failed`, and a gain that Filed() does not identify
+ * gets the status from there. All parameters of the sensor then get the status of the gain, and the warning
+ * `contradicted` is added.
+ *
+ * Then all quantities of QuantityList() pass Filed(). If this withdraws the offset, the read noise gets the status of
+ * the offset. A second call changes nothing. */
 SensorNoise_EXPORT void
 FileStatuses(Report & report);
 

@@ -13,6 +13,7 @@ namespace sensornoise
 
 namespace
 {
+/** Returns a quantity of the report, for QuantityEntry::of. */
 template <Quantity Report::* VMember>
 const Quantity *
 OfReport(const Report & report)
@@ -20,6 +21,7 @@ OfReport(const Report & report)
   return &(report.*VMember);
 }
 
+/** Returns a quantity of the noise correlation; null: the noise correlation was not measured. */
 template <Quantity NoiseCorrelationRecord::* VMember>
 const Quantity *
 OfNoise(const Report & report)
@@ -28,6 +30,7 @@ OfNoise(const Report & report)
 }
 using Noise = NoiseCorrelationRecord;
 
+/** Returns a quantity of the linearity. */
 template <Quantity LinearityRecord::* VMember>
 const Quantity *
 OfLinearity(const Report & report)
@@ -180,7 +183,7 @@ QuantityList()
   return list;
 }
 
-/** Found by JsonWriter, as all that it writes. */
+/** Writes an entry of the catalogue. JsonWriter::Write() calls these functions by their argument. */
 static void
 WriteJson(JsonWriter & json, const WarningKind & kind)
 {

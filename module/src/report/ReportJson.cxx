@@ -52,7 +52,7 @@ WriteJson(JsonWriter & json, const LeftOutFrame & frame)
   json.Object([&] { json.Member("frame", frame.frame).Member("reason", NameOf(frame.fault)); });
 }
 
-/** Found by JsonWriter, as all that it writes. */
+/** Writes a part of the record. JsonWriter::Write() calls these functions by their argument. */
 static void
 WriteJson(JsonWriter & json, const SingleImageRecord::Line & line)
 {
@@ -88,14 +88,15 @@ WriteQuantity(JsonWriter & json, const char * name, const Quantity & quantity, c
 
 namespace
 {
-/** Those of \a report whose path is \a object and a name, for example "vibration."; "": those of the record itself. */
+/** Writes the quantities of \a report whose path is \a object and a name. \a object ends with a dot, for example
+ * "vibration.", or is "" for the quantities of the record itself. */
 void
 WriteQuantities(JsonWriter & json, const Report & report, const std::string & object)
 {
   for (const QuantityEntry & entry : QuantityList())
   {
     const std::string path = entry.path;
-    const std::size_t dot = path.rfind('.') + 1; // 0: none
+    const std::size_t dot = path.rfind('.') + 1; // where the name begins
     const Quantity *  quantity = entry.of(report);
     if (quantity != nullptr && path.substr(0, dot) == object)
     {
@@ -105,7 +106,6 @@ WriteQuantities(JsonWriter & json, const Report & report, const std::string & ob
 }
 } // namespace
 
-/** A lag in space is [x, y], in pixels; one in time a number of frames. */
 void
 WriteJson(JsonWriter & json, const NoiseCorrelationRecord::Lag & lag)
 {
@@ -171,7 +171,7 @@ WriteJson(JsonWriter & json, const LinearityRecord::Level & level)
 
 namespace
 {
-/** The linearity; without exposures, too, so that programs find the status. */
+/** Writes the linearity. The member is present without exposures, too, so that programs can read its status. */
 void
 WriteLinearity(JsonWriter & json, const Report & report)
 {
@@ -185,6 +185,7 @@ WriteLinearity(JsonWriter & json, const Report & report)
   });
 }
 
+/** Writes the identification of the frames, as members of the current object. */
 void
 WriteFiles(JsonWriter & json, const InputFiles & input)
 {
@@ -208,6 +209,7 @@ WriteJson(JsonWriter & json, const InputRecord & input)
 
 namespace
 {
+/** Writes a polynomial as member \a name; null: it was not fitted. \a isCurved: it is a parabola. */
 void
 WriteBaseline(JsonWriter & json, const char * name, const std::optional<Report::Baseline> & fit, bool isCurved)
 {
@@ -225,7 +227,8 @@ WriteBaseline(JsonWriter & json, const char * name, const std::optional<Report::
   });
 }
 
-/** What the frames' file says of the camera, if anything; numbers that it does not say are null. */
+/** Writes the settings of the camera that the file records, if there are any. Settings that are not recorded are null.
+ */
 void
 WriteCamera(JsonWriter & json, const CameraSettings & camera)
 {
@@ -245,7 +248,7 @@ WriteCamera(JsonWriter & json, const CameraSettings & camera)
   });
 }
 
-/** The stack itself and its pixels. */
+/** Writes the properties of the stack and the numbers of its pixels. */
 void
 WriteStack(JsonWriter & json, const Report & report)
 {
@@ -264,7 +267,7 @@ WriteStack(JsonWriter & json, const Report & report)
   });
 }
 
-/** Every quantity, and the errors that the sensor's share. */
+/** Writes all quantities, and the covariance matrix of the errors of gain, intercept and offset. */
 void
 WriteAllQuantities(JsonWriter & json, const Report & report)
 {
@@ -276,7 +279,7 @@ WriteAllQuantities(JsonWriter & json, const Report & report)
   });
 }
 
-/** The light and the floor, frame by frame. */
+/** Writes flicker and motion of every frame. */
 void
 WriteSeries(JsonWriter & json, const Report & report)
 {
@@ -286,7 +289,7 @@ WriteSeries(JsonWriter & json, const Report & report)
   json.Member("motion", report.motion.empty() ? std::optional<std::vector<std::array<double, 2>>>() : report.motion);
 }
 
-/** How well the model fits, and what simpler ones would say. */
+/** Writes the quality of the fits, and the polynomials through the uncorrected variance for comparison. */
 void
 WriteFit(JsonWriter & json, const Report & report)
 {

@@ -22,6 +22,7 @@ namespace sensornoise
 
 namespace
 {
+/** Returns the arguments formatted as by std::printf, at most 255 bytes. */
 template <typename... TArguments>
 std::string
 Format(const char * format, TArguments... arguments)
@@ -31,20 +32,21 @@ Format(const char * format, TArguments... arguments)
   return buffer;
 }
 
+/** Returns the number with five digits; "-": null. */
 std::string
 Number(const std::optional<double> & number)
 {
   return number ? Format("%.5g", *number) : "-";
 }
 
-/** The 95 % interval if there is one, else the bracket. */
+/** Returns the 95 % interval; null: the bounds. */
 const std::optional<Interval> &
 RangeOf(const Quantity & quantity)
 {
   return quantity.interval95 ? quantity.interval95 : quantity.bracket;
 }
 
-/** The value; of what is not distinguishable from zero, what it is below. */
+/** Returns the value as text; for an upper limit "< " and the limit. */
 std::string
 Value(const Quantity & quantity)
 {
@@ -53,14 +55,15 @@ Value(const Quantity & quantity)
                                                                                : Number(quantity.value);
 }
 
-/** The value and its error, to two digits of the error. */
+/** Value and standard error of a quantity as text, rounded to two digits of the error. */
 struct RoundedQuantity
 {
   std::string value{};
-  std::string error{};
-  int         decimals{ -1 }; // below 0: there is no error to round to
+  std::string error{};        // with the sign +-; "": no error is known
+  int         decimals{ -1 }; // number of decimals of the value; -1: no error is known
 };
 
+/** Returns the value rounded to its error; without an error as by Value(). */
 RoundedQuantity
 RoundToError(const Quantity & quantity)
 {
@@ -78,7 +81,7 @@ RoundToError(const Quantity & quantity)
   return rounded;
 }
 
-/** An end of an interval: as its value is rounded. */
+/** Returns a bound of an interval, rounded like the value of the quantity. */
 std::string
 End(const std::optional<double> & end, const RoundedQuantity & rounded)
 {
@@ -88,7 +91,7 @@ End(const std::optional<double> & end, const RoundedQuantity & rounded)
            : Number(end);
 }
 
-/** \a hasErrors: with a column for the standard error. */
+/** Returns the row of a quantity; \a hasErrors: the table has a column for the standard error. */
 std::string
 Line(const QuantityEntry & entry, const Quantity & quantity, bool hasErrors)
 {
@@ -101,6 +104,7 @@ Line(const QuantityEntry & entry, const Quantity & quantity, bool hasErrors)
   return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
 }
 
+/** Returns bit depth, quantization step and clip levels, as far as they are known, each after a comma. */
 std::string
 DescribeCodes(const Report & report)
 {
@@ -127,7 +131,7 @@ IsIdentified(const Quantity & quantity)
   return quantity.status == EstimateStatus::Identified;
 }
 
-/** Whether the table has a line for it. */
+/** Returns whether the table has a row for the quantity. */
 bool
 IsShown(const QuantityEntry & entry, const Report & report)
 {
@@ -148,7 +152,7 @@ IsShown(const QuantityEntry & entry, const Report & report)
   return false;
 }
 
-/** " up to 44 %": the correlation coefficient of the lag at which it is largest; "" without lags. */
+/** Returns the correlation coefficient of largest size, for example " up to 44 %"; "": there are no lags. */
 std::string
 LargestCorrelation(const std::vector<NoiseCorrelationRecord::Lag> & lags)
 {
@@ -157,6 +161,7 @@ LargestCorrelation(const std::vector<NoiseCorrelationRecord::Lag> & lags)
   return most == lags.end() ? "" : Format(" up to %.2g %%", 100.0 * most->value);
 }
 
+/** Returns a line that identifies frames; \a what names them. */
 std::string
 DescribeFrames(const char * what, const InputFiles & input)
 {
@@ -330,8 +335,10 @@ MakeText(const Report & report)
 
 namespace
 {
+/** A string, and the string that replaces it. */
 using Replacement = std::pair<const char *, const char *>;
 
+/** Returns the text with the first string of each pair replaced by the second. */
 template <std::size_t VCount>
 std::string
 Replace(std::string text, const std::array<Replacement, VCount> & replacements)
@@ -348,7 +355,7 @@ Replace(std::string text, const std::array<Replacement, VCount> & replacements)
   return text;
 }
 
-/** The blanks that a text lacks. */
+/** Returns the blanks that fill the text up to \a width characters. */
 std::string
 BlanksFor(const std::string & text, std::size_t width)
 {
@@ -380,7 +387,7 @@ WithoutSigns(const std::string & text)
                                                    { "\u00D7", "x" },
                                                    { "\u2013", "-" } } };
   std::string                           ascii;
-  std::size_t                           excess = 0; // characters by which this line has become longer
+  std::size_t                           excess = 0; // number of characters added to the current line
   for (std::size_t at = 0; at < text.size();)
   {
     const auto sign = std::find_if(letters.begin(), letters.end(), [&](const Replacement & letter) {
@@ -404,7 +411,7 @@ WithoutSigns(const std::string & text)
 std::size_t
 CharactersIn(const std::string & text)
 {
-  // bytes 10xxxxxx belong to the character before
+  // A byte 10xxxxxx continues the character before it.
   return static_cast<std::size_t>(
     std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }

@@ -14,41 +14,44 @@
 namespace sensornoise
 {
 
-/** The frames that were measured, or their files, with their hash: a line, with its end, for these and one for dark
- * ones;
- * "" where there is no \a input. */
+/** Returns the identification of the measured frames, and of the dark frames if there are any: number of files, bytes
+ * and SHA-256. Each is one line with its line break. "": \a input is null. */
 std::string
 DescribeInput(const std::optional<InputRecord> & input);
 
-/** How well the line fits, how straight the response is, what the noise is taken for, and what the linearity error
- * rests on, each as a line without its end; "" where the report has nothing of it. */
+/** Returns the quality of the fits: reduced chi-square of the variance about its line, and phi of the offset line. This
+ * and the next functions return one line without a line break. "": not measured. */
 std::string
 DescribeFit(const Report & report);
+/** Returns the largest relative deviation of the variance from its line. */
 std::string
 DescribeResponse(const Report & report);
+/** Returns the noise class, with the largest correlation coefficient, and its effect on the gain. */
 std::string
 DescribeNoise(const Report & report);
+/** Returns the number of exposures that the linearity error is measured from, with saturation level and source of the
+ * offset; or the reason for which there is no linearity error. */
 std::string
 DescribeLinearity(const Report & report);
 
-/** The text with the signs that people write (UTF-8) for those of ASCII that records have: "±", "e⁻", "²". */
+/** Returns the text with signs in UTF-8 ("±", "e⁻", "²") instead of their ASCII form in records ("+-", "e-", "^2"). */
 SensorNoise_EXPORT std::string
 WithSigns(std::string text);
 
-/** Returns the text in ASCII, as far as this library writes it, for terminals that show nothing else. A sign may become
- * several letters. All but one of the blanks behind it may go, so that columns stay in line. */
+/** Returns the text in ASCII, for terminals that show nothing else. It replaces the signs that this library writes. A
+ * sign may become several letters; as many of the next repeated blanks are removed, so that columns stay aligned. */
 SensorNoise_EXPORT std::string
 WithoutSigns(const std::string & text);
 
-/** Counts the characters of a text in UTF-8; a character may have several bytes. */
+/** Returns the number of characters of a text in UTF-8. A character may have several bytes. */
 SensorNoise_EXPORT std::size_t
 CharactersIn(const std::string & text);
 
-/** Blanks behind the text up to \a width characters. */
+/** Returns the text, followed by blanks up to \a width characters. */
 SensorNoise_EXPORT std::string
 PaddedRight(const std::string & text, std::size_t width);
 
-/** Blanks before the text up to \a width characters. */
+/** Returns the text, preceded by blanks up to \a width characters. */
 SensorNoise_EXPORT std::string
 PaddedLeft(const std::string & text, std::size_t width);
 

@@ -23,7 +23,7 @@ namespace sensornoise
 
 namespace
 {
-/** Between which levels the data lie; of floating-point data one end may be open. */
+/** Returns the range of the levels as text [DN]. Floating-point data may have only one clip level. */
 std::string
 TextOfLevels(const CodeRange & codes)
 {
@@ -119,7 +119,7 @@ WarnOfMosaic(Report &                    report,
 {
   if (const auto pattern = RecogniseMosaic(mean, geometry.width, geometry.height, parallelFor))
   {
-    const BayerPattern other = CutPattern(*pattern, 1, 1); // red and blue exchanged
+    const BayerPattern other = CutPattern(*pattern, 1, 1); // with red and blue exchanged
     report.Warn(WarningCode::Mosaic,
                 std::string("the levels of neighbouring pixels alternate as behind a Bayer mosaic, ") +
                   NameOf(*pattern) + " or " + NameOf(other) +
@@ -147,7 +147,7 @@ FillScatter(Report &                          report,
             const std::vector<std::uint8_t> & used,
             const ParallelFor &               parallelFor)
 {
-  // The sums of each bin.
+  // Sums of one intensity bin.
   enum : std::size_t
   {
     Mean,
@@ -193,7 +193,7 @@ FillBaselines(Report & report, const RegressionData & raw, const ParallelFor & p
 
 namespace
 {
-/** "frame 1 equals frame 0, frame 3 equals frame 2, ...": the first ones. */
+/** Returns the first two repeated frames as text: "frame 1 equals frame 0, frame 3 equals frame 2, ...". */
 std::string
 TextOfRepeated(const DistinctFrames & frames)
 {
@@ -213,7 +213,7 @@ TextOfRepeated(const DistinctFrames & frames)
   return text;
 }
 
-/** "frame 3: no-noise, frame 31: other-shape, ...": the first ones. */
+/** Returns the first four frames that are left out as text: "frame 3: no-noise, frame 31: other-shape, ...". */
 std::string
 TextOfLeftOut(const std::vector<LeftOutFrame> & leftOut)
 {
@@ -227,6 +227,8 @@ TextOfLeftOut(const std::vector<LeftOutFrame> & leftOut)
   return text;
 }
 
+/** Replaces the values of the counted frames by values of all given frames; \a ofLeftOut for frames that are left out.
+ * An empty series stays empty. */
 template <typename TValue>
 void
 SpreadOverFrames(std::vector<TValue> & series, const DistinctFrames & frames, const TValue & ofLeftOut)
@@ -237,6 +239,7 @@ SpreadOverFrames(std::vector<TValue> & series, const DistinctFrames & frames, co
   }
 }
 
+/** Returns the subject of a sentence: "2 of 40 frames are". */
 std::string
 OfFrames(std::size_t count, std::size_t all)
 {
@@ -256,7 +259,7 @@ ReportAllFrames(Report & report, const DistinctFrames & frames, const std::vecto
                    frames,
                    std::vector<double>(report.flickerRows.empty() ? 0 : report.flickerRows.front().size(), unknown));
   SpreadOverFrames(report.motion, frames, { unknown, unknown });
-  // In front: what follows is of the frames that are counted.
+  // These warnings come first, because the other ones are about the counted frames only.
   if (frames.Repeated() > 0)
   {
     const Warning warning{ WarningCode::RepeatedFrames,
@@ -316,8 +319,8 @@ ReportLinearity(Report & report, const std::optional<ExposureFit> & fit)
 
 namespace
 {
-/** Whether a warning may be there only because the scene changes: what was clipped was so, and codes are what they are.
- */
+/** Returns whether the change of the scene may be the only cause of a warning. Warnings about clipping and about
+ * digital numbers do not depend on the scene. */
 bool
 MayFollow(WarningCode code)
 {

@@ -104,6 +104,7 @@ NoteSelection(Report & report, const StackSelection & selection)
 
 namespace
 {
+/** Multiplies a value, if there is one, both bounds of an interval, or all numbers of a quantity by \a factor. */
 void
 Multiply(std::optional<double> & number, double factor)
 {

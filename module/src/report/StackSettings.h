@@ -19,27 +19,30 @@
 namespace sensornoise
 {
 
-/** Throws std::invalid_argument if what was selected is not of the size of a stack. */
+/** Throws std::invalid_argument if the selected region has another size than a frame, or if the selected range has
+ * another number of frames than the stack. */
 SensorNoise_EXPORT void
 RequireSelection(const StackSelection & selection, const FrameGeometry & geometry, std::size_t frames);
 
-/** What was read, by a hash that was computed elsewhere. Throws std::invalid_argument unless that is empty or 64
- * hexadecimal digits in small letters. */
+/** Returns the identification of the input with a hash that the caller computed. \a files is the number of files, 0 for
+ * a hash of pixels, and \a bytes the size. Throws std::invalid_argument unless \a sha256 is empty or has 64 hexadecimal
+ * digits in lower case. */
 SensorNoise_EXPORT InputFiles
 InputFilesOf(const std::string & sha256, std::size_t files, std::uint64_t bytes);
 
-/** Notes what was given of the codes in the settings of \a report: `bit_depth`, `clip_low`, `clip_high`,
- * `quantisation_step`. What was to be found is left out. */
+/** Records the given properties of the digital numbers in the settings of \a report: `bit_depth` [bit], `clip_low`,
+ * `clip_high` and `quantisation_step` [DN]. A property that is not given has no setting. */
 SensorNoise_EXPORT void
 NoteCodes(Report & report, const CodeSettings & codes);
 
-/** Notes the pixels that a user left in, if there is a \a mask: `mask_crc32`, 8 hexadecimal digits, the CRC-32 (as
- * zlib's and PNG's) of the text "<width>x<height>:" and one byte a pixel, row by row, 1 where the mask is not 0. */
+/** Records the mask of the user in the setting `mask_crc32`, unless \a mask is empty. The setting has 8 hexadecimal
+ * digits: the CRC-32 of zlib and PNG over the text "<width>x<height>:" and one byte per pixel, row by row. The byte is
+ * 1 if the mask is not 0, else 0. */
 SensorNoise_EXPORT void
 NoteMask(Report & report, const FrameGeometry & geometry, const std::vector<std::uint8_t> & mask);
 
-/** Notes what the stack was cut out of: `roi_x`, `roi_y`, `roi_width`, `roi_height` and `frame_range_first`,
- * `frame_range_end`. */
+/** Records the selection in the settings of \a report: the region as `roi_x`, `roi_y`, `roi_width` and `roi_height`
+ * [pixel], the frames as `frame_range_first` and `frame_range_end` (one past the last). */
 SensorNoise_EXPORT void
 NoteSelection(Report & report, const StackSelection & selection);
 
@@ -47,12 +50,15 @@ NoteSelection(Report & report, const StackSelection & selection);
 SensorNoise_EXPORT void
 ValidateExcessNoiseFactor(double factor);
 
-/** Divides the excess noise factor F = \a factor out of the gain: g = slope / F, where the slope is that of the
- * variance against the level. Random amplification of each electron by M on average makes the variance F M^2 N of N
- * electrons, whose level is M N: the slope is F M, and a burst alone tells F and M not apart (Robbins & Hadwen 2003,
- * https://doi.org/10.1109/TED.2003.813462). The gain, those of the parts, their errors, its part of the covariance, and
- * the read noise in electrons change; everything in DN stays as it is, variance slope and intercepts included. The
- * factor is noted in the settings. A factor of 1 changes nothing. */
+/** Divides the gain by the excess noise factor F = \a factor [1].
+ *
+ * A random amplification by M on average gives N electrons the level M N and the variance F M^2 N. The slope of the
+ * variance against the level is F M, and a burst alone does not determine F and M separately (Robbins & Hadwen 2003,
+ * https://doi.org/10.1109/TED.2003.813462).
+ *
+ * The function changes the gain, the gains of parts, their errors, the covariances of the gain, and the read noise in
+ * electrons. The variance slope and all quantities in DN or DN^2 do not change. The settings record the factor as
+ * `excess_noise_factor`. A factor of 1 changes nothing. */
 SensorNoise_EXPORT void
 DivideExcessNoise(Report & report, double factor);
 
