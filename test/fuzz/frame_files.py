@@ -150,10 +150,29 @@ def _swapped(frame: bytes) -> bytes:
     return b"".join(frame[k + 1 : k + 2] + frame[k : k + 1] for k in range(0, len(frame), 2))
 
 
+def _tiles(frame: bytes, columns: int, rows: int) -> list[bytes]:
+    """Returns the tiles of a frame, from left to right, then downwards. Zeros fill them up at the edges."""
+    lines = [frame[k : k + 2 * WIDTH] for k in range(0, len(frame), 2 * WIDTH)]
+    return [
+        b"".join(line[x : x + 2 * columns].ljust(2 * columns, b"\0") for line in lines[y : y + rows]).ljust(
+            2 * columns * rows, b"\0"
+        )
+        for y in range(0, HEIGHT, rows)
+        for x in range(0, 2 * WIDTH, 2 * columns)
+    ]
+
+
 def _tiff(
-    name: str, frames: list[bytes], compression: str, order: str = "<", rows: int = HEIGHT, big: bool = False
+    name: str,
+    frames: list[bytes],
+    compression: str,
+    order: str = "<",
+    rows: int = HEIGHT,
+    big: bool = False,
+    columns: int = 0,
 ) -> File:
-    """Pages with their pixels before their directory; strips of `rows` rows."""
+    """Pages with their pixels before their directory; strips of `rows` rows, or tiles of `columns` columns and `rows`
+    rows."""
     code, pack, kind = _TIFF[compression]
     offset, count = ("Q", "Q") if big else ("I", "H")
     made = File(name, b"")
@@ -162,22 +181,26 @@ def _tiff(
     link = 8 if big else 4  # where the offset of the next directory goes
     for frame in map(_swapped, frames) if order == ">" else frames:
         step = 2 * WIDTH * rows
-        strips = [pack(frame[k : k + step]) for k in range(0, len(frame), step)]
+        pieces = [frame[k : k + step] for k in range(0, len(frame), step)]
+        strips = [pack(piece) for piece in (_tiles(frame, columns, rows) if columns else pieces)]
         offsets = []
         for strip in strips:
             offsets.append(len(made.data))
             getattr(made, kind).append((len(made.data), len(made.data) + len(strip)))
             made.data += strip
         tables = {}
-        for tag, values in ((273, offsets), (279, [len(strip) for strip in strips])):
+        places, sizes = (324, 325) if columns else (273, 279)
+        for tag, values in ((places, offsets), (sizes, [len(strip) for strip in strips])):
             tables[tag] = values
             if len(values) > 1:
                 tables[tag] = [len(made.data)]
                 made.data += struct.pack(order + f"{len(values)}I", *values)
         made.data += b"\0" * (len(made.data) % 2)
         entries = [(256, 3, 1, WIDTH), (257, 3, 1, HEIGHT), (258, 3, 1, 16), (259, 3, 1, code), (262, 3, 1, 1)]
-        entries += [(273, 4, len(strips), tables[273][0]), (277, 3, 1, 1), (278, 3, 1, rows)]
-        entries += [(279, 4, len(strips), tables[279][0])]
+        entries += [(277, 3, 1, 1)]
+        entries += [(322, 3, 1, columns), (323, 3, 1, rows)] if columns else [(278, 3, 1, rows)]
+        entries += [(tag, 4, len(strips), values[0]) for tag, values in tables.items()]
+        entries.sort()
         directory = len(made.data)
         made.data = (
             made.data[:link] + struct.pack(order + offset, directory) + made.data[link + struct.calcsize(offset) :]
@@ -218,6 +241,10 @@ def tiffs(frames: list[bytes]) -> list[Case]:
         ("tiff strips", dict(compression="none", rows=5)),
         ("tiff deflate strips", dict(compression="deflate", rows=5)),
         ("bigtiff", dict(compression="none", big=True)),
+        ("tiff tiles", dict(compression="none", columns=32, rows=16)),
+        ("tiff deflate tiles", dict(compression="deflate", columns=32, rows=16)),
+        ("tiff lzw tiles", dict(compression="lzw", columns=16, rows=48, order=">")),
+        ("bigtiff tiles", dict(compression="deflate", columns=16, rows=16, big=True)),
     ]
     names = [f"f{t}.tif" for t in range(len(frames))]
     return [Case(name, [_tiff("s.tif", frames, **how)], ["s.tif"]) for name, how in stacks] + [

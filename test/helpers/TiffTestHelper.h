@@ -32,13 +32,15 @@ struct TiffOf
   std::size_t           width{ 13 };
   std::size_t           height{ 9 };
   std::size_t           rowsPerStrip{ 4 };
+  std::size_t           tileWidth{ 0 }; // 0: strips
+  std::size_t           tileLength{ 0 };
   unsigned              bits{ 16 };
   unsigned              compression{ 1 };
   unsigned              predictor{ 1 };                   // of the pixels; the tag is one of `pages`
   std::vector<TiffTags> pages = std::vector<TiffTags>(3); // what each says beyond that or otherwise
-  std::string           strip{};                          // instead of the first strip
+  std::string           strip{};                          // instead of the first strip or tile
   std::size_t           fillUp{ 0 };                      // rows added to the last strip
-  std::int64_t          moveStrip{ 0 };                   // the first strip of the second page [bytes]
+  std::int64_t          moveStrip{ 0 };                   // the first strip or tile of the second page [bytes]
   std::string           between{};                        // bytes before each directory
 
   std::string
@@ -78,17 +80,31 @@ struct TiffOf
     return row;
   }
 
+  /** The value of a pixel, also of one beyond the image, where a tile is filled up. */
+  static std::uint64_t
+  Sample(std::size_t page, std::size_t x, std::size_t y)
+  {
+    return 100 + x * y + 3 * page;
+  }
+
   std::string
   StripOf(std::size_t page, std::size_t firstRow, std::size_t rows) const
+  {
+    return PixelsOf(page, 0, firstRow, width, rows);
+  }
+
+  /** The bytes of a strip or tile. */
+  std::string
+  PixelsOf(std::size_t page, std::size_t firstColumn, std::size_t firstRow, std::size_t columns, std::size_t rows) const
   {
     std::string packed;
     std::string plain;
     for (std::size_t y = firstRow; y < firstRow + rows; ++y)
     {
       std::vector<std::uint64_t> samples;
-      for (std::size_t x = 0; x < width; ++x)
+      for (std::size_t x = firstColumn; x < firstColumn + columns; ++x)
       {
-        samples.push_back(100 + x * y + 3 * page);
+        samples.push_back(Sample(page, x, y));
       }
       const std::string row = Predicted(samples);
       plain += row;
@@ -134,6 +150,32 @@ struct TiffOf
     return table + std::string(word, '\0') + values;
   }
 
+  struct Piece
+  {
+    std::size_t column{ 0 };
+    std::size_t row{ 0 };
+    std::size_t columns{ 0 };
+    std::size_t rows{ 0 };
+  };
+
+  /** The strips or tiles of a page. */
+  std::vector<Piece>
+  Pieces() const
+  {
+    const bool         isTiled = tileWidth > 0;
+    const std::size_t  down = isTiled ? tileLength : rowsPerStrip;
+    const std::size_t  across = isTiled ? tileWidth : width;
+    std::vector<Piece> pieces;
+    for (std::size_t y = 0; y < height; y += down)
+    {
+      for (std::size_t x = 0; x < width; x += across)
+      {
+        pieces.push_back({ x, y, across, isTiled || y + down < height ? down : height - y + fillUp });
+      }
+    }
+    return pieces;
+  }
+
   std::string
   Bytes() const
   {
@@ -144,24 +186,28 @@ struct TiffOf
     tiff += Number(0, word);
     for (std::size_t page = 0; page < pages.size(); ++page)
     {
-      TiffTags tags{ { 256, { 4, { width } } },
-                     { 257, { 4, { height } } },
-                     { 258, { 3, { bits } } },
-                     { 259, { 3, { compression } } },
-                     { 262, { 3, { 1 } } },
-                     { 273, {} },
-                     { 277, { 3, { 1 } } },
-                     { 278, { 4, { rowsPerStrip } } },
-                     { 279, {} } };
-      for (std::size_t y = 0; y < height; y += rowsPerStrip)
+      TiffTags       tags{ { 256, { 4, { width } } },       { 257, { 4, { height } } }, { 258, { 3, { bits } } },
+                           { 259, { 3, { compression } } }, { 262, { 3, { 1 } } },      { 277, { 3, { 1 } } },
+                           { 278, { 4, { rowsPerStrip } } } };
+      const bool     isTiled = tileWidth > 0;
+      const unsigned offsets = isTiled ? 324 : 273;
+      const unsigned counts = isTiled ? 325 : 279;
+      if (isTiled)
       {
-        const bool        isLast = y + rowsPerStrip >= height;
-        const std::size_t rows = isLast ? height - y + fillUp : rowsPerStrip;
-        const std::string bytes = page == 0 && y == 0 && !strip.empty() ? strip : StripOf(page, y, rows);
-        const bool        isMoved = page == 1 && y == 0;
-        tags[273].values.push_back(tiff.size() + static_cast<std::uint64_t>(isMoved ? moveStrip : 0));
-        tags[279].values.push_back(bytes.size());
+        tags.erase(278);
+        tags[322] = { 4, { tileWidth } };
+        tags[323] = { 4, { tileLength } };
+      }
+      bool isFirst = true;
+      for (const Piece & piece : Pieces())
+      {
+        const std::string bytes = page == 0 && isFirst && !strip.empty()
+                                    ? strip
+                                    : PixelsOf(page, piece.column, piece.row, piece.columns, piece.rows);
+        tags[offsets].values.push_back(tiff.size() + static_cast<std::uint64_t>(page == 1 && isFirst ? moveStrip : 0));
+        tags[counts].values.push_back(bytes.size());
         tiff += bytes;
+        isFirst = false;
       }
       for (const auto & [tag, content] : pages[page])
       {

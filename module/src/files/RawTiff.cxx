@@ -5,6 +5,7 @@
 #include "files/FileBytes.h"
 #include "sensornoise/FrameFile.h"
 #include "files/CompressedStrips.h"
+#include "files/TiffChunks.h"
 #include "files/TiffDirectory.h"
 
 #include <algorithm>
@@ -136,28 +137,26 @@ public:
   {
     RequireStructureOnce();
     RequireCodes();
-    const bool          isTiled = m_Tags.Has(324);
-    const std::uint64_t across = isTiled ? m_Tags.Required(322, "TileWidth") : m_Width;
-    const std::uint64_t down =
-      isTiled ? m_Tags.Required(323, "TileLength") : std::min(m_Tags.Number(278, "RowsPerStrip", m_Height), m_Height);
-    if (across == 0 || down == 0 || across > 65535 || down > 65535)
+    const TiffChunks layout = ReadTiffChunks(m_Tags, m_Width, m_Height);
+    if (layout.width > 65535 || layout.rows > 65535)
     {
-      m_Tags.Refuse("damaged: its strips or tiles have a size of " + std::to_string(across) + " x " +
-                    std::to_string(down) + " pixels; expected 1 to 65535");
+      m_Tags.Refuse("damaged: its strips or tiles have a size of " + std::to_string(layout.width) + " x " +
+                    std::to_string(layout.rows) + " pixels; expected 1 to 65535");
     }
     const std::vector<RawChunk> chunks = ChunksOf(m_File, m_Tiff, m_Directory);
-    const std::uint64_t         expected = ((m_Width + across - 1) / across) * ((m_Height + down - 1) / down);
-    if (chunks.size() != expected)
+    if (chunks.size() != layout.Count())
     {
       m_Tags.Refuse("damaged: its pixels are in " + std::to_string(chunks.size()) + " strips or tiles; expected " +
-                    std::to_string(expected));
+                    std::to_string(layout.Count()));
     }
     for (std::uint64_t i = 0; i < chunks.size(); ++i)
     {
-      const std::uint64_t rows = isTiled ? down : std::min(down, m_Height - i * down);
-      m_Compression == 7 ? RequireJpeg(chunks[i], i, across * rows) : RequireRows(chunks[i], i, across, rows);
+      const std::uint64_t rows = layout.RowsOf(i, m_Height);
+      m_Compression == 7 ? RequireJpeg(chunks[i], i, layout.width * rows)
+                         : RequireRows(chunks[i], i, layout.width, rows);
       // LibRaw reads uncompressed strips as one
-      if (m_Compression == 1 && !isTiled && i > 0 && chunks[i].offset != chunks[i - 1].offset + chunks[i - 1].bytes)
+      if (m_Compression == 1 && !layout.isTiled && i > 0 &&
+          chunks[i].offset != chunks[i - 1].offset + chunks[i - 1].bytes)
       {
         m_Tags.Refuse("its strip " + std::to_string(i) +
                       " does not follow the one before; expected uncompressed "

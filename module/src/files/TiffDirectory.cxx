@@ -244,16 +244,16 @@ TiffTags::Required(unsigned tag, const char * name) const
 }
 
 TiffEntry
-TiffTags::OfStrips(unsigned tag, const char * name, std::uint64_t strips) const
+TiffTags::EntryOfEach(unsigned tag, const char * name, std::uint64_t count, const char * piece) const
 {
   const TiffEntry * const entry = m_Directory.Find(tag);
   const bool              isNumbers = entry != nullptr && (entry->type == 3 || entry->type == 4 || entry->type == 16);
-  if (!isNumbers || entry->count != strips)
+  if (!isNumbers || entry->count != count)
   {
     Refuse("damaged: its tag " + std::to_string(tag) + " (" + name + ") has " +
            std::to_string(entry == nullptr ? 0 : entry->count) + " values" +
            (entry == nullptr || isNumbers ? "" : " of type " + std::to_string(entry->type)) + "; expected " +
-           std::to_string(strips) + ", one for each strip");
+           std::to_string(count) + ", one for each " + piece);
   }
   return *entry;
 }

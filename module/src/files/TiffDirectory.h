@@ -150,9 +150,9 @@ public:
   std::uint64_t
   Required(unsigned tag, const char * name) const;
 
-  /** The entry of a tag that has one number for each strip. Throws FileError. */
+  /** The entry of a tag that has \a count numbers, one for each \a piece of the image ("strip"). Throws FileError. */
   TiffEntry
-  OfStrips(unsigned tag, const char * name, std::uint64_t strips) const;
+  EntryOfEach(unsigned tag, const char * name, std::uint64_t count, const char * piece) const;
 
   /** Throws FileError where a tag comes twice: programs take one or the other. */
   void

@@ -141,7 +141,7 @@ private:
   void
   ReadDescribedFrames(std::uint64_t images)
   {
-    TiffBytes::Numbers offsets(m_Tiff, m_First.offsets);
+    TiffBytes::Numbers offsets(m_Tiff, m_First.chunks.offsets);
     FramePlaces        places;
     places.path = m_File.name;
     places.offset = offsets.Next();
@@ -150,8 +150,8 @@ private:
     places.sample.isBigEndian = m_Tiff.IsBigEndian();
     const std::uint64_t                frame = StoredBytesOf(m_File);
     const std::optional<std::uint64_t> all = CheckedProduct(frame, images);
-    const bool                         isOneRun =
-      m_First.compression == TiffCompression::None && m_First.offsets.count == 1 && m_First.orientation == 1;
+    const bool isOneRun = m_First.compression == TiffCompression::None && !m_First.chunks.isTiled &&
+                          m_First.chunks.Count() == 1 && m_First.orientation == 1;
     const bool isThere = isOneRun && all && m_Bytes.Holds(places.offset, *all);
     if (!isThere || m_Bytes.Size() - places.offset - *all >= frame) // programs may leave some words at the end
     {
@@ -179,7 +179,7 @@ private:
                               : places.sample.isBigEndian ? "be"
                                                           : "le");
     const std::uint64_t rest = (m_Bytes.Size() - places.offset) % std::max<std::uint64_t>(1, StoredBytesOf(m_File));
-    return m_First.compression != TiffCompression::None
+    return m_First.compression != TiffCompression::None || m_First.chunks.isTiled
              ? ""
              : ", or what is there: --raw " + std::to_string(m_First.width) + "x" + std::to_string(m_First.height) +
                  ":" + type + ":" + std::to_string(places.offset) + (rest == 0 ? "" : ":0:0:" + std::to_string(rest));

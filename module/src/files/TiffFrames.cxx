@@ -7,6 +7,7 @@
 #include "files/Inflate.h"
 #include "files/FrameReader.h"
 #include "files/FrameSizes.h"
+#include "files/TiffChunks.h"
 #include "files/TiffDirectory.h"
 #include "files/CompressedStrips.h"
 #include "files/TiffPage.h"
@@ -19,36 +20,29 @@ namespace sensornoise
 {
 namespace
 {
-/** Where a strip is, and the bytes that it gives. */
-struct TiffStrip
-{
-  std::uint64_t offset{ 0 };
-  std::uint64_t count{ 0 };
-  std::size_t   bytes{ 0 };
-  std::size_t   wholeBytes{ 0 }; // where a writer has filled it up
-};
-
-/** Inflates as many bytes as the strip has rows for; returns their number. */
+/** Inflates as many bytes as the strip or tile has rows for; returns their number. */
 std::size_t
-InflateStrip(FileBytes & file, const TiffStrip & strip, unsigned char * out)
+InflateChunk(FileBytes & file, const TiffChunk & chunk, unsigned char * out)
 {
   std::size_t done = 0;
-  Inflater    inflater(InflateContainer::Zlib, strip.wholeBytes, [&](const unsigned char * bytes, std::size_t count) {
-    const std::size_t taken = std::min(count, strip.bytes - done);
+  const auto  most = static_cast<std::size_t>(chunk.bytes);
+  Inflater    inflater(InflateContainer::Zlib, chunk.wholeBytes, [&](const unsigned char * bytes, std::size_t count) {
+    const std::size_t taken = std::min(count, most - done);
     std::memcpy(out + done, bytes, taken);
     done += taken;
   });
-  InflateFrom(file, strip.offset, strip.count, inflater);
+  InflateFrom(file, chunk.offset, chunk.count, inflater);
   return done;
 }
 
 /** Unpacks PackBits, in which no run goes beyond the end of a row. */
 std::size_t
-UnpackBits(FileBytes & file, const TiffStrip & strip, unsigned char * out)
+UnpackBits(FileBytes & file, const TiffChunk & chunk, unsigned char * out)
 {
-  ByteReader  reader(file, strip.offset, strip.offset + strip.count);
+  ByteReader  reader(file, chunk.offset, chunk.offset + chunk.count);
+  const auto  most = static_cast<std::size_t>(chunk.bytes);
   std::size_t done = 0;
-  while (done < strip.bytes)
+  while (done < most)
   {
     const int code = reader.Next();
     if (code < 0)
@@ -60,7 +54,7 @@ UnpackBits(FileBytes & file, const TiffStrip & strip, unsigned char * out)
       continue;
     }
     const auto        length = static_cast<std::size_t>(code < 128 ? code + 1 : 257 - code);
-    const std::size_t taken = std::min(length, strip.bytes - done);
+    const std::size_t taken = std::min(length, most - done);
     int               byte = code < 128 ? 0 : reader.Next();
     for (std::size_t i = 0; i < taken; ++i)
     {
@@ -71,22 +65,22 @@ UnpackBits(FileBytes & file, const TiffStrip & strip, unsigned char * out)
   return done;
 }
 
-/** The bytes of a strip without compression; returns their number. */
+/** Writes the bytes of a strip or tile without compression to \a out; returns their number. */
 std::size_t
-UnpackStrip(FileBytes & file, TiffCompression compression, const TiffStrip & strip, unsigned char * out)
+UnpackChunk(FileBytes & file, TiffCompression compression, const TiffChunk & chunk, unsigned char * out)
 {
   switch (compression)
   {
     case TiffCompression::Deflate:
-      return InflateStrip(file, strip, out);
+      return InflateChunk(file, chunk, out);
     case TiffCompression::PackBits:
-      return UnpackBits(file, strip, out);
+      return UnpackBits(file, chunk, out);
     case TiffCompression::Lzw:
-      return static_cast<std::size_t>(std::min<std::uint64_t>(
-        LengthOfLzw(file, strip.offset, strip.count, strip.bytes, strip.wholeBytes, out).bytes, strip.bytes));
+      return static_cast<std::size_t>(
+        std::min(LengthOfLzw(file, chunk.offset, chunk.count, chunk.bytes, chunk.wholeBytes, out).bytes, chunk.bytes));
     default:
-      file.Read(strip.offset, out, strip.bytes);
-      return strip.bytes;
+      file.Read(chunk.offset, out, static_cast<std::size_t>(chunk.bytes));
+      return static_cast<std::size_t>(chunk.bytes);
   }
 }
 
@@ -142,11 +136,11 @@ UndoFloatDifferences(unsigned char * row, std::size_t width, std::size_t bytesOf
   ToOwnByteOrder(true, bytesOfPixel, width, row);
 }
 
-/** Makes pixels of the bytes of rows. */
+/** Makes pixels of the bytes of rows of a strip or tile, in place. */
 void
 MakePixels(const TiffPage & page, bool isBigEndian, std::size_t rows, unsigned char * pixels)
 {
-  const auto        width = static_cast<std::size_t>(page.width);
+  const auto        width = static_cast<std::size_t>(page.chunks.width);
   const std::size_t size = SizeOf(page.pixel, page.stored);
   if (page.predictor != 3)
   {
@@ -168,6 +162,25 @@ MakePixels(const TiffPage & page, bool isBigEndian, std::size_t rows, unsigned c
   ConvertStored(page.stored, rows * width, pixels);
 }
 
+/** Copies the pixels of a tile into its place in the frame, without what fills it up at the edges. */
+void
+CopyTile(const TiffPage & page, std::uint64_t index, const unsigned char * tile, unsigned char * frame)
+{
+  const std::size_t   size = SizeOf(page.pixel);
+  const std::uint64_t left = index % page.chunks.across * page.chunks.width;
+  const std::uint64_t top = index / page.chunks.across * page.chunks.rows;
+  const auto          columns = static_cast<std::size_t>(std::min(page.chunks.width, page.width - left));
+  const auto          rows = static_cast<std::size_t>(std::min(page.chunks.rows, page.height - top));
+  const auto          tileRowBytes = static_cast<std::size_t>(page.chunks.width) * size;
+  const auto          frameRowBytes = static_cast<std::size_t>(page.width) * size;
+  unsigned char * to = frame + static_cast<std::size_t>(top) * frameRowBytes + static_cast<std::size_t>(left) * size;
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    std::memcpy(to, tile + row * tileRowBytes, columns * size);
+    to += frameRowBytes;
+  }
+}
+
 void
 TurnUpsideDown(std::size_t rowBytes, std::size_t rows, unsigned char * pixels)
 {
@@ -186,24 +199,25 @@ ReadPage(const FrameFile & file, TiffBytes & tiff, std::uint64_t directory, unsi
   {
     throw FileError(file.name, "the size or type of a page has changed since it was opened; expected the same");
   }
-  const std::size_t  rowBytes = file.width * SizeOf(file.pixel, file.stored); // in the file
-  const std::size_t  rowPixelBytes = file.width * SizeOf(file.pixel);
-  TiffBytes::Numbers offsets(tiff, page.offsets);
-  TiffBytes::Numbers counts(tiff, page.byteCounts);
-  for (std::uint64_t first = 0; first < page.height; first += page.rowsPerStrip)
+  const std::size_t          rowPixelBytes = file.width * SizeOf(file.pixel);
+  const TiffChunks &         chunks = page.chunks;
+  TiffChunkList              list(tiff, chunks, page.height, page.ChunkRowBytes());
+  std::vector<unsigned char> tile(
+    chunks.isTiled ? static_cast<std::size_t>(chunks.width * chunks.rows) * SizeOf(file.pixel) : 0);
+  for (std::uint64_t i = 0; i < chunks.Count(); ++i)
   {
-    const auto rows = static_cast<std::size_t>(std::min(page.rowsPerStrip, page.height - first));
-    TiffStrip  strip;
-    strip.offset = offsets.Next();
-    strip.count = counts.Next();
-    strip.bytes = rows * rowBytes;
-    strip.wholeBytes = static_cast<std::size_t>(page.rowsPerStrip) * rowBytes;
-    unsigned char * const to = pixels + first * rowPixelBytes;
-    if (UnpackStrip(tiff.File(), page.compression, strip, to) != strip.bytes)
+    const TiffChunk       chunk = list.Next();
+    unsigned char * const to =
+      chunks.isTiled ? tile.data() : pixels + static_cast<std::size_t>(i * chunks.rows) * rowPixelBytes;
+    if (UnpackChunk(tiff.File(), page.compression, chunk, to) != chunk.bytes)
     {
-      throw FileError(file.name, "a strip of a page has changed since it was opened; expected the same");
+      throw FileError(file.name, "a strip or tile of a page has changed since it was opened; expected the same");
     }
-    MakePixels(page, tiff.IsBigEndian(), rows, to);
+    MakePixels(page, tiff.IsBigEndian(), static_cast<std::size_t>(chunk.rows), to);
+    if (chunks.isTiled)
+    {
+      CopyTile(page, i, to, pixels);
+    }
   }
   if (page.orientation == 4)
   {

@@ -13,6 +13,9 @@ namespace sensornoise
 {
 namespace
 {
+// A tile of 4096 x 4096 pixels of 8 bytes: chosen empirically, above the tiles that programs write. A reader holds one.
+constexpr std::uint64_t MaximumTileBytes = std::uint64_t{ 1 } << 27;
+
 void
 RequireGrey(const TiffTags & tags)
 {
@@ -34,14 +37,10 @@ RequireGrey(const TiffTags & tags)
   }
 }
 
-/** Throws for pixels that lie in another order than row by row. */
+/** Throws for samples whose order programs do not agree about. */
 void
-RequirePlainStrips(const TiffTags & tags)
+RequirePlainOrder(const TiffTags & tags)
 {
-  if (tags.Has(322) || tags.Has(323) || tags.Has(324) || tags.Has(325))
-  {
-    tags.Refuse("a TIFF of tiles; expected strips: tiffcp -s FILE OTHER.tif");
-  }
   if (const std::uint64_t order = tags.Number(266, "FillOrder", 1); order != 1)
   {
     tags.Refuse("FillOrder is " + std::to_string(order) + "; expected 1");
@@ -151,6 +150,18 @@ ReadSubfileType(const TiffTags & tags, TiffPage & page)
   page.isReduced = (type & 5) != 0 || oldType == 2;
 }
 
+void
+RequireSizeOfTiles(const TiffTags & tags, const TiffPage & page)
+{
+  const std::optional<std::uint64_t> pixels = CheckedProduct(page.chunks.width, page.chunks.rows);
+  if (page.chunks.isTiled && (!pixels || *pixels > MaximumTileBytes / SizeOf(page.pixel)))
+  {
+    tags.Refuse("its tiles have a size of " + std::to_string(page.chunks.width) + " x " +
+                std::to_string(page.chunks.rows) + " pixels; expected at most " +
+                std::to_string(MaximumTileBytes / SizeOf(page.pixel)) + " pixels");
+  }
+}
+
 /** As ITK's reader has it, which takes a resolution for pixels an inch or a centimetre, if the unit is said. */
 std::array<double, 2>
 SpacingOf(const TiffTags & tags, TiffBytes & tiff, const TiffDirectory & directory)
@@ -167,6 +178,12 @@ SpacingOf(const TiffTags & tags, TiffBytes & tiff, const TiffDirectory & directo
   return { { millimetres / static_cast<double>(resolution[0]), millimetres / static_cast<double>(resolution[1]) } };
 }
 } // namespace
+
+std::uint64_t
+TiffPage::ChunkRowBytes() const
+{
+  return chunks.width * SizeOf(pixel, stored);
+}
 
 std::string
 SamplesOf(const TiffPage & page)
@@ -186,7 +203,7 @@ ReadTiffPage(const std::string & page, TiffBytes & tiff, const TiffDirectory & d
   const TiffTags tags(page, tiff, directory);
   tags.RequireEachOnce();
   RequireGrey(tags);
-  RequirePlainStrips(tags);
+  RequirePlainOrder(tags);
   TiffPage found;
   found.width = tags.Required(256, "ImageWidth");
   found.height = tags.Required(257, "ImageLength");
@@ -205,15 +222,9 @@ ReadTiffPage(const std::string & page, TiffBytes & tiff, const TiffDirectory & d
   sizes.name = page;
   sizes.pixel = found.pixel;
   SetFrameSizes(sizes, { found.width, found.height });
-  const std::uint64_t rows = tags.Number(278, "RowsPerStrip", UINT32_MAX);
-  if (rows == 0)
-  {
-    tags.Refuse("damaged: RowsPerStrip is 0; expected at least 1");
-  }
-  found.rowsPerStrip = std::min(rows, found.height);
-  const std::uint64_t strips = (found.height - 1) / found.rowsPerStrip + 1;
-  found.offsets = tags.OfStrips(273, "StripOffsets", strips);
-  found.byteCounts = tags.OfStrips(279, "StripByteCounts", strips);
+  found.chunks = ReadTiffChunks(tags, found.width, found.height);
+  RequireSizeOfTiles(tags, found);
+  FindTiffChunks(tags, found.chunks);
   return found;
 }
 

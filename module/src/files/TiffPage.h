@@ -4,6 +4,7 @@
 #define sensornoise_files_TiffPage_h
 
 #include "sensornoise/FrameFile.h"
+#include "files/TiffChunks.h"
 #include "files/TiffDirectory.h"
 
 #include <array>
@@ -15,7 +16,7 @@
 namespace sensornoise
 {
 
-/** How the pixels of a TIFF's strips are compressed. */
+/** How the strips or tiles of a TIFF are compressed. */
 enum class TiffCompression
 {
   None,
@@ -33,17 +34,19 @@ struct TiffPage
   StoredNumber          stored{ StoredNumber::SameAsPixel };
   TiffCompression       compression{ TiffCompression::None };
   std::uint64_t         predictor{ 1 };
-  std::uint64_t         rowsPerStrip{ 0 }; // at most the height
   std::uint64_t         orientation{ 1 };
   bool                  isReduced{ false };      // a thumbnail or a mask, by NewSubfileType
   std::array<double, 2> spacing{ { 1.0, 1.0 } }; // along x and y [mm], 1 where it is not said
-  TiffEntry             offsets{};               // of its strips
-  TiffEntry             byteCounts{};
+  TiffChunks            chunks{};                // its strips or tiles
+
+  /** Returns the bytes of a row of a strip or tile, without compression. */
+  std::uint64_t
+  ChunkRowBytes() const;
 };
 
 /** Reads what a directory says, with the defaults of TIFF 6.0 for tags that it lacks. \a page begins the errors. Throws
- * FileError unless the page consists of strips of one grey value a pixel, of a type that a pixel holds exactly, and
- * whose compression can be checked. */
+ * FileError unless the page consists of strips or tiles of one grey value a pixel, of a type that a pixel holds
+ * exactly, and whose compression can be checked. */
 TiffPage
 ReadTiffPage(const std::string & page, TiffBytes & tiff, const TiffDirectory & directory);
 

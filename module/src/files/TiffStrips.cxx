@@ -4,7 +4,7 @@
 
 #include "sensornoise/FrameFile.h"
 #include "files/Inflate.h"
-#include "files/FrameSizes.h"
+#include "files/TiffChunks.h"
 #include "files/CompressedStrips.h"
 
 #include <algorithm>
@@ -14,99 +14,130 @@ namespace sensornoise
 namespace
 {
 [[noreturn]] void
-RefuseStrip(const std::string & page, std::uint64_t strip, const std::string & what)
+RefuseOverlap(const std::string & page, bool isTiled)
 {
-  throw FileError(page, "damaged: its strip " + std::to_string(strip) + " " + what);
+  throw FileError(page,
+                  std::string("damaged: its ") + (isTiled ? "tiles" : "strips") +
+                    " overlap, or lie in more places than can be checked");
 }
 
-void
-CheckDeflatedStrip(const std::string & page,
-                   std::uint64_t       strip,
-                   FileBytes &         bytes,
-                   std::uint64_t       offset,
-                   std::uint64_t       count,
-                   std::uint64_t       expected,
-                   std::uint64_t       wholeStrip)
+/** Checks the bytes of one strip or tile of a page. */
+class ChunkCheck
 {
-  Inflater inflater(InflateContainer::Zlib, expected);
-  InflateFrom(bytes, offset, count, inflater);
-  if (inflater.IsWhole())
-  {
-    return;
-  }
-  // some writers fill the last strip up
-  Inflater filledUp(InflateContainer::Zlib, wholeStrip);
-  if (expected < wholeStrip)
-  {
-    InflateFrom(bytes, offset, count, filledUp);
-  }
-  if (!filledUp.IsWhole())
-  {
-    RefuseStrip(page,
-                strip,
-                "gives " + inflater.ReceivedBytes() + ", expected " + std::to_string(expected) +
-                  " bytes and the end of the stream");
-  }
-}
+public:
+  ChunkCheck(const std::string & page, const TiffPage & found, FileBytes & bytes, const TiffChunk & chunk)
+    : m_Page(page)
+    , m_Found(found)
+    , m_Bytes(bytes)
+    , m_Chunk(chunk)
+  {}
 
-void
-CheckLzwStrip(const std::string & page,
-              std::uint64_t       strip,
-              FileBytes &         bytes,
-              std::uint64_t       offset,
-              std::uint64_t       count,
-              std::uint64_t       expected,
-              std::uint64_t       wholeStrip)
-{
-  const LzwLength found = LengthOfLzw(bytes, offset, count, expected, wholeStrip);
-  if (!found.error.empty() || (found.bytes != expected && found.bytes != wholeStrip))
+  /** Throws FileError unless they stand for exactly the bytes of its rows. */
+  void
+  RequireRows()
   {
-    RefuseStrip(page,
-                strip,
-                "gives " + (found.error.empty() ? std::to_string(found.bytes) + " bytes" : found.error) +
-                  " of LZW, expected " + std::to_string(expected) + " bytes");
-  }
-}
-
-/** libtiff unpacks row by row, and drops what a run gives beyond the end of a row. */
-void
-CheckPackedStrip(const std::string & page,
-                 std::uint64_t       strip,
-                 FileBytes &         bytes,
-                 std::uint64_t       offset,
-                 std::uint64_t       count,
-                 std::uint64_t       rows,
-                 std::uint64_t       rowBytes)
-{
-  ByteReader reader(bytes, offset, offset + count);
-  for (std::uint64_t row = 0; row < rows; ++row)
-  {
-    std::uint64_t found = 0;
-    while (found < rowBytes)
+    switch (m_Found.compression)
     {
-      const int code = reader.Next();
-      if (code == 128)
+      case TiffCompression::None:
+        return RequireBytes();
+      case TiffCompression::Deflate:
+        return RequireDeflated();
+      case TiffCompression::PackBits:
+        return RequirePackedRows();
+      case TiffCompression::Lzw:
+        return RequireLzw();
+    }
+  }
+
+private:
+  [[noreturn]] void
+  Refuse(const std::string & what) const
+  {
+    throw FileError(m_Page, "damaged: " + m_Found.chunks.NameOf(m_Chunk.index) + " " + what);
+  }
+
+  void
+  RequireBytes() const
+  {
+    // some writers fill the last strip up
+    if (m_Chunk.count != m_Chunk.bytes && m_Chunk.count != m_Chunk.wholeBytes)
+    {
+      Refuse("has " + std::to_string(m_Chunk.count) + " bytes, but its rows have " + std::to_string(m_Chunk.bytes) +
+             "; expected as many");
+    }
+  }
+
+  void
+  RequireDeflated()
+  {
+    Inflater inflater(InflateContainer::Zlib, m_Chunk.bytes);
+    InflateFrom(m_Bytes, m_Chunk.offset, m_Chunk.count, inflater);
+    if (inflater.IsWhole())
+    {
+      return;
+    }
+    // some writers fill the last strip up
+    Inflater filledUp(InflateContainer::Zlib, m_Chunk.wholeBytes);
+    if (m_Chunk.bytes < m_Chunk.wholeBytes)
+    {
+      InflateFrom(m_Bytes, m_Chunk.offset, m_Chunk.count, filledUp);
+    }
+    if (!filledUp.IsWhole())
+    {
+      Refuse("gives " + inflater.ReceivedBytes() + ", expected " + std::to_string(m_Chunk.bytes) +
+             " bytes and the end of the stream");
+    }
+  }
+
+  void
+  RequireLzw()
+  {
+    const LzwLength found = LengthOfLzw(m_Bytes, m_Chunk.offset, m_Chunk.count, m_Chunk.bytes, m_Chunk.wholeBytes);
+    if (!found.error.empty() || (found.bytes != m_Chunk.bytes && found.bytes != m_Chunk.wholeBytes))
+    {
+      Refuse("gives " + (found.error.empty() ? std::to_string(found.bytes) + " bytes" : found.error) +
+             " of LZW, expected " + std::to_string(m_Chunk.bytes) + " bytes");
+    }
+  }
+
+  /** libtiff unpacks row by row, and drops what a run gives beyond the end of a row. */
+  void
+  RequirePackedRows()
+  {
+    const std::uint64_t rowBytes = m_Found.ChunkRowBytes();
+    ByteReader          reader(m_Bytes, m_Chunk.offset, m_Chunk.offset + m_Chunk.count);
+    for (std::uint64_t row = 0; row < m_Chunk.rows; ++row)
+    {
+      std::uint64_t found = 0;
+      while (found < rowBytes)
       {
-        continue;
-      }
-      const bool isLiteral = code < 128;
-      int        left = isLiteral ? code + 1 : 1; // bytes that follow
-      found += static_cast<std::uint64_t>(isLiteral ? code + 1 : 257 - code);
-      bool isThere = code >= 0;
-      for (; isThere && left > 0; --left)
-      {
-        isThere = reader.Next() >= 0;
-      }
-      if (!isThere || found > rowBytes)
-      {
-        RefuseStrip(page,
-                    strip,
-                    (isThere ? "has a run beyond the end of row " : "ends within row ") + std::to_string(row) +
-                      " of its PackBits; expected " + std::to_string(rowBytes) + " bytes a row");
+        const int code = reader.Next();
+        if (code == 128)
+        {
+          continue;
+        }
+        const bool isLiteral = code < 128;
+        int        left = isLiteral ? code + 1 : 1; // bytes that follow
+        found += static_cast<std::uint64_t>(isLiteral ? code + 1 : 257 - code);
+        bool isThere = code >= 0;
+        for (; isThere && left > 0; --left)
+        {
+          isThere = reader.Next() >= 0;
+        }
+        if (!isThere || found > rowBytes)
+        {
+          Refuse((isThere ? "has a run beyond the end of row " : "ends within row ") + std::to_string(row) +
+                 " of its PackBits; expected " + std::to_string(rowBytes) + " bytes a row");
+        }
       }
     }
   }
-}
+
+  const std::string & m_Page;
+  const TiffPage &    m_Found;
+  FileBytes &         m_Bytes;
+  const TiffChunk &   m_Chunk;
+};
 } // namespace
 
 void
@@ -128,28 +159,25 @@ TiffStrips::AddDirectory(const std::string & page, const TiffDirectory & directo
 void
 TiffStrips::CheckPage(const std::string & page, const TiffPage & found)
 {
-  TiffBytes::Numbers  offsets(m_Tiff, found.offsets);
-  TiffBytes::Numbers  counts(m_Tiff, found.byteCounts);
+  TiffChunkList       chunks(m_Tiff, found.chunks, found.height, found.ChunkRowBytes());
   const std::uint64_t size = m_Tiff.File().Size();
   const std::uint64_t before = m_PixelBytes;
-  for (std::uint64_t strip = 0; strip < found.offsets.count; ++strip)
+  for (std::uint64_t i = 0; i < found.chunks.Count(); ++i)
   {
-    const std::uint64_t offset = offsets.Next();
-    const std::uint64_t count = counts.Next();
-    const std::string   name = "its strip " + std::to_string(strip) + " ";
-    if (offset == 0 || count == 0 || !m_Tiff.File().Holds(offset, count))
+    const TiffChunk chunk = chunks.Next();
+    if (chunk.offset == 0 || chunk.count == 0 || !m_Tiff.File().Holds(chunk.offset, chunk.count))
     {
       throw FileError(page,
-                      "truncated: " + name + "has " + std::to_string(count) + " bytes from byte " +
-                        std::to_string(offset) + " on, but the file has " + std::to_string(size));
+                      "truncated: " + found.chunks.NameOf(i) + " has " + std::to_string(chunk.count) +
+                        " bytes from byte " + std::to_string(chunk.offset) + " on, but the file has " +
+                        std::to_string(size));
     }
-    m_PixelBytes += count;
-    if (m_PixelBytes > size || !m_Ranges.AddPixels(offset, count))
+    m_PixelBytes += chunk.count;
+    if (m_PixelBytes > size || !m_Ranges.AddPixels(chunk.offset, chunk.count))
     {
-      throw FileError(page, "damaged: its strips overlap, or lie in more places than can be checked");
+      RefuseOverlap(page, found.chunks.isTiled);
     }
-    const std::uint64_t rows = std::min(found.rowsPerStrip, found.height - strip * found.rowsPerStrip);
-    CheckStrip(page, found, strip, rows, offset, count);
+    ChunkCheck(page, found, m_Tiff.File(), chunk).RequireRows();
   }
   m_Width = found.width;
   m_SmallestPage = std::min(m_SmallestPage, m_PixelBytes - before);
@@ -160,40 +188,7 @@ TiffStrips::AddPixels(const std::string & page, std::uint64_t offset, std::uint6
 {
   if (!m_Ranges.AddPixels(offset, count))
   {
-    throw FileError(page, "damaged: its strips overlap, or lie in more places than can be checked");
-  }
-}
-
-void
-TiffStrips::CheckStrip(const std::string & page,
-                       const TiffPage &    found,
-                       std::uint64_t       strip,
-                       std::uint64_t       rows,
-                       std::uint64_t       offset,
-                       std::uint64_t       count)
-{
-  const std::uint64_t rowBytes = found.width * SizeOf(found.pixel, found.stored);
-  switch (found.compression)
-  {
-    case TiffCompression::None:
-      // some writers fill the last strip up
-      if (count != rows * rowBytes && count != found.rowsPerStrip * rowBytes)
-      {
-        RefuseStrip(page,
-                    strip,
-                    "has " + std::to_string(count) + " bytes, but its rows have " + std::to_string(rows * rowBytes) +
-                      "; expected as many");
-      }
-      return;
-    case TiffCompression::Deflate:
-      CheckDeflatedStrip(page, strip, m_Tiff.File(), offset, count, rows * rowBytes, found.rowsPerStrip * rowBytes);
-      return;
-    case TiffCompression::PackBits:
-      CheckPackedStrip(page, strip, m_Tiff.File(), offset, count, rows, rowBytes);
-      return;
-    case TiffCompression::Lzw:
-      CheckLzwStrip(page, strip, m_Tiff.File(), offset, count, rows * rowBytes, found.rowsPerStrip * rowBytes);
-      return;
+    RefuseOverlap(page, false);
   }
 }
 
@@ -203,10 +198,10 @@ TiffStrips::RequireAllBytes(const std::string & file)
   m_Ranges.AddTable(0, m_Tiff.HeadBytes());
   if (const std::optional<std::uint64_t> conflict = m_Ranges.FirstConflict())
   {
-    throw FileError(
-      file,
-      "damaged: the byte " + std::to_string(*conflict) +
-        " belongs to two of its strips, or to a strip and a directory; expected each byte to be read once");
+    throw FileError(file,
+                    "damaged: the byte " + std::to_string(*conflict) +
+                      " belongs to two of its strips or tiles, or to one of them and a directory; expected each byte "
+                      "to be read once");
   }
   if (m_HasSubDirectories)
   {

@@ -13,7 +13,7 @@
 namespace sensornoise
 {
 
-/** Checks the strips of all pages of a TIFF. */
+/** Checks the strips or tiles of all pages of a TIFF. */
 class TiffStrips
 {
 public:
@@ -25,8 +25,8 @@ public:
   void
   AddDirectory(const std::string & page, const TiffDirectory & directory);
 
-  /** Throws FileError unless all strips of the page lie within the file and give exactly the bytes of its rows;
-   * deflated ones with the right checksum, which the others do not have. */
+  /** Throws FileError unless all strips or tiles of the page lie within the file and give exactly the bytes of their
+   * rows; deflated ones with the right checksum, which the others do not have. */
   void
   CheckPage(const std::string & page, const TiffPage & found);
 
@@ -34,24 +34,16 @@ public:
   void
   AddPixels(const std::string & page, std::uint64_t offset, std::uint64_t count);
 
-  /** Throws FileError if bytes of a strip belong to another one, or to a directory, and if there is the directory of a
-   * page that a damaged chain of pages has left out. */
+  /** Throws FileError if bytes of a strip or tile belong to another one, or to a directory, and if there is the
+   * directory of a page that a damaged chain of pages has left out. */
   void
   RequireAllBytes(const std::string & file);
 
 private:
-  void
-  CheckStrip(const std::string & page,
-             const TiffPage &    found,
-             std::uint64_t       strip,
-             std::uint64_t       rows,
-             std::uint64_t       offset,
-             std::uint64_t       count);
-
   TiffBytes &   m_Tiff;
   ByteRanges    m_Ranges{};
-  std::uint64_t m_PixelBytes{ 0 };            // of all strips so far
-  std::uint64_t m_SmallestPage{ UINT64_MAX }; // bytes of the strips of a page
+  std::uint64_t m_PixelBytes{ 0 };            // of all strips and tiles so far
+  std::uint64_t m_SmallestPage{ UINT64_MAX }; // bytes of the strips or tiles of a page
   std::uint64_t m_Width{ 0 };
   bool          m_HasSubDirectories{ false };
   std::uint64_t m_DirectoryBytes{ 0 }; // of all directories so far
