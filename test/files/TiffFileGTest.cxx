@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
+#include "files/FrameReader.h"
 #include "helpers/FrameFileTestHelper.h"
 #include "helpers/TiffTestHelper.h"
 
+#include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace
 {
@@ -13,6 +16,15 @@ using namespace sensornoise::test;
 
 class TiffFile : public FrameFileTest
 {};
+
+template <typename TPixel>
+std::vector<TPixel>
+PixelsOf(const FrameFile & file)
+{
+  std::vector<TPixel> pixels(file.width * file.height * file.frames);
+  file.reader->Read(file, 0, file.frames, pixels.data());
+  return pixels;
+}
 
 TEST_F(TiffFile, OfEveryKindThatITKReadsIsAccepted)
 {
@@ -49,7 +61,6 @@ TEST_F(TiffFile, WhatWritersAddIsAccepted)
   };
   isAccepted(TiffWith({ { 254, { 4, { 0 } } } }));      // full images
   isAccepted(TiffWith({ { 254, { 4, { 2 } } } }));      // pages
-  isAccepted(TiffWith({ { 274, { 3, { 4 } } } }));      // upside down
   isAccepted(TiffWith({ { 336, { 3, { 0, 255 } } } })); // of inks
   isAccepted(TiffWith({ { 262, { 3, { 0 } } } }));      // 0 is white
   isAccepted(TiffWith({ { 270, Text("ImageJ=1.53t\nimages=3\nslices=3\n") } }));
@@ -98,7 +109,8 @@ TEST_F(TiffFile, PixelsOfOtherTypesAndOrdersAreRefused)
   isRefused({ { 277, { 3, { 3 } } } }, "3 components a pixel; expected 1");
   isRefused({ { 262, { 3, { 3 } } } }, "palette of colours");
   isRefused({ { 262, {} } }, "has no tag 262");
-  isRefused({ { 274, { 3, { 3 } } } }, "Orientation is 3, a frame that is turned or mirrored; expected 1");
+  isRefused({ { 274, { 3, { 0 } } } }, "damaged: Orientation is 0; expected 1 to 8");
+  isRefused({ { 274, { 3, { 9 } } } }, "damaged: Orientation is 9; expected 1 to 8");
   isRefused({ { 266, { 3, { 2 } } } }, "FillOrder is 2");
   isRefused({ { 32997, { 4, { 2 } } } }, "ImageDepth is 2");
 }
@@ -121,6 +133,31 @@ TEST_F(TiffFile, OtherCompressionsAreRefusedByName)
   IsRefused("a.tif", tiff.Bytes(), { "Predictor is 3; expected 1 or 2" });
 }
 
+// A row of the file is a row of the sensor, and a mosaic keeps its phase, however a viewer turns the frame.
+TEST_F(TiffFile, PixelsAreReadAsTheyAreStoredWhateverTheOrientation)
+{
+  const auto read = [this](const TiffOf & tiff) {
+    const FrameFile file = IsFrames("a.tif", tiff.Bytes(), FramePixel::UnsignedShort, 13, 9, 3);
+    return std::pair{ PixelsOf<std::uint16_t>(file), file.warning };
+  };
+  const auto [expected, silence] = read(TiffOf{});
+  EXPECT_EQ(expected[13 + 1], 101);
+  EXPECT_EQ(silence, "");
+  for (std::uint64_t orientation = 1; orientation <= 8; ++orientation)
+  {
+    const auto [pixels, warning] = read(TiffWith({ { 274, { 3, { orientation } } } }));
+    EXPECT_EQ(pixels, expected) << orientation;
+    EXPECT_EQ(
+      warning.rfind("its Orientation is " + std::to_string(orientation) + ", so that viewers turn or mirror", 0),
+      orientation == 1 ? std::string::npos : 0u)
+      << warning;
+  }
+  TiffOf mixed;
+  mixed.pages[1] = { { 274, { 3, { 6 } } } };
+  EXPECT_EQ(read(mixed).first, expected);
+  EXPECT_NE(read(mixed).second, "");
+}
+
 TEST_F(TiffFile, PagesThatAreNotAlikeAreRefused)
 {
   const auto isRefused = [this](const TiffTags & tags, const std::string & words) {
@@ -130,8 +167,6 @@ TEST_F(TiffFile, PagesThatAreNotAlikeAreRefused)
   };
   isRefused({ { 256, { 4, { 4 } } } }, "a.tif, page 1: 4 x 9 pixels, but the first page has 13 x 9");
   isRefused({ { 339, { 3, { 2 } } } }, "page 1: 16-bit signed samples, but the first page has 16-bit unsigned ones");
-  isRefused({ { 274, { 3, { 4 } } } }, "page 1: Orientation is 4, but 1 on the first page");
-  isRefused({ { 259, { 3, { 5 } } } }, "page 1: compressed in another way");
   isRefused({ { 254, { 4, { 1 } } } }, "pages: 3, of which 1 are said to be thumbnails or masks");
   isRefused({ { 255, { 3, { 2 } } } }, "pages: 3, of which 1 are said to be thumbnails");
   IsRefused("a.tif",

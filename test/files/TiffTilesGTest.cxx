@@ -136,6 +136,35 @@ TEST_F(TiffTiles, FloatingPointPredictorIsUndone)
   EXPECT_EQ(bits[Width * (2 * Height + 17) + 15], TiffOf::Sample(2, 15, 17));
 }
 
+TEST_F(TiffTiles, AndStripsOfAnyCompressionMayBeMixed)
+{
+  TiffOf packed = Tiled();
+  packed.compression = 8;
+  packed.pages.resize(1);
+  const std::string bytes = packed.Bytes();
+  // a second page of one strip, whose directory lies behind it
+  TiffOf strips = Tiled();
+  strips.tileWidth = 0;
+  strips.rowsPerStrip = Height;
+  const std::string pixels = strips.StripOf(1, 0, Height);
+  const TiffTags    tags{ { 256, { 4, { Width } } }, { 257, { 4, { Height } } },       { 258, { 3, { 16 } } },
+                          { 262, { 3, { 1 } } },     { 273, { 4, { bytes.size() } } }, { 279, { 4, { pixels.size() } } } };
+  std::string       both = bytes + pixels;
+  std::size_t       directory = 0;
+  for (std::size_t byte = 4; byte-- > 0;)
+  {
+    directory = directory * 256 + static_cast<unsigned char>(bytes[4 + byte]);
+  }
+  const std::size_t link = directory + 2 + 12 * static_cast<unsigned char>(bytes[directory]);
+  both.replace(link, 4, strips.Number(both.size(), 4));
+  both += strips.Directory(tags, both.size());
+  const FrameFile            file = IsFrames("a.tif", both, FramePixel::UnsignedShort, Width, Height, 2);
+  std::vector<std::uint16_t> read(Width * Height * 2);
+  file.reader->Read(file, 0, 2, read.data());
+  EXPECT_EQ(read[Width * 20 + 36], TiffOf::Sample(0, 36, 20));
+  EXPECT_EQ(read[Width * (Height + 20) + 36], TiffOf::Sample(1, 36, 20));
+}
+
 TEST_F(TiffTiles, WhatTheirTagsMustSayIsRequired)
 {
   const auto isRefused = [this](const TiffTags & tags, const std::string & words) {

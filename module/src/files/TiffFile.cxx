@@ -45,16 +45,6 @@ RequireSamePage(const std::string & page, const TiffPage & found, const TiffPage
                     SamplesOf(found) + " samples, but the first page has " + SamplesOf(first) +
                       " ones; all pages must have the same");
   }
-  if (found.compression != first.compression || found.predictor != first.predictor)
-  {
-    throw FileError(page, "compressed in another way than the first page; all pages must be compressed in the same");
-  }
-  if (found.orientation != first.orientation)
-  {
-    throw FileError(page,
-                    "Orientation is " + std::to_string(found.orientation) + ", but " +
-                      std::to_string(first.orientation) + " on the first page; all pages must have the same");
-  }
 }
 
 /** What is read from a TIFF on the way along its chain of pages. */
@@ -134,7 +124,21 @@ private:
     }
     m_Strips.CheckPage(page, found);
     m_Reduced += found.isReduced ? 1 : 0;
+    WarnOfOrientation(found);
     return directory.next;
+  }
+
+  /** The pixels are read as they are stored: a row of the file is a row of the sensor, and a mosaic stays in its phase.
+   */
+  void
+  WarnOfOrientation(const TiffPage & found)
+  {
+    if (found.orientation != 1 && m_File.warning.empty())
+    {
+      m_File.warning = "its Orientation is " + std::to_string(found.orientation) +
+                       ", so that viewers turn or mirror the frame. It is measured as it is stored, row by row: give "
+                       "regions, masks and the Bayer pattern of the stored frame";
+    }
   }
 
   /** ImageJ writes a stack above 4 GiB as one page and says in words how many images follow it, one after the other. */
@@ -150,8 +154,8 @@ private:
     places.sample.isBigEndian = m_Tiff.IsBigEndian();
     const std::uint64_t                frame = StoredBytesOf(m_File);
     const std::optional<std::uint64_t> all = CheckedProduct(frame, images);
-    const bool isOneRun = m_First.compression == TiffCompression::None && !m_First.chunks.isTiled &&
-                          m_First.chunks.Count() == 1 && m_First.orientation == 1;
+    const bool                         isOneRun =
+      m_First.compression == TiffCompression::None && !m_First.chunks.isTiled && m_First.chunks.Count() == 1;
     const bool isThere = isOneRun && all && m_Bytes.Holds(places.offset, *all);
     if (!isThere || m_Bytes.Size() - places.offset - *all >= frame) // programs may leave some words at the end
     {

@@ -181,15 +181,6 @@ CopyTile(const TiffPage & page, std::uint64_t index, const unsigned char * tile,
   }
 }
 
-void
-TurnUpsideDown(std::size_t rowBytes, std::size_t rows, unsigned char * pixels)
-{
-  for (std::size_t row = 0; row < rows / 2; ++row)
-  {
-    std::swap_ranges(pixels + row * rowBytes, pixels + (row + 1) * rowBytes, pixels + (rows - 1 - row) * rowBytes);
-  }
-}
-
 /** Throws FileError unless it is what was inspected. */
 void
 ReadPage(const FrameFile & file, TiffBytes & tiff, std::uint64_t directory, unsigned char * pixels)
@@ -218,10 +209,6 @@ ReadPage(const FrameFile & file, TiffBytes & tiff, std::uint64_t directory, unsi
     {
       CopyTile(page, i, to, pixels);
     }
-  }
-  if (page.orientation == 4)
-  {
-    TurnUpsideDown(rowPixelBytes, file.height, pixels);
   }
 }
 } // namespace

@@ -213,10 +213,9 @@ ReadTiffPage(const std::string & page, TiffBytes & tiff, const TiffDirectory & d
   ReadSubfileType(tags, found);
   found.spacing = SpacingOf(tags, tiff, directory);
   found.orientation = tags.Number(274, "Orientation", 1);
-  if (found.orientation != 1 && found.orientation != 4)
+  if (found.orientation < 1 || found.orientation > 8)
   {
-    tags.Refuse("Orientation is " + std::to_string(found.orientation) +
-                ", a frame that is turned or mirrored; expected 1 (or 4, upside down)");
+    tags.Refuse("damaged: Orientation is " + std::to_string(found.orientation) + "; expected 1 to 8");
   }
   FrameFile sizes;
   sizes.name = page;
