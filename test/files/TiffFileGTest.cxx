@@ -133,6 +133,30 @@ TEST_F(TiffFile, OtherCompressionsAreRefusedByName)
   IsRefused("a.tif", tiff.Bytes(), { "Predictor is 3; expected 1 or 2" });
 }
 
+// Raw converters add a thumbnail in colours, compressed by JPEG.
+TEST_F(TiffFile, ThumbnailsAreLeftOut)
+{
+  const TiffTags small{ { 254, { 4, { 1 } } },       { 256, { 4, { 4 } } }, { 257, { 4, { 3 } } },
+                        { 258, { 3, { 8, 8, 8 } } }, { 259, { 3, { 7 } } }, { 262, { 3, { 6 } } },
+                        { 277, { 3, { 3 } } } };
+  TiffOf         tiff;
+  tiff.pages[1] = small;
+  const FrameFile file = IsFrames("a.tif", tiff.Bytes(), FramePixel::UnsignedShort, 13, 9, 2);
+  EXPECT_EQ(PixelsOf<std::uint16_t>(file)[117], TiffOf::Sample(2, 0, 0));
+  tiff.pages[2] = small;
+  IsFrames("a.tif", tiff.Bytes(), FramePixel::UnsignedShort, 13, 9, 1);
+  tiff.pages[2].erase(254);
+  tiff.pages[2][255] = { 3, { 2 } };
+  IsFrames("a.tif", tiff.Bytes(), FramePixel::UnsignedShort, 13, 9, 1);
+
+  tiff.pages[2].erase(255); // a small page that is not said to be a thumbnail
+  IsRefused("a.tif", tiff.Bytes(), { "a.tif, page 2: 3 components a pixel" });
+  tiff.pages[2] = { { 254, { 4, { 1 } } }, { 256, { 4, { 4 } } } }; // as high as the frames
+  IsRefused("a.tif", tiff.Bytes(), { "a.tif, page 2: 4 x 9 pixels, but the first page has 13 x 9" });
+  tiff.pages = { small, {}, {} };
+  IsRefused("a.tif", tiff.Bytes(), { "a.tif: 3 components a pixel" });
+}
+
 // A row of the file is a row of the sensor, and a mosaic keeps its phase, however a viewer turns the frame.
 TEST_F(TiffFile, PixelsAreReadAsTheyAreStoredWhateverTheOrientation)
 {

@@ -70,8 +70,8 @@ public:
       offset = ReadPage(page, offset);
     }
     std::copy(m_First.spacing.begin(), m_First.spacing.end(), m_File.geometry.spacing.begin());
-    const std::uint64_t images = ImagesOfImageJ(m_Description).value_or(m_Pages);
-    if (m_Pages == 1 && images > 1)
+    const std::uint64_t images = ImagesOfImageJ(m_Description).value_or(m_Frames);
+    if (m_Frames == 1 && images > 1)
     {
       ReadDescribedFrames(images);
     }
@@ -100,15 +100,19 @@ private:
     }
   }
 
-  /** Returns where the next page's directory is. */
+  /** Reads a page that is no thumbnail. Returns where the next page's directory is. */
   std::uint64_t
   ReadPage(const std::string & page, std::uint64_t offset)
   {
     const TiffDirectory directory = m_Tiff.ReadDirectory(page, offset);
-    m_Directories.push_back(offset);
     m_Strips.AddDirectory(page, directory);
+    if (m_Frames > 0 && IsThumbnail(page, m_Tiff, directory, m_First.width, m_First.height))
+    {
+      return directory.next;
+    }
+    m_Directories.push_back(offset);
     const TiffPage found = ReadTiffPage(page, m_Tiff, directory);
-    if (m_Pages == 0)
+    if (m_Frames++ == 0)
     {
       m_First = found;
       m_File.pixel = found.pixel;
@@ -117,7 +121,7 @@ private:
       m_Planes = PlanesOfMetaMorph(directory);
     }
     RequireSamePage(page, found, m_First);
-    SetFrameSizes(m_File, { m_First.width, m_First.height, m_Pages + 1 });
+    SetFrameSizes(m_File, { m_First.width, m_First.height, m_Frames });
     if (found.compression != TiffCompression::None && m_BeforeInflating)
     {
       m_BeforeInflating(m_File);
@@ -222,20 +226,20 @@ private:
     {
       throw FileError(m_File.name, "damaged: a TIFF without a page; expected at least one");
     }
-    if (m_Pages > 1 && m_Reduced > 0)
+    if (m_Frames > 1 && m_Reduced > 0)
     {
       throw FileError(m_File.name,
                       pages + "of which " + std::to_string(m_Reduced) +
                         " are said to be thumbnails or masks (NewSubfileType); expected frames alone");
     }
     const std::optional<std::uint64_t> images = ImagesOfImageJ(m_Description);
-    if (images && *images != m_Pages && *images != m_Described)
+    if (images && *images != m_Frames && *images != m_Described)
     {
       throw FileError(m_File.name,
                       pages + "but ImageJ's description of it says images=" + std::to_string(*images) +
                         "; expected as many pages");
     }
-    if (m_Planes > m_Pages)
+    if (m_Planes > m_Frames)
     {
       throw FileError(m_File.name,
                       pages + "but MetaMorph's description of it says " + std::to_string(m_Planes) + " planes");
@@ -253,7 +257,8 @@ private:
   std::string                       m_Description{};  // of the first page
   std::uint64_t                     m_Described{ 0 }; // frames that are no pages
   std::uint64_t                     m_Planes{ 0 };
-  std::uint64_t                     m_Pages{ 0 };
+  std::uint64_t                     m_Pages{ 0 };  // of the chain
+  std::uint64_t                     m_Frames{ 0 }; // pages that are no thumbnails
   std::uint64_t                     m_Reduced{ 0 };
 };
 } // namespace

@@ -185,6 +185,18 @@ TiffPage::ChunkRowBytes() const
   return chunks.width * SizeOf(pixel, stored);
 }
 
+bool
+IsThumbnail(const std::string &   page,
+            TiffBytes &           tiff,
+            const TiffDirectory & directory,
+            std::uint64_t         width,
+            std::uint64_t         height)
+{
+  const TiffTags tags(page, tiff, directory);
+  const bool isReduced = (tags.Number(254, "NewSubfileType", 0) & 1) != 0 || tags.Number(255, "SubfileType", 1) == 2;
+  return isReduced && tags.Required(256, "ImageWidth") < width && tags.Required(257, "ImageLength") < height;
+}
+
 std::string
 SamplesOf(const TiffPage & page)
 {

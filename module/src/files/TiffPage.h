@@ -50,6 +50,15 @@ struct TiffPage
 TiffPage
 ReadTiffPage(const std::string & page, TiffBytes & tiff, const TiffDirectory & directory);
 
+/** Returns whether a directory describes a thumbnail of a frame of \a width x \a height pixels: by its subfile type and
+ * by its size, both smaller. Throws FileError, which \a page begins, where one of these tags is damaged. */
+bool
+IsThumbnail(const std::string &   page,
+            TiffBytes &           tiff,
+            const TiffDirectory & directory,
+            std::uint64_t         width,
+            std::uint64_t         height);
+
 /** Describes the samples: "16-bit unsigned". */
 std::string
 SamplesOf(const TiffPage & page);
