@@ -11,7 +11,7 @@ import pytest
 HEADER_BYTES = 2880  # block size of FITS: the header is a multiple of it [byte]
 
 
-def write_tiff(name, frames, description="", leave_out=()):
+def write_tiff(name, frames, description="", leave_out=(), orientation=None):
     """Writes pages of grey values without compression. Tags in `leave_out` are left out."""
     data, at_next = bytearray(b"II*\0\0\0\0\0"), 4
     for number, frame in enumerate(frames):
@@ -30,7 +30,9 @@ def write_tiff(name, frames, description="", leave_out=()):
             (262, 3, 1, 1),
         ]
         entries += [(270, 2, len(words), text)] if words else []
-        entries += [(273, 4, 1, place), (277, 3, 1, 1), (278, 4, 1, rows), (279, 4, 1, len(pixels)), (339, 3, 1, 1)]
+        entries += [(273, 4, 1, place)]
+        entries += [(274, 3, 1, orientation)] if orientation else []
+        entries += [(277, 3, 1, 1), (278, 4, 1, rows), (279, 4, 1, len(pixels)), (339, 3, 1, 1)]
         entries = [entry for entry in entries if entry[0] not in leave_out]
         struct.pack_into("<I", data, at_next, len(data))
         data += struct.pack("<H", len(entries)) + b"".join(struct.pack("<HHII", *entry) for entry in entries)
@@ -95,6 +97,29 @@ def test_tiff_without_a_tag_that_has_a_default(burst, expected, tmp_path):
     """ImageJ before 2022 wrote no tag Compression."""
     write_tiff(tmp_path / "imagej.tif", burst, leave_out=(259,))
     assert itk.estimate_sensor_noise(tmp_path / "imagej.tif") == expected
+
+
+def test_tiff_is_read_as_it_is_stored(burst, expected, tmp_path):
+    """Turning the frame, as viewers do, would make rows of the sensor columns."""
+    write_tiff(tmp_path / "turned.tif", burst, orientation=6)
+    with pytest.warns(UserWarning, match="turned.tif: its Orientation is 6, .* It is measured as it is stored"):
+        assert itk.estimate_sensor_noise(tmp_path / "turned.tif") == expected
+
+
+@pytest.mark.parametrize("tile", [(16, 16), (64, 48), (256, 256)])
+@pytest.mark.parametrize(
+    ("compression", "predictor"), [(None, None), ("zlib", None), ("zlib", 2), ("lzw", None), ("lzw", 2)]
+)
+def test_tiff_of_tiles(burst, expected, tmp_path, tile, compression, predictor):
+    """The tiles are those of another writer, tifffile."""
+    tifffile = pytest.importorskip("tifffile")
+    if compression is not None:
+        pytest.importorskip("imagecodecs")  # tifffile compresses with it
+    options = {"photometric": "minisblack", "tile": tile, "compression": compression, "predictor": predictor}
+    for number, more in enumerate(({}, {"byteorder": ">"}, {"bigtiff": True})):
+        tifffile.imwrite(tmp_path / f"{number}.tif", burst, **options, **more)
+        assert itk.estimate_sensor_noise(tmp_path / f"{number}.tif") == expected
+    np.testing.assert_array_equal(itk.sensor_noise_frame_list_source(tmp_path / "0.tif"), burst)
 
 
 def test_recording_that_was_not_closed(burst, expected, tmp_path):
