@@ -4,6 +4,7 @@
 
 #include "files/FrameReader.h"
 #include "files/FrameSizes.h"
+#include "files/TiffDescription.h"
 #include "files/TiffDirectory.h"
 #include "files/TiffFrames.h"
 #include "files/TiffPage.h"
