@@ -63,6 +63,15 @@ protected:
       tiff.isBigEndian = true;
       samples.push_back({ "b" + std::to_string(compression) + ".tif", tiff.Bytes() });
     }
+    for (const unsigned compression : { 1u, 5u, 8u, 32773u })
+    {
+      TiffOf tiff;
+      tiff.compression = compression;
+      tiff.tileWidth = 16;
+      tiff.tileLength = 16;
+      tiff.pages.resize(4);
+      samples.push_back({ "t" + std::to_string(compression) + ".tif", tiff.Bytes() });
+    }
     return samples;
   }
 
