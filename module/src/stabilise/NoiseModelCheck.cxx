@@ -4,177 +4,18 @@
 
 #include "base/Quantiles.h"
 #include "base/Text.h"
-#include "report/JsonWriter.h"
-#include "report/ReportTable.h"
+#include "stabilise/CheckText.h"
 #include "stabilise/PoissonGaussianLaw.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
-#include <limits>
-#include <string>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace sensornoise
 {
-
-namespace
-{
-using Band = NoiseModelCheck::Band;
-
-template <typename... TArguments>
-std::string
-Formatted(const char * format, TArguments... arguments)
-{
-  char buffer[256];
-  std::snprintf(buffer, sizeof(buffer), format, arguments...);
-  return buffer;
-}
-
-/** Returns a level with as many digits as a reader needs, with commas: 3,000. */
-std::string
-LevelText(double levelDn)
-{
-  std::string       text = Formatted(std::abs(levelDn) < 10.0 ? "%.2g" : "%.0f", levelDn);
-  const std::size_t first = text.find_first_of("0123456789");
-  if (text.find_first_not_of("-0123456789") == std::string::npos)
-  {
-    for (std::size_t place = text.size(); place > first + 3;)
-    {
-      place -= 3;
-      text.insert(place, ",");
-    }
-  }
-  return text;
-}
-
-/** Describes adjacent bands as one: "1.00 +- 0.01 from 20 to 3,000 DN". */
-std::string
-DescribeRange(const Band * begin, const Band * end)
-{
-  const std::string range = " from " + LevelText(begin->lowDn) + " to " + LevelText((end - 1)->highDn) + " DN";
-  double            sum = 0.0;
-  double            weights = 0.0;
-  for (const Band * band = begin; band != end; ++band)
-  {
-    if (!band->ratio)
-    {
-      return "not there in the model" + range;
-    }
-    const double weight = 1.0 / std::max(1e-12, band->standardError * band->standardError);
-    sum += weight * *band->ratio;
-    weights += weight;
-  }
-  const double mean = sum / weights;
-  double       squares = 0.0;
-  for (const Band * band = begin; band != end; ++band)
-  {
-    squares += (*band->ratio - mean) * (*band->ratio - mean) / static_cast<double>(end - begin);
-  }
-  const double error = std::max(0.005, std::sqrt(std::max(squares, 1.0 / weights)));
-  return Formatted(error < 0.095 ? "%.2f +- %.2f" : "%.1f +- %.1f", mean, error) + range;
-}
-
-/** Describes all bands that fit, or all that do not fit. Bands in which the model has no variance are described
- * separately. */
-std::string
-DescribeBands(const std::vector<Band> & bands, bool fits)
-{
-  std::string text;
-  const auto  kind = [](const Band & band) { return (band.fits ? 2 : 0) + (band.ratio ? 1 : 0); };
-  for (std::size_t begin = 0; begin < bands.size();)
-  {
-    std::size_t end = begin + 1;
-    while (end < bands.size() && kind(bands[end]) == kind(bands[begin]))
-    {
-      ++end;
-    }
-    if (bands[begin].fits == fits)
-    {
-      text += (text.empty() ? "" : ", ") + DescribeRange(bands.data() + begin, bands.data() + end);
-    }
-    begin = end;
-  }
-  return text;
-}
-
-/** Returns the result of a check in one sentence: the ranges of levels in which the variance agrees with the model, and
- * those in which it does not. Each range has its ratio, with the larger of the ratio's error and the scatter of its
- * bands. The warnings of \a frames give the reason if nothing was measured. */
-std::string
-MakeCheckSentence(const NoiseModelCheck & check, const Report & frames)
-{
-  if (check.bands.empty())
-  {
-    const std::string reason = frames.warnings.empty() ? "" : ": " + frames.warnings.front().message;
-    return "the variance of these frames could not be measured" + reason;
-  }
-  const std::string fitting = DescribeBands(check.bands, true);
-  const std::string failing = DescribeBands(check.bands, false);
-  switch (check.verdict)
-  {
-    case NoiseModelCheck::Verdict::Fits:
-      return "variance " + fitting + ": this model can be used";
-    case NoiseModelCheck::Verdict::NotTold:
-      return "variance " + fitting + ": too few frames or pixels to tell whether this model can be used";
-    default:
-      return fitting.empty() ? "variance " + failing + ": this model is not that of these frames"
-                             : "variance " + fitting + ", but " + failing + ": this model does not fit there";
-  }
-}
-} // namespace
-
-const char *
-NameOf(NoiseModelCheck::Verdict verdict)
-{
-  return verdict == NoiseModelCheck::Verdict::Fits         ? "fits"
-         : verdict == NoiseModelCheck::Verdict::DoesNotFit ? "does-not-fit"
-                                                           : "not-told";
-}
-
-void
-WriteJson(JsonWriter & json, const NoiseModelCheck::Band & band)
-{
-  json.Object([&] {
-    json.Member("low", band.lowDn)
-      .Member("high", band.highDn)
-      .Member("pixels", band.pixels)
-      .Member("variance", band.ratio)
-      .Member("standard_error", band.standardError)
-      .Member("transform_variance", band.transformVariance)
-      .Member("fits", band.fits);
-  });
-}
-
-std::string
-ToJson(const NoiseModelCheck & check)
-{
-  std::string text;
-  JsonWriter  json(text);
-  json.Object([&] {
-    json.Member("schema", "itk-sensornoise-check/1")
-      .Member("verdict", NameOf(check.verdict))
-      .Member("sentence", check.sentence)
-      .Member("bands", check.bands);
-  });
-  return text + "\n";
-}
-
-std::string
-MakeTable(const NoiseModelCheck & check)
-{
-  std::string text = Formatted("%-22s %10s  %-17s %10s\n", "level [DN]", "pixels", "variance/model", "transform");
-  for (const NoiseModelCheck::Band & band : check.bands)
-  {
-    const std::string levels = LevelText(band.lowDn) + " to " + LevelText(band.highDn);
-    const std::string ratio = band.ratio ? Formatted("%.3f +- %.3f", *band.ratio, band.standardError) : "no variance";
-    const std::string transform = band.transformVariance ? Formatted("%.3f", *band.transformVariance) : "-";
-    text += Formatted("%-22s %10zu  ", levels.c_str(), band.pixels) + PaddedRight(WithSigns(ratio), 17) +
-            Formatted(" %10s%s\n", transform.c_str(), band.fits ? "" : "  does not fit");
-  }
-  return text + WithSigns(check.sentence) + "\n";
-}
 
 namespace
 {
