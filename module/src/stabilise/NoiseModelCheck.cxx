@@ -6,6 +6,7 @@
 #include "base/Text.h"
 #include "stabilise/CheckText.h"
 #include "stabilise/PoissonGaussianLaw.h"
+#include "stabilise/VarianceCheck.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,10 +20,12 @@ namespace sensornoise
 
 namespace
 {
+using Band = NoiseModelCheck::Band;
+
 /** Number of bands. They have equal widths in the square root of the level, so that each spans a similar multiple of
  * the noise. */
 constexpr std::size_t Bands = 12;
-/** Deviation of a band's ratio from 1 that is accepted, whatever its error [1]. */
+/** Deviation of a band's ratio from 1 that is accepted in a check of a noise model, whatever its error [1]. */
 constexpr double Tolerance = 0.02;
 // Deviation in standard errors that is accepted. With three, one of a dozen bands of a correct model would fail by
 // chance in every 30th check, and the model has errors, too.
@@ -50,13 +53,13 @@ RelativeErrors2(const Report & frames)
 /** Returns the squared difference of the ratios of neighbouring bins over its expectation from the number of pixels and
  * frames, as a median over the bins; at least 1. */
 double
-ExcessScatter(const Report::Scatter & scatter, const NoiseModel & model, const std::vector<double> & errors2)
+ExcessScatter(const Report::Scatter & scatter, const VarianceModel & model, const std::vector<double> & errors2)
 {
   std::vector<double> squares;
   for (std::size_t i = 1; i < errors2.size(); ++i)
   {
-    const double before = model.VarianceAt(scatter.mean[i - 1]);
-    const double after = model.VarianceAt(scatter.mean[i]);
+    const double before = model(scatter.mean[i - 1]);
+    const double after = model(scatter.mean[i]);
     if (before > 0.0 && after > 0.0 && scatter.correctedVariance[i] > 0.0)
     {
       const double a = scatter.correctedVariance[i - 1] / before;
@@ -73,7 +76,7 @@ NoiseModelCheck::Band
 MakeBand(const Report::Scatter &     scatter,
          std::size_t                 begin,
          std::size_t                 end,
-         const NoiseModel &          model,
+         const VarianceModel &       model,
          const std::vector<double> & errors2,
          double                      excess)
 {
@@ -85,7 +88,7 @@ MakeBand(const Report::Scatter &     scatter,
   bool   hasVariance = true;
   for (std::size_t i = begin; i < end; ++i)
   {
-    const double expected = model.VarianceAt(scatter.mean[i]);
+    const double expected = model(scatter.mean[i]);
     hasVariance = hasVariance && expected > 0.0;
     sum += scatter.correctedVariance[i] / expected / errors2[i];
     weights += 1.0 / errors2[i];
@@ -104,18 +107,24 @@ MakeBand(const Report::Scatter &     scatter,
  * mean and a band of \a bins bins [1]. The means by which pixels are sorted have noise. The first and the last bin hold
  * the pixels whose mean is lower, or higher, by chance. */
 double
-SortingError(const NoiseModelCheck::Band & band, const NoiseModel & model, double frames, std::size_t bins)
+SortingError(const NoiseModelCheck::Band & band, const VarianceModel & model, double frames, std::size_t bins)
 {
-  const double variance = model.VarianceAt(band.lowDn);
-  return variance > 0.0 ? model.varianceSlopeDn / std::sqrt(variance * frames) / static_cast<double>(bins) : 0.0;
+  const double variance = model(band.lowDn);
+  if (!(variance > 0.0))
+  {
+    return 0.0;
+  }
+  const double step = std::sqrt(variance); // over which the model is nearly a line
+  const double slope = std::abs(model(band.lowDn + step) - variance) / step;
+  return slope / std::sqrt(variance * frames) / static_cast<double>(bins);
 }
 
 /** Returns whether a band's ratio is near 1. \a sortingError is 0 except for the first and the last band. */
 bool
-Fits(const NoiseModelCheck::Band & band, double sortingError)
+Fits(const NoiseModelCheck::Band & band, double tolerance, double sortingError)
 {
   const double departure = std::abs(band.ratio.value_or(0.0) - 1.0);
-  return band.ratio && (departure <= Tolerance + sortingError || departure <= StandardErrors * band.standardError);
+  return band.ratio && (departure <= tolerance + sortingError || departure <= StandardErrors * band.standardError);
 }
 
 /** Returns the variance after the transform at a level for a correct model [1]; null if it cannot be computed. */
@@ -146,9 +155,8 @@ VerdictOf(const std::vector<NoiseModelCheck::Band> & bands)
 } // namespace
 
 NoiseModelCheck
-CheckNoiseModel(const Report & frames, const NoiseModel & model, std::optional<double> readNoiseElectrons)
+CheckVariance(const Report & frames, const VarianceModel & model, double tolerance)
 {
-  model.Validate();
   NoiseModelCheck         check;
   const Report::Scatter & scatter = frames.scatter;
   const std::size_t       bins = scatter.mean.size();
@@ -172,16 +180,28 @@ CheckNoiseModel(const Report & frames, const NoiseModel & model, std::optional<d
         ++end;
       }
       check.bands.push_back(MakeBand(scatter, begin, end, model, errors2, excess));
-      NoiseModelCheck::Band & band = check.bands.back();
-      band.transformVariance = TransformVariance(model, 0.5 * (band.lowDn + band.highDn), readNoiseElectrons);
+      Band &     band = check.bands.back();
       const bool isEnd = begin == 0 || end == bins;
-      band.fits =
-        Fits(band, isEnd ? SortingError(band, model, static_cast<double>(frames.framesDistinct), end - begin) : 0.0);
+      const auto distinct = static_cast<double>(frames.framesDistinct);
+      band.fits = Fits(band, tolerance, isEnd ? SortingError(band, model, distinct, end - begin) : 0.0);
       begin = end;
     }
     check.verdict = VerdictOf(check.bands);
   }
   check.sentence = MakeCheckSentence(check, frames);
+  return check;
+}
+
+NoiseModelCheck
+CheckNoiseModel(const Report & frames, const NoiseModel & model, std::optional<double> readNoiseElectrons)
+{
+  model.Validate();
+  const auto      variance = [&model](double levelDn) { return model.VarianceAt(levelDn); };
+  NoiseModelCheck check = CheckVariance(frames, variance, Tolerance);
+  for (Band & band : check.bands)
+  {
+    band.transformVariance = TransformVariance(model, 0.5 * (band.lowDn + band.highDn), readNoiseElectrons);
+  }
   return check;
 }
 
