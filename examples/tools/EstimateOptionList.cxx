@@ -156,6 +156,25 @@ AddCheckOptions(CLI::App & app, EstimateOptions & options)
     ->expected(0, std::numeric_limits<int>::max())
     ->type_name("FILE")
     ->group("Checks");
+  AddText(app,
+          "--check-profile",
+          options.checkProfile,
+          "FILE",
+          "says whether the noise profile of another program is true of the frames, and what is wrong with it: DNG, "
+          "tuning file of libcamera, PYME, picasso, every format of export-noise-model that determines the variance")
+    ->group("Checks");
+  const auto addLevel = [&](const char * name, auto & value, const char * words) {
+    app.add_option(name, value, words)->needs("--check-profile")->type_name("DN")->group("Checks");
+  };
+  addLevel("--black", options.profileLevels.blackLevelDn, "black level for --check-profile; else the files' own");
+  addLevel("--white", options.profileLevels.whiteLevelDn, "white level for --check-profile; else the files' own");
+  app
+    .add_option(
+      "--analogue-gain", options.profileLevels.analogueGain, "analogue gain of the frames, for a profile of libcamera")
+    ->needs("--check-profile")
+    ->type_name("G")
+    ->capture_default_str()
+    ->group("Checks");
   app
     .add_option(
       "--compare",

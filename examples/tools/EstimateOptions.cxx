@@ -113,6 +113,18 @@ ReadLevelRange(EstimateOptions & options, const std::string & text)
 }
 
 void
+RequireRefinedForProfile(const EstimateOptions & options)
+{
+  if (!options.checkProfile.empty() && options.method != "refined")
+  {
+    throw CLI::ValidationError("--check-profile",
+                               "the method " + options.method +
+                                 " does not measure the variance of each level without flicker and motion; leave the "
+                                 "profile out, or set --method refined");
+  }
+}
+
+void
 ReadExposuresOf(EstimateOptions & options)
 {
   if (options.exposuresText.empty())
@@ -305,6 +317,7 @@ EstimateOptions::Parse(int argc, char ** argv)
   }
   ReadCodes(*this, texts);
   ReadLevelRange(*this, texts.levelRange);
+  RequireRefinedForProfile(*this);
   ReadExposuresOf(*this);
   ReadOffset(*this, texts);
   ReadRollingShutter(*this, texts.rollingShutter);

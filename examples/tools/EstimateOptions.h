@@ -3,6 +3,7 @@
 #ifndef EstimateOptions_h
 #define EstimateOptions_h
 
+#include "sensornoise/NoiseExport.h"
 #include "sensornoise/Settings.h"
 #include "sensornoise/FrameFile.h"
 
@@ -48,6 +49,8 @@ struct EstimateOptions
   std::vector<std::string>                 dark;
   bool                                     hasCheck{ false };
   std::vector<std::string>           check; ///< frames that the model is compared with; empty: the measured frames
+  std::string                        checkProfile;  ///< noise profile of another program; empty: none
+  ExportSettings                     profileLevels; ///< black and white level of the frames, and analogue gain
   RollingShutter                     rollingShutter{ RollingShutter::Auto };
   double                             sigmaRows{ 50.0 };
   std::optional<std::array<long, 4>> roi;                    ///< x, y, width, height [pixel]

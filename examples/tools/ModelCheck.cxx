@@ -16,9 +16,6 @@
 
 namespace sensornoise::tools
 {
-namespace
-{
-/** Returns the reports of the channels, or the only report. */
 std::vector<const Report *>
 ReportsOf(const MeasuredStack & measured)
 {
@@ -34,6 +31,8 @@ ReportsOf(const MeasuredStack & measured)
   return reports;
 }
 
+namespace
+{
 /** Measures the frames of --check with the refined method. The other methods do not give the variance of each pixel
  * without the contributions of flicker and motion. The options for the frames of the report apply to these frames as
  * well. For frames of other files, --frames and --dark do not apply. */
@@ -79,6 +78,41 @@ JsonOf(const std::optional<NoiseModelCheck> & check)
   text.erase(text.find_last_not_of('\n') + 1);
   return text;
 }
+
+/** Adds the checks to a report in JSON: one as the member \a name, several as the list of this name in the plural. */
+void
+AddChecks(const std::string & name, const ModelChecks & checks, std::string & text)
+{
+  if (checks.size() == 1 && checks.front())
+  {
+    text.insert(text.rfind('}'), ", \"" + name + "\": " + JsonOf(checks.front()));
+  }
+  if (checks.size() > 1)
+  {
+    std::string list;
+    for (const auto & check : checks)
+    {
+      list += (list.empty() ? "" : ", ") + JsonOf(check);
+    }
+    text.insert(text.rfind('}'), ", \"" + name + "s\": [" + list + "]");
+  }
+}
+
+std::string
+TableOf(const std::string & title, const ModelChecks & checks)
+{
+  std::string text;
+  for (std::size_t k = 0; k < checks.size(); ++k)
+  {
+    if (checks[k])
+    {
+      const std::string channel = checks.size() > 1 ? "channel " + std::string(NameOf(BayerPlanes.at(k))) : "";
+      const std::string heading = title + (title.empty() || channel.empty() ? "" : ", ") + channel;
+      text += (heading.empty() ? "" : "\n" + heading + ":") + '\n' + sensornoise::MakeTable(*checks[k]);
+    }
+  }
+  return text;
+}
 } // namespace
 
 ModelChecks
@@ -111,38 +145,19 @@ CheckModel(const EstimateOptions & options, const MeasuredStack & measured)
 }
 
 std::string
-ToJson(const MeasuredStack & measured, const ModelChecks & checks)
+ToJson(const MeasuredStack & measured, const ModelChecks & checks, const ModelChecks & profileChecks)
 {
   std::string text = std::visit([](const auto & reports) { return sensornoise::ToJson(reports); }, measured);
-  if (checks.size() == 1 && checks.front())
-  {
-    text.insert(text.rfind('}'), ", \"check\": " + JsonOf(checks.front()));
-  }
-  if (checks.size() > 1)
-  {
-    std::string list;
-    for (const auto & check : checks)
-    {
-      list += (list.empty() ? "" : ", ") + JsonOf(check);
-    }
-    text.insert(text.rfind('}'), ", \"checks\": [" + list + "]");
-  }
+  AddChecks("check", checks, text);
+  AddChecks("profile_check", profileChecks, text);
   return text;
 }
 
 std::string
-MakeTable(const MeasuredStack & measured, const ModelChecks & checks)
+MakeTable(const MeasuredStack & measured, const ModelChecks & checks, const ModelChecks & profileChecks)
 {
-  std::string text = std::visit([](const auto & reports) { return sensornoise::MakeTable(reports); }, measured);
-  for (std::size_t k = 0; k < checks.size(); ++k)
-  {
-    if (checks[k])
-    {
-      text += (checks.size() > 1 ? "\nchannel " + std::string(NameOf(BayerPlanes.at(k))) + ":" : "") + '\n' +
-              sensornoise::MakeTable(*checks[k]);
-    }
-  }
-  return text;
+  return std::visit([](const auto & reports) { return sensornoise::MakeTable(reports); }, measured) +
+         TableOf("", checks) + TableOf("profile", profileChecks);
 }
 
 } // namespace sensornoise::tools

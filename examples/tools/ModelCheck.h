@@ -17,19 +17,23 @@ struct EstimateOptions;
 /** Check of the report, or of the report of each channel. An entry is empty if its report has no model. */
 using ModelChecks = std::vector<std::optional<NoiseModelCheck>>;
 
+/** Returns the reports of the channels, or the only report. */
+std::vector<const Report *>
+ReportsOf(const MeasuredStack & measured);
+
 /** Compares the model of a report with the frames of --check, or with the frames of the report, channel by channel.
  * A report without a model is reported on standard error. */
 ModelChecks
 CheckModel(const EstimateOptions & options, const MeasuredStack & measured);
 
-/** Returns the report as JSON. The check is added as the member "check", or as "checks" for several channels.
- * Without a check no member is added. */
+/** Returns the report as JSON. The check is added as the member "check", or as "checks" for several channels, the check
+ * of a profile as "profile_check" or "profile_checks". Without a check no member is added. */
 std::string
-ToJson(const MeasuredStack & measured, const ModelChecks & checks);
+ToJson(const MeasuredStack & measured, const ModelChecks & checks, const ModelChecks & profileChecks);
 
-/** Returns the report as a table, followed by its checks. */
+/** Returns the report as a table, followed by its checks and those of a profile. */
 std::string
-MakeTable(const MeasuredStack & measured, const ModelChecks & checks);
+MakeTable(const MeasuredStack & measured, const ModelChecks & checks, const ModelChecks & profileChecks);
 
 } // namespace sensornoise::tools
 

@@ -43,9 +43,15 @@ ValuesOf(const MapType * map)
 StoredReport
 ReadStoredReport(const std::string & file)
 {
+  return ValuesOfJson(file, ReadReportRecord(file));
+}
+
+StoredReport
+ValuesOfJson(const std::string & name, const nlohmann::json & record)
+{
   StoredReport stored;
-  stored.name = file;
-  const nlohmann::json flat = ReadReportRecord(file).flatten();
+  stored.name = name;
+  const nlohmann::json flat = record.flatten();
   for (const auto & [pointer, value] : flat.items())
   {
     if (value.is_number())

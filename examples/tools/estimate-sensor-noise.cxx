@@ -15,6 +15,7 @@
 #include "tools/MapFiles.h"
 #include "tools/ModelCheck.h"
 #include "tools/PendingFile.h"
+#include "tools/ProfileFile.h"
 #include "tools/StackEstimate.h"
 #include "tools/SvgAsPng.h"
 #include "tools/TerminalText.h"
@@ -45,10 +46,11 @@ constexpr int ExitNothingEstimated = 3;
 void
 WriteReport(const MeasuredStack &        measured,
             const ModelChecks &          checks,
+            const ModelChecks &          profileChecks,
             const EstimateOptions &      options,
             std::optional<PendingFile> & json)
 {
-  const std::string text = ToJson(measured, checks);
+  const std::string text = ToJson(measured, checks, profileChecks);
   const bool        isFile = json && json->Target().kind == OutputTarget::Kind::File;
   if (json)
   {
@@ -60,7 +62,7 @@ WriteReport(const MeasuredStack &        measured,
   }
   if (!options.quiet)
   {
-    std::cout << ForStandardOutput(MakeTable(measured, checks));
+    std::cout << ForStandardOutput(MakeTable(measured, checks, profileChecks));
   }
   if (options.json == "-")
   {
@@ -108,6 +110,10 @@ RequireOutputsApart(const EstimateOptions & options)
   read(options.files, "the frame");
   read(options.dark, "the dark frame");
   read(options.check, "the frame to be checked");
+  if (!options.checkProfile.empty())
+  {
+    files.Read(options.checkProfile, "the profile");
+  }
   if (!options.mask.empty())
   {
     files.Read(options.mask, "the mask");
@@ -205,11 +211,23 @@ RunComparison(const EstimateOptions & options)
   return isUsable ? ExitDone : ExitNothingEstimated;
 }
 
+bool
+HasAny(const ModelChecks & checks)
+{
+  return checks.empty() ||
+         std::any_of(checks.begin(), checks.end(), [](const auto & check) { return check.has_value(); });
+}
+
 int
 Run(EstimateOptions & options)
 {
   SetItkThreads(options.threads);
   RequireAbilities(options);
+  std::optional<sensornoise::NoiseProfile> profile;
+  if (!options.checkProfile.empty())
+  {
+    profile = ReadProfileFile(options.checkProfile);
+  }
   TellOfSharedDarkFrames(options.dark, options.files);
   // throws before the work begins if an output cannot be written
   std::optional<PendingFile> json;
@@ -238,17 +256,16 @@ Run(EstimateOptions & options)
   std::string         plotText;
   const MeasuredStack measured = EstimateStack(options, frames, maps ? &*maps : nullptr, plot ? &plotText : nullptr);
   const ModelChecks   checks = options.hasCheck ? CheckModel(options, measured) : ModelChecks();
+  const ModelChecks   profileChecks = profile ? CheckProfile(*profile, measured, options.profileLevels) : ModelChecks();
   if (plot)
   {
     plot->Write(plotText);
     plot->Commit();
   }
-  WriteReport(measured, checks, options, json);
+  WriteReport(measured, checks, profileChecks, options, json);
   TellWarnings(measured);
   const bool isUsable = std::visit([](const auto & reports) { return reports.IsUsable(); }, measured);
-  const bool isChecked =
-    checks.empty() || std::any_of(checks.begin(), checks.end(), [](const auto & check) { return check.has_value(); });
-  return isUsable && isChecked ? ExitDone : ExitNothingEstimated;
+  return isUsable && HasAny(checks) && HasAny(profileChecks) ? ExitDone : ExitNothingEstimated;
 }
 } // namespace
 

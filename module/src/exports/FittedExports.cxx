@@ -196,12 +196,6 @@ struct ScaledVariance
 double
 DnScaleOf(const CameraNoise & noise)
 {
-  return std::exp2(scaleBits - *noise.bitDepth) / noise.analogueGain;
-}
-
-ScaledVariance
-ScaleVariance(const CameraNoise & noise)
-{
   if (!noise.bitDepth || *noise.bitDepth < 1 || *noise.bitDepth > scaleBits)
   {
     throw ExportError(
@@ -209,6 +203,13 @@ ScaleVariance(const CameraNoise & noise)
       " has no bit depth from 1 to 16, which libcamera's scale needs. Estimate the noise of frames with "
       "integer values.");
   }
+  return std::exp2(scaleBits - *noise.bitDepth) / noise.analogueGain;
+}
+
+ScaledVariance
+ScaleVariance(const CameraNoise & noise)
+{
+  const double   scale = DnScaleOf(noise);
   const double   range = WhiteLevelOf(noise) - BlackLevelOf(noise);
   NormalisedLine mean;
   for (const ChannelNoise & channel : noise.channels)
@@ -217,7 +218,7 @@ ScaleVariance(const CameraNoise & noise)
     mean.scale += line.scale / static_cast<double>(noise.channels.size());
     mean.offset += line.offset / static_cast<double>(noise.channels.size());
   }
-  const double scaledRange = range * DnScaleOf(noise);
+  const double scaledRange = range * scale;
   return { mean.scale * scaledRange, mean.offset * scaledRange * scaledRange, std::sqrt(scaledRange) };
 }
 
@@ -264,20 +265,34 @@ MisfitOf(const RootLine & line, const ScaledVariance & variance)
 }
 } // namespace
 
+LibcameraNoise
+FitLibcamera(const CameraNoise & noise)
+{
+  const RootLine line = FitRootLine(ScaleVariance(noise));
+  return { std::floor(line.constant), std::round(1000.0 * slopeFactor * line.slope) / 1000.0 };
+}
+
+double
+LibcameraVariance(const LibcameraNoise & model, const CameraNoise & noise, double levelDn)
+{
+  const double scale = DnScaleOf(noise);
+  const double root = std::sqrt(std::max(0.0, scale * (levelDn - BlackLevelOf(noise))));
+  const double deviation = (model.constant + model.slope / slopeFactor * root) / scale;
+  return deviation * deviation;
+}
+
 NoiseExport
 ExportLibcamera(const CameraNoise & noise)
 {
   const ScaledVariance variance = ScaleVariance(noise);
-  const RootLine       line = FitRootLine(variance);
-  const double         constant = std::floor(line.constant);
-  const double         slope = std::round(1000.0 * slopeFactor * line.slope) / 1000.0;
+  const LibcameraNoise model = FitLibcamera(noise);
   std::string          text;
   JsonWriter           json(text);
   json.Object([&] {
-    json.ObjectMember("rpi.noise",
-                      [&] { json.Member("reference_constant", constant).Member("reference_slope", slope); });
+    json.ObjectMember(
+      "rpi.noise", [&] { json.Member("reference_constant", model.constant).Member("reference_slope", model.slope); });
   });
-  const Misfit misfit = MisfitOf({ constant, slope / slopeFactor }, variance);
+  const Misfit misfit = MisfitOf({ model.constant, model.slope / slopeFactor }, variance);
   const double level = BlackLevelOf(noise) + misfit.signal / DnScaleOf(noise);
   return OneFile("libcamera_noise.json",
                  text + '\n',

@@ -10,6 +10,22 @@
 namespace sensornoise
 {
 
+/** The numbers of rpi.noise, as a tuning file of libcamera has them. */
+struct LibcameraNoise
+{
+  double constant{ 0.0 }; ///< reference_constant [DN of 16 bits]
+  double slope{ 0.0 };    ///< reference_slope [root of DN of 16 bits]
+};
+
+/** Fits libcamera's model to a camera. Throws ExportError if the line, a level or the bit depth is missing. */
+LibcameraNoise
+FitLibcamera(const CameraNoise & noise);
+
+/** Returns the variance of libcamera's model at a level [DN^2]: at the black level where the level is below. The camera
+ * gives bit depth, analogue gain and black level. Throws ExportError if one is missing. */
+double
+LibcameraVariance(const LibcameraNoise & model, const CameraNoise & noise, double levelDn);
+
 /** The section rpi.noise of a tuning file of libcamera, JSON. On a scale of 16 bits at an analogue gain of 1, its
  * standard deviation is constant + slope sqrt(mean - black). The constant and the slope are fitted between the black
  * and the white level, and stored as the tuning tool rpi-ctt 1.4.0 does: int(constant) and round(1.4 slope, 3).

@@ -200,4 +200,40 @@ WithNoiseProfile(const std::string & file, const std::vector<std::pair<double, d
   return copy;
 }
 
+std::vector<std::pair<double, double>>
+NoiseProfileIn(const std::string & file)
+{
+  constexpr std::size_t numberBytes = sizeof(double);
+  constexpr std::size_t mostPlanes = 4;
+  const bool            isBigEndian = IsBigEndianTiff(file);
+  const auto            directory = static_cast<std::size_t>(NumberAt(file, 4, 4, isBigEndian));
+  const auto            entries = static_cast<std::size_t>(NumberAt(file, directory, 2, isBigEndian));
+  for (std::size_t at = directory + 2; at < directory + 2 + entries * entryBytes; at += entryBytes)
+  {
+    if (NumberAt(file, at, 2, isBigEndian) != noiseProfileTag)
+    {
+      continue;
+    }
+    const auto type = NumberAt(file, at + 2, 2, isBigEndian);
+    const auto count = NumberAt(file, at + 4, 4, isBigEndian);
+    if (type != doubleType || count < 2 || count % 2 != 0 || count > 2 * mostPlanes)
+    {
+      throw ExportError("the tag NoiseProfile has " + std::to_string(count) + " numbers of TIFF's type " +
+                        std::to_string(type) + "; expected pairs of DOUBLE (12), at most " +
+                        std::to_string(mostPlanes));
+    }
+    const auto values = static_cast<std::size_t>(NumberAt(file, at + 8, 4, isBigEndian));
+    const auto number = [&](std::size_t i) {
+      return RealOfBits(NumberAt(file, values + i * numberBytes, numberBytes, isBigEndian));
+    };
+    std::vector<std::pair<double, double>> profile;
+    for (std::size_t i = 0; i < count; i += 2)
+    {
+      profile.emplace_back(number(i), number(i + 1));
+    }
+    return profile;
+  }
+  throw ExportError("the file has no tag NoiseProfile (51041) in its first directory, where DNG files have it");
+}
+
 } // namespace sensornoise

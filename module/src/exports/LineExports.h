@@ -5,6 +5,10 @@
 
 #include "sensornoise/NoiseExport.h"
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace sensornoise
 {
 
@@ -24,6 +28,11 @@ ExportAnscombeTransform(const CameraNoise & noise);
 /** The arguments of deepinv's PoissonGaussianNoise for levels between 0 and 1: the variance is gain x + sigma^2. */
 NoiseExport
 ExportDeepinv(const CameraNoise & noise);
+
+/** Returns the pairs (scale, offset) of the tag NoiseProfile in the first directory of a DNG file. Throws ExportError
+ * unless \a file is a classic TIFF whose first directory is whole and has the tag, of pairs of doubles. */
+std::vector<std::pair<double, double>>
+NoiseProfileIn(const std::string & file);
 
 } // namespace sensornoise
 

@@ -51,6 +51,16 @@ BytesOfReal(TReal number, bool isBigEndian)
   return BytesOfNumber(bits, sizeof bits, isBigEndian);
 }
 
+/** Returns the double of IEEE 754 with these bits. */
+inline double
+RealOfBits(std::uint64_t bits)
+{
+  double number = 0.0;
+  static_assert(sizeof bits == sizeof number, "double of 64 bits");
+  std::memcpy(&number, &bits, sizeof number);
+  return number;
+}
+
 /** Properties of 16-bit pixels, read in one byte order. */
 struct BytesInOrder
 {

@@ -155,7 +155,7 @@ VerdictOf(const std::vector<NoiseModelCheck::Band> & bands)
 } // namespace
 
 NoiseModelCheck
-CheckVariance(const Report & frames, const VarianceModel & model, double tolerance)
+CheckVariance(const Report & frames, const VarianceModel & model, const std::function<double(double)> & tolerance)
 {
   NoiseModelCheck         check;
   const Report::Scatter & scatter = frames.scatter;
@@ -183,7 +183,9 @@ CheckVariance(const Report & frames, const VarianceModel & model, double toleran
       Band &     band = check.bands.back();
       const bool isEnd = begin == 0 || end == bins;
       const auto distinct = static_cast<double>(frames.framesDistinct);
-      band.fits = Fits(band, tolerance, isEnd ? SortingError(band, model, distinct, end - begin) : 0.0);
+      band.fits = Fits(band,
+                       tolerance(0.5 * (band.lowDn + band.highDn)),
+                       isEnd ? SortingError(band, model, distinct, end - begin) : 0.0);
       begin = end;
     }
     check.verdict = VerdictOf(check.bands);
@@ -197,7 +199,7 @@ CheckNoiseModel(const Report & frames, const NoiseModel & model, std::optional<d
 {
   model.Validate();
   const auto      variance = [&model](double levelDn) { return model.VarianceAt(levelDn); };
-  NoiseModelCheck check = CheckVariance(frames, variance, Tolerance);
+  NoiseModelCheck check = CheckVariance(frames, variance, [](double) { return Tolerance; });
   for (Band & band : check.bands)
   {
     band.transformVariance = TransformVariance(model, 0.5 * (band.lowDn + band.highDn), readNoiseElectrons);

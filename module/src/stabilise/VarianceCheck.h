@@ -14,9 +14,12 @@ namespace sensornoise
 using VarianceModel = std::function<double(double levelDn)>;
 
 /** Compares the noise of frames with a variance of any form, as CheckNoiseModel() does with a line. A band fits if its
- * ratio is within \a tolerance of 1 [1], or within four standard errors. Band::transformVariance is null. */
+ * ratio is within the tolerance of 1, or within four standard errors. Band::transformVariance is null.
+ * \param frames report of the refined method on the frames
+ * \param model variance
+ * \param tolerance deviation of the ratio from 1 that is accepted at a level, whatever its error [1] */
 SensorNoise_EXPORT NoiseModelCheck
-CheckVariance(const Report & frames, const VarianceModel & model, double tolerance);
+CheckVariance(const Report & frames, const VarianceModel & model, const std::function<double(double)> & tolerance);
 
 } // namespace sensornoise
 

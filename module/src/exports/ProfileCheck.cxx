@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "exports/ProfileCheck.h"
+
+#include "base/Text.h"
+#include "exports/ExportInput.h"
+#include "exports/ProfileVariance.h"
+#include "stabilise/CheckText.h"
+#include "stabilise/VarianceCheck.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+namespace
+{
+using Band = NoiseModelCheck::Band;
+
+/** Deviation of a band's ratio from 1 that is accepted in a profile, whatever its error [1]: profiles are rounded, and
+ * cameras of one type differ by a few percent. */
+constexpr double profileTolerance = 0.05;
+/** Largest exponent of a factor that is a power of two: from 8 to 16 bits. */
+constexpr int mostBits = 8;
+/** Factor of the slope that rpi-ctt 1.4.0 stores [1]. */
+constexpr double libcameraFactor = 1.4;
+
+/** A known mistake: the profile as it would be without it. */
+struct ProfileMistake
+{
+  std::string     words;
+  ProfileVariance corrected;
+};
+
+NoiseModelCheck
+CheckProfileVariance(const Report & frames, const ProfileVariance & profile)
+{
+  const auto variance = [&](double level) { return profile.At(level); };
+  const auto tolerance = [&](double level) { return profileTolerance + profile.UnavoidableErrorAt(level); };
+  return CheckVariance(frames, variance, tolerance);
+}
+
+/** Adds mistakes of the gain: the inverse, and a variance in squared electrons. */
+void
+AddInverses(const ProfileVariance & profile, std::vector<ProfileMistake> & mistakes)
+{
+  const char * const exchanged = "e-/ADU and ADU/e- are exchanged";
+  const double       inverse = 1.0 / profile.slope;
+  ProfileVariance    corrected = profile;
+  corrected.slope = inverse;
+  // The read noise is in DN in the profile; or in electrons, and the wrong gain has made DN of it, as the right one
+  // does.
+  for (const double dark : { profile.darkDn2, profile.darkDn2 * Squared(Squared(inverse)) })
+  {
+    corrected.darkDn2 = profile.hasReadNoise ? dark : profile.darkDn2;
+    mistakes.push_back({ exchanged, corrected });
+  }
+  if (profile.form != ProfileForm::Sensor)
+  {
+    corrected.darkDn2 = profile.darkDn2 * Squared(inverse);
+    mistakes.push_back({ "the variance is in e-^2 in place of DN^2", corrected });
+  }
+}
+
+/** Adds mistakes of the black level. */
+void
+AddLevels(const ProfileVariance & profile, std::vector<ProfileMistake> & mistakes)
+{
+  const auto level = DarkLevelOf(profile.camera);
+  if (!level)
+  {
+    return;
+  }
+  ProfileVariance corrected = profile;
+  corrected.levelDn = *level;
+  std::string words = "the black level of " + LevelText(*level) + " DN is not subtracted";
+  if (profile.form == ProfileForm::Line)
+  {
+    corrected.darkDn2 = profile.darkDn2 - profile.slope * profile.levelDn;
+  }
+  else if (profile.levelDn != 0.0)
+  {
+    words = "the black level is " + LevelText(profile.levelDn) + " DN in the profile and " + LevelText(*level) +
+            " DN in the frames";
+  }
+  mistakes.push_back({ words, corrected });
+  if (profile.form == ProfileForm::Normalised)
+  {
+    const double range = profile.unitDn + profile.levelDn;
+    corrected = profile;
+    corrected.levelDn = 0.0;
+    corrected.slope *= range / profile.unitDn;
+    corrected.darkDn2 *= Squared(range / profile.unitDn);
+    mistakes.push_back({ "the black level of " + LevelText(profile.levelDn) + " DN is not subtracted", corrected });
+  }
+}
+
+/** Adds mistakes of the read noise: its unit, and its square. */
+void
+AddReadNoises(const ProfileVariance & profile, std::vector<ProfileMistake> & mistakes)
+{
+  if (!profile.hasReadNoise)
+  {
+    return;
+  }
+  const bool isSensor = profile.form == ProfileForm::Sensor;
+  const auto add = [&](const std::string & words, double dark) {
+    ProfileVariance corrected = profile;
+    corrected.darkDn2 = dark;
+    mistakes.push_back({ words, corrected });
+  };
+  const double slope2 = Squared(profile.slope);
+  add(isSensor ? "the read noise is in DN in place of e-" : "the read noise is in e- in place of DN",
+      isSensor ? profile.darkDn2 / slope2 : profile.darkDn2 * slope2);
+  const double unit2 = Squared(profile.unitDn);
+  add("the dark variance has the value of a standard deviation", Squared(profile.darkDn2) / unit2);
+  add("the read noise has the value of a variance", std::sqrt(std::max(0.0, profile.darkDn2)) * profile.unitDn);
+}
+
+/** Adds factors that are a power of two: of the levels, with or without the black level, and of the gain alone. */
+void
+AddPowers(const ProfileVariance & profile, std::vector<ProfileMistake> & mistakes)
+{
+  for (int bits = 1; bits <= mostBits; ++bits)
+  {
+    for (const double factor : { std::exp2(bits), std::exp2(-bits) })
+    {
+      const std::string times = Text(std::exp2(bits)) + " times too " + (factor > 1.0 ? "low" : "high");
+      const std::string scale = "its levels are " + times + ", as for another white level or bit depth";
+      ProfileVariance   corrected = profile;
+      corrected.slope *= factor;
+      mistakes.push_back({ "its gain is " + times, corrected });
+      corrected.darkDn2 *= Squared(factor);
+      mistakes.push_back({ scale, corrected });
+      corrected.levelDn *= factor;
+      mistakes.push_back({ scale, corrected });
+    }
+  }
+}
+
+/** Returns the mistakes of libcamera's tuning: another scale, and the factor of the slope. */
+std::vector<ProfileMistake>
+LibcameraMistakes(const ProfileVariance & profile)
+{
+  std::vector<ProfileMistake> mistakes;
+  const auto                  add = [&](const std::string & words, double constantFactor, double slopeFactor) {
+    ProfileVariance corrected = profile;
+    corrected.root.constant *= constantFactor;
+    corrected.root.slope *= slopeFactor;
+    mistakes.push_back({ words, corrected });
+  };
+  add("the slope lacks the factor 1.4 of rpi-ctt", 1.0, libcameraFactor);
+  add("the slope has the factor 1.4 of rpi-ctt twice", 1.0, 1.0 / libcameraFactor);
+  for (int bits = 1; bits <= mostBits; ++bits)
+  {
+    for (const double factor : { std::exp2(bits), std::exp2(-bits) })
+    {
+      const std::string times = Text(std::exp2(bits)) + " times too " + (factor > 1.0 ? "low" : "high");
+      add("its levels are " + times + ", as for another bit depth or analogue gain", factor, std::sqrt(factor));
+    }
+  }
+  return mistakes;
+}
+
+/** Returns the known mistakes, the likely ones first. */
+std::vector<ProfileMistake>
+KnownMistakes(const ProfileVariance & profile)
+{
+  std::vector<ProfileMistake> mistakes;
+  if (profile.form == ProfileForm::Root)
+  {
+    return LibcameraMistakes(profile);
+  }
+  AddInverses(profile, mistakes);
+  AddLevels(profile, mistakes);
+  AddReadNoises(profile, mistakes);
+  AddPowers(profile, mistakes);
+  return mistakes;
+}
+
+/** Returns the mistakes with which the profile would agree with the frames, as words; empty: there is none. */
+std::string
+ExplainProfile(const Report & frames, const ProfileVariance & profile)
+{
+  std::string              text;
+  std::vector<std::string> found;
+  for (const ProfileMistake & mistake : KnownMistakes(profile))
+  {
+    const bool isNew = std::find(found.begin(), found.end(), mistake.words) == found.end();
+    if (isNew && CheckProfileVariance(frames, mistake.corrected).verdict == NoiseModelCheck::Verdict::Fits)
+    {
+      text += (text.empty() ? "" : ", or ") + mistake.words;
+      found.push_back(mistake.words);
+    }
+  }
+  return text;
+}
+
+/** Returns the band that contradicts the profile most, in standard errors: one in which the profile has no variance
+ * first. */
+const Band &
+WorstBand(const std::vector<Band> & bands)
+{
+  const auto excess = [](const Band & band) {
+    const double error = std::max(band.standardError, 1e-12);
+    return band.fits ? -1.0 : band.ratio ? std::abs(*band.ratio - 1.0) / error : HUGE_VAL;
+  };
+  return *std::max_element(
+    bands.begin(), bands.end(), [&](const Band & a, const Band & b) { return excess(a) < excess(b); });
+}
+
+/** Returns how far the profile is off at the middle of a band: "is 2.0 times too low at 500 DN". */
+std::string
+DescribeExcess(const Band & band)
+{
+  const std::string level = " at " + LevelText(0.5 * (band.lowDn + band.highDn)) + " DN";
+  if (!band.ratio || !(*band.ratio > 0.0))
+  {
+    return "has no variance" + level;
+  }
+  const bool           isLow = *band.ratio > 1.0;
+  const double         factor = isLow ? *band.ratio : 1.0 / *band.ratio;
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), factor < 1.2 ? "%.2f" : factor < 10.0 ? "%.1f" : "%.0f", factor);
+  return "is " + std::string(text.data()) + " times too " + (isLow ? "low" : "high") + level;
+}
+} // namespace
+
+NoiseModelCheck
+CheckNoiseProfile(const NoiseProfile & profile, const Report & frames, const CameraNoise & burst)
+{
+  const ProfileVariance variance = VarianceOfProfile(profile, burst);
+  NoiseModelCheck       check = CheckProfileVariance(frames, variance);
+  if (check.verdict == NoiseModelCheck::Verdict::DoesNotFit)
+  {
+    const std::string cause = ExplainProfile(frames, variance);
+    check.sentence = "the profile " + profile.file + " (" + profile.format + ") " +
+                     DescribeExcess(WorstBand(check.bands)) + ": " +
+                     (cause.empty() ? "no known mistake explains it. Write a profile of these frames with "
+                                      "export-noise-model"
+                                    : cause);
+  }
+  if (!variance.hasReadNoise)
+  {
+    check.sentence += "; the file has no read noise, and that of these frames is taken";
+  }
+  return check;
+}
+
+} // namespace sensornoise
