@@ -208,6 +208,7 @@ NoiseProfileIn(const std::string & file)
   const bool            isBigEndian = IsBigEndianTiff(file);
   const auto            directory = static_cast<std::size_t>(NumberAt(file, 4, 4, isBigEndian));
   const auto            entries = static_cast<std::size_t>(NumberAt(file, directory, 2, isBigEndian));
+  NumberAt(file, directory + 2 + entries * entryBytes, 4, isBigEndian); // throws if the directory is not whole
   for (std::size_t at = directory + 2; at < directory + 2 + entries * entryBytes; at += entryBytes)
   {
     if (NumberAt(file, at, 2, isBigEndian) != noiseProfileTag)
