@@ -185,6 +185,9 @@ TEST_F(ProfileCheck, WhatTheFramesLackIsAskedFor)
   };
   m_Report.numbers.erase("/camera/white_level");
   isAsked(NormalisedProfile(1e-4, 1e-7), "--white");
+  NoiseProfile crossed = NormalisedProfile(1e-4, 1e-7);
+  crossed.whiteLevelDn = 10.0;
+  isAsked(crossed, "white level above the black level");
   m_Report.numbers.erase("/camera/black_level");
   isAsked(NormalisedProfile(1e-4, 1e-7), "--black");
   this->RemoveQuantity("/offset", "not-identifiable");

@@ -22,6 +22,7 @@ WRITTEN = {
     "refined": ((), ()),
     "published": ((), ("--method", "published")),
     "mosaic": (("--bayer", "RGGB"), ("--bayer", "RGGB")),
+    "mosaic and check": (("--bayer", "RGGB"), ("--bayer", "RGGB", "--check")),
     "smoothed": (("--smoothing", "0.6"), ()),
     "known offset": ((), ("--offset", "100,0.5", "--level-range", "50,3000", "--clip", "0,4000", "--step", "1")),
     "part": ((), ("--roi", "8,8,64,48", "--frames", "2:18", "--excess-noise-factor", "2")),

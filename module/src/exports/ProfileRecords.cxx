@@ -224,7 +224,8 @@ ReadNoiseProfile(const StoredReport & record)
 {
   const ProfileValues values(record);
   NoiseProfile        profile;
-  const bool          isReport = record.texts.count("/schema") > 0;
+  const auto          schema = record.texts.find("/schema");
+  const bool          isReport = schema != record.texts.end() && schema->second.rfind("itk-sensornoise", 0) == 0;
   const auto          found = std::find_if(Records.begin(), Records.end(), [&](const RecordFormat & each) {
     return values.Has(each.member) && values.Has(each.otherMember);
   });

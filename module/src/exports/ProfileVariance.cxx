@@ -77,6 +77,13 @@ SetNormalised(const ProfileChannel & channel, const CameraNoise & burst, Profile
 {
   variance.levelDn = BlackLevelOf(burst);
   variance.unitDn = WhiteLevelOf(burst) - variance.levelDn;
+  if (!(variance.unitDn > 0.0))
+  {
+    throw ExportError(
+      "the white level is " + Text(WhiteLevelOf(burst)) + " DN and the black level " + Text(variance.levelDn) +
+      " DN; expected a white level above the black level. Give both (--black, --white), or correct them "
+      "in the profile.");
+  }
   variance.slope = channel.scale * variance.unitDn;
   variance.darkDn2 = channel.constant.value_or(0.0) * Squared(variance.unitDn);
 }
