@@ -92,6 +92,13 @@ TEST_F(ProfileMistakes, ReadNoise)
         "the dark variance has the value of a standard deviation");
 }
 
+TEST_F(ProfileMistakes, FloorOfTheVariance)
+{
+  NoiseProfile profile = LineProfile(otherGain, dark - otherGain * offset);
+  profile.floorDn2 = 125.0; // CAREamics' default
+  Names(profile, "min_sigma is the lowest variance, and 125 DN^2 is too high");
+}
+
 TEST_F(ProfileMistakes, AnythingElseIsNotNamed)
 {
   const auto check = CheckNoiseProfile(LineProfile(1.3 * otherGain, 1.3 * (dark - otherGain * offset)),

@@ -121,6 +121,16 @@ AddReadNoises(const ProfileVariance & profile, std::vector<ProfileMistake> & mis
   add("the read noise has the value of a variance", std::sqrt(std::max(0.0, profile.darkDn2)) * profile.unitDn);
 }
 
+/** Adds the mistake of a floor that lies above the variance of dark pixels, as CAREamics' default may do. */
+void
+AddFloor(const ProfileVariance & profile, std::vector<ProfileMistake> & mistakes)
+{
+  ProfileVariance corrected = profile;
+  corrected.floorDn2 = 0.0;
+  mistakes.push_back(
+    { "min_sigma is the lowest variance, and " + Text(profile.floorDn2) + " DN^2 is too high", corrected });
+}
+
 /** Adds factors that are a power of two: of the levels, with or without the black level, and of the gain alone. */
 void
 AddPowers(const ProfileVariance & profile, std::vector<ProfileMistake> & mistakes)
@@ -174,6 +184,10 @@ KnownMistakes(const ProfileVariance & profile)
   if (profile.form == ProfileForm::Root)
   {
     return LibcameraMistakes(profile);
+  }
+  if (profile.floorDn2 > 0.0)
+  {
+    AddFloor(profile, mistakes);
   }
   AddInverses(profile, mistakes);
   AddLevels(profile, mistakes);
