@@ -46,20 +46,6 @@ protected:
       EXPECT_NEAR(band.ratio.value_or(0.0), 1.0, 1e-6) << "from " << band.lowDn << " DN";
     }
   }
-  /** The only mistake that is named is \a words. */
-  void
-  IsNamed(const sensornoise::NoiseProfile &   profile,
-          const std::string &                 words,
-          const sensornoise::ExportSettings & settings = {}) const
-  {
-    SCOPED_TRACE(profile.format);
-    const auto check = Check(profile, settings);
-    EXPECT_EQ(check.verdict, sensornoise::NoiseModelCheck::Verdict::DoesNotFit);
-    const std::size_t colon = check.sentence.find(" DN: ");
-    ASSERT_NE(colon, std::string::npos) << check.sentence;
-    EXPECT_EQ(check.sentence.substr(colon + 5), words) << check.sentence;
-  }
-
   static sensornoise::NoiseProfile
   ProfileOf(sensornoise::ProfileForm form, double scale, double constant)
   {

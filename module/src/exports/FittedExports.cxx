@@ -162,9 +162,8 @@ ExportAndroid(const std::vector<CameraNoise> & settings)
 
 namespace
 {
-constexpr double       slopeFactor = 1.4; // rpi-ctt 1.4.0 multiplies its slope by it
-constexpr int          levels = 4096;     // of the fit, at even distances of the root of the signal
-constexpr unsigned int scaleBits = 16;    // libcamera's levels
+constexpr int          levels = 4096;  // of the fit, at even distances of the root of the signal
+constexpr unsigned int scaleBits = 16; // libcamera's levels
 
 /** The standard deviation c + s r at the root r of the signal, on libcamera's scale. */
 struct RootLine
@@ -269,7 +268,7 @@ LibcameraNoise
 FitLibcamera(const CameraNoise & noise)
 {
   const RootLine line = FitRootLine(ScaleVariance(noise));
-  return { std::floor(line.constant), std::round(1000.0 * slopeFactor * line.slope) / 1000.0 };
+  return { std::floor(line.constant), std::round(1000.0 * libcameraSlopeFactor * line.slope) / 1000.0 };
 }
 
 double
@@ -277,7 +276,7 @@ LibcameraVariance(const LibcameraNoise & model, const CameraNoise & noise, doubl
 {
   const double scale = DnScaleOf(noise);
   const double root = std::sqrt(std::max(0.0, scale * (levelDn - BlackLevelOf(noise))));
-  const double deviation = (model.constant + model.slope / slopeFactor * root) / scale;
+  const double deviation = (model.constant + model.slope / libcameraSlopeFactor * root) / scale;
   return deviation * deviation;
 }
 
@@ -292,7 +291,7 @@ ExportLibcamera(const CameraNoise & noise)
     json.ObjectMember(
       "rpi.noise", [&] { json.Member("reference_constant", model.constant).Member("reference_slope", model.slope); });
   });
-  const Misfit misfit = MisfitOf({ model.constant, model.slope / slopeFactor }, variance);
+  const Misfit misfit = MisfitOf({ model.constant, model.slope / libcameraSlopeFactor }, variance);
   const double level = BlackLevelOf(noise) + misfit.signal / DnScaleOf(noise);
   return OneFile("libcamera_noise.json",
                  text + '\n',

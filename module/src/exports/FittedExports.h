@@ -10,6 +10,9 @@
 namespace sensornoise
 {
 
+/** Factor by which rpi-ctt 1.4.0 multiplies the slope that it stores [1]. */
+constexpr double libcameraSlopeFactor = 1.4;
+
 /** The numbers of rpi.noise, as a tuning file of libcamera has them. */
 struct LibcameraNoise
 {

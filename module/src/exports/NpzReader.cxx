@@ -89,8 +89,8 @@ ContentOfMember(const std::string & bytes, std::size_t at, const std::string & n
   {
     RefuseMember(name, "is compressed");
   }
-  const std::string content = ArchiveText(bytes, begin, size);
-  const auto *      data = reinterpret_cast<const Bytef *>(content.data());
+  std::string  content = ArchiveText(bytes, begin, size);
+  const auto * data = reinterpret_cast<const Bytef *>(content.data());
   if (crc32(crc32(0, nullptr, 0), data, static_cast<uInt>(content.size())) != ArchiveNumber(bytes, at + 16, 4))
   {
     RefuseMember(name, "is damaged: its checksum differs");

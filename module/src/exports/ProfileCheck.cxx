@@ -26,8 +26,6 @@ using Band = NoiseModelCheck::Band;
 constexpr double profileTolerance = 0.05;
 /** Largest exponent of a factor that is a power of two: from 8 to 16 bits. */
 constexpr int mostBits = 8;
-/** Factor of the slope that rpi-ctt 1.4.0 stores [1]. */
-constexpr double libcameraFactor = 1.4;
 
 /** A known mistake: the profile as it would be without it. */
 struct ProfileMistake
@@ -163,8 +161,8 @@ LibcameraMistakes(const ProfileVariance & profile)
     corrected.root.slope *= slopeFactor;
     mistakes.push_back({ words, corrected });
   };
-  add("the slope lacks the factor 1.4 of rpi-ctt", 1.0, libcameraFactor);
-  add("the slope has the factor 1.4 of rpi-ctt twice", 1.0, 1.0 / libcameraFactor);
+  add("the slope lacks the factor 1.4 of rpi-ctt", 1.0, libcameraSlopeFactor);
+  add("the slope has the factor 1.4 of rpi-ctt twice", 1.0, 1.0 / libcameraSlopeFactor);
   for (int bits = 1; bits <= mostBits; ++bits)
   {
     for (const double factor : { std::exp2(bits), std::exp2(-bits) })

@@ -220,35 +220,34 @@ constexpr std::array<RecordFormat, 11> Records{ {
 } // namespace
 
 NoiseProfile
-ReadNoiseProfile(const StoredReport & record)
+ReadNoiseProfile(const StoredReport & values)
 {
-  const ProfileValues values(record);
+  const ProfileValues members(values);
   NoiseProfile        profile;
-  const auto          schema = record.texts.find("/schema");
-  const bool          isReport = schema != record.texts.end() && schema->second.rfind("itk-sensornoise", 0) == 0;
+  const auto          schema = values.texts.find("/schema");
+  const bool          isReport = schema != values.texts.end() && schema->second.rfind("itk-sensornoise", 0) == 0;
   const auto          found = std::find_if(Records.begin(), Records.end(), [&](const RecordFormat & each) {
-    return values.Has(each.member) && values.Has(each.otherMember);
+    return members.Has(each.member) && members.Has(each.otherMember);
   });
-  if (values.Has("noiseprofiles"))
+  if (members.Has("noiseprofiles"))
   {
-    throw ExportError("the profile " + record.name +
+    throw ExportError("the profile " + values.name +
                       " is a preset of darktable, which cannot be checked: its a and b are the variance after "
                       "darktable's own demosaicing, which differs from the variance of the frames by a factor that is "
                       "not known. Check a DNG file or another profile.");
   }
   if (!isReport && found == Records.end())
   {
-    std::string members;
+    std::string known;
     for (const RecordFormat & each : Records)
     {
-      members +=
-        std::string(members.empty() ? "" : "; ") + each.member + " and " + each.otherMember + " (" + each.name + ")";
+      known +=
+        std::string(known.empty() ? "" : "; ") + each.member + " and " + each.otherMember + " (" + each.name + ")";
     }
-    throw ExportError("the profile " + record.name + " has the members of no format that is known; expected " +
-                      members);
+    throw ExportError("the profile " + values.name + " has the members of no format that is known; expected " + known);
   }
-  profile = isReport ? ReadReport(values) : found->read(values);
-  profile.file = record.name;
+  profile = isReport ? ReadReport(members) : found->read(members);
+  profile.file = values.name;
   profile.format = isReport ? "report" : found->name;
   return profile;
 }
