@@ -28,8 +28,8 @@ public:
 
   /** Reads \a count frames from the frame \a first on into \a buffer, which has space for so many frames of type
    * file.pixel. Uncompressed frames need at most about 2 MiB of memory beside the buffer, or a tile of a TIFF. Throws
-   * FileError if the file has changed so that the frames cannot be read; RequireUnchanged() detects other changes. May be
-   * called from several threads at once. */
+   * FileError if the file has changed so that the frames cannot be read; RequireUnchanged() detects other changes. May
+   * be called from several threads at once. */
   virtual void
   Read(const FrameFile & file, std::size_t first, std::size_t count, void * buffer) const = 0;
 
