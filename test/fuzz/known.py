@@ -146,6 +146,7 @@ FOUND: list[tuple[str, str, Change]] = [
     ("mraw 12", "an element that stays open", _replace(b"</colorInfo>", b"")),
     ("raw", "a byte too many", lambda data: data + b"a"),
     ("raw packed", "cut off", lambda data: data[:-1]),
+    ("dng 16", "no directory", _at(4, 0)),
     ("png list", "a checksum", _flip(-1)),
     ("png list", "no pixels", _png_without(b"IDAT")),
     ("png list", "no end", lambda data: data[:-12]),

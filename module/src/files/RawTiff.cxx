@@ -40,8 +40,8 @@ DirectoriesBelow(TiffBytes & tiff, const TiffDirectory & directory)
   return offsets;
 }
 
-/** All directories, those of the chain and those below each. Throws for the first alone: makers write odd things into
- * those of their previews. */
+/** All directories, those of the chain and those below each; at least one. Throws for the first alone: makers write odd
+ * things into those of their previews. */
 std::vector<TiffDirectory>
 AllDirectories(const std::string & file, TiffBytes & tiff)
 {
@@ -71,6 +71,10 @@ AllDirectories(const std::string & file, TiffBytes & tiff)
       waiting.push_back(offset);
     }
     waiting.push_back(found.back().next);
+  }
+  if (found.empty())
+  {
+    throw FileError(file, "damaged: its first directory is at byte 0, as if it had none; expected it behind the head");
   }
   return found;
 }

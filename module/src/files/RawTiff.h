@@ -3,6 +3,7 @@
 #ifndef sensornoise_files_RawTiff_h
 #define sensornoise_files_RawTiff_h
 
+#include "SensorNoiseExport.h"
 #include "files/FileBytes.h"
 
 #include <cstdint>
@@ -28,7 +29,7 @@ RawTiffKindOf(const std::string & file, FileBytes & bytes);
  * image of \a width x \a height codes, as LibRaw would read it [pixels]; its codes are whole numbers, uncompressed or
  * as JPEG without loss, and not rounded through a table; and its strips or tiles hold exactly as many of them, each
  * JPEG to its end. */
-void
+SensorNoise_EXPORT void
 RequireWholeRawTiff(const std::string & file, FileBytes & bytes, std::uint64_t width, std::uint64_t height);
 
 } // namespace sensornoise
