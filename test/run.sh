@@ -3,15 +3,15 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs what is missing, builds into build/ and runs every test: C++ with damaged files among them, then the site of the
 # documentation, then Python (examples, tests, damaged files) with the wheel in a fresh virtual environment, then C++ once more
-# with AddressSanitizer and UndefinedBehaviorSanitizer, in build/sanitized. Warnings are errors, and test/check-style.sh has no
-# finding. The last lines say what each part took, and what it found in the caches. Options are handed on to ctest, for example
-# -R Codes.
+# with AddressSanitizer and UndefinedBehaviorSanitizer, in build/sanitized, then 20 seconds of libFuzzer for each file format,
+# which are skipped where clang cannot be had. Warnings are errors, and test/check-style.sh has no finding. The last lines say
+# what each part took, and what it found in the caches. Options are handed on to ctest, for example -R Codes.
 #
 # Python needs ITK's source (wrapping/build-itk.sh says where that comes from). Where it is not to be had, the last line says
 # so, and what was tested counts. SENSORNOISE_PYTHON=1: that is a failure, too; SENSORNOISE_PYTHON=0: Python is left out.
 # SENSORNOISE_STYLE in the same way: 1, or CI=true: it is a failure that a program which checks the style is not to be had;
 # 0: the style is left out. SENSORNOISE_SITE in the same way, for the site of the documentation. SENSORNOISE_SANITIZE=0: the
-# sanitizers are left out. examples/setup.sh has the variables of the caches.
+# sanitizers are left out; SENSORNOISE_FUZZ=0: libFuzzer is. examples/setup.sh has the variables of the caches.
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 source "$here/examples/setup.sh"
@@ -46,7 +46,7 @@ run_cpp_tests() {
 sensornoise_packages+=(libopencv-imgcodecs-dev libopencv-videoio-dev)
 
 mkdir -p "$here/build"
-rm -f "$here"/build/{pytest,fuzz,ccache}.log
+rm -f "$here"/build/{pytest,fuzz,coverage-guided,ccache}.log
 SECONDS=0
 sensornoise_install
 # A browser for the pages of --plot: 115 MB to download, 360 MB on the disk. Without it their tests are skipped.
@@ -145,9 +145,24 @@ if [ "${SENSORNOISE_SANITIZE:-}" != 0 ]; then
   took "C++ tests with sanitizers"
 fi
 
+unfuzzed=
+if [ "${SENSORNOISE_FUZZ:-}" != 0 ]; then
+  set +e
+  bash "$here/test/fuzz/coverage_guided.sh" 2>&1 | tee "$here/build/coverage-guided.log"
+  status="${PIPESTATUS[0]}"
+  set -e
+  if [ "$status" = 69 ]; then
+    unfuzzed="$(sed -n '$s/^coverage_guided.sh: //p' "$here/build/coverage-guided.log")"
+  elif [ "$status" != 0 ]; then
+    failed+=("coverage-guided search")
+  fi
+  took "coverage-guided search"
+fi
+
 # What failed once more, where it is seen: hundreds of lines may stand between.
 grep -hE '^(FAILED|ERROR) ' "$here/build/pytest.log" 2>/dev/null || true
 grep -hE '^(CRASH|HANG|[A-Z ]+): number ' "$here/build/fuzz.log" 2>/dev/null || true
+grep -hE '^(FINDING|  file: )' "$here/build/coverage-guided.log" 2>/dev/null || true
 cat "$here"/build/Testing/Temporary/LastTestsFailed*.log "$here"/build/sanitized/Testing/Temporary/LastTestsFailed*.log \
   2>/dev/null || true
 echo "what each part took:"
@@ -155,5 +170,6 @@ printf '%s\n' "${times[@]}" | sort -rn
 [ ! -d "$sensornoise_cache" ] || echo "caches: $(du -sh "$sensornoise_cache" | cut -f1) in $sensornoise_cache"
 [ -z "$untested" ] || echo "Python: not tested, $untested" >&2
 [ -z "$unchecked" ] || echo "style: not checked, $unchecked" >&2
+[ -z "$unfuzzed" ] || echo "coverage-guided search for damaged files: skipped, $unfuzzed" >&2
 [ -z "$unsited" ] || echo "site of the documentation: not built, $unsited" >&2
 [ ${#failed[@]} = 0 ] || { echo "failed: ${failed[*]}" >&2; exit 1; }

@@ -1,0 +1,71 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Writes the inputs that FrameFileFuzzer.cxx begins with: coverage_seeds.py FOLDER.
+
+FOLDER/<format>/ has the sound files of frame_files.py and the damaged ones of known.py, with eight frames of 8 x 4
+pixels: small files are tried more often a second. Prints the names of the formats, one a line.
+"""
+
+import pathlib
+import sys
+from random import Random
+
+import frame_files
+
+# Before known.py takes them over. FrameFileFuzzer.cxx has the same numbers.
+frame_files.WIDTH = 8
+frame_files.HEIGHT = 4
+
+from known import known_cases  # noqa: E402 - see above
+
+FRAMES = 8
+
+# The formats as FrameFormats.cxx calls them, by the first word of a case's name. Frames without a header and formats
+# that are refused unread have no target.
+FORMATS = {
+    "dng": "camera raw",
+    "tiff": "TIFF",
+    "bigtiff": "TIFF",
+    "png": "PNG",
+    "mha": "MetaImage",
+    "mhd": "MetaImage",
+    "nrrd": "NRRD",
+    "nhdr": "NRRD",
+    "ser": "SER",
+    "mraw": "MRAW",
+    "fits": "FITS",
+    "npy": "NPY",
+    "pgm": "PGM",
+}
+
+
+def inputs_of(case: frame_files.Case) -> list[bytes]:
+    """The files of a case as one input, or, of frames in files of their own, each file as one."""
+
+    def part(file: frame_files.File) -> bytes:
+        return b"%%FILE%%" + file.name.encode() + b"\n" + file.data
+
+    if len(case.frames) > 1:
+        return [part(file) for file in case.files]
+    return [b"".join(map(part, case.files))]
+
+
+def main() -> None:
+    folder = pathlib.Path(sys.argv[1])
+    random = Random(1)
+    pixels = frame_files.WIDTH * frame_files.HEIGHT
+    # Eleven bits: below what 12 bits hold, as the packed formats need.
+    frames = [b"".join(random.randrange(2048).to_bytes(2, "little") for _ in range(pixels)) for _ in range(FRAMES)]
+    cases = frame_files.all_cases(frames) + [case for _, case in known_cases(frames)]
+    for number, case in enumerate(cases):
+        name = FORMATS.get(case.name.split()[0])
+        if name is None:
+            continue
+        (folder / name).mkdir(parents=True, exist_ok=True)
+        for part, data in enumerate(inputs_of(case)):
+            (folder / name / f"{number:03}-{part}").write_bytes(data)
+    print("\n".join(dict.fromkeys(FORMATS.values())))
+
+
+if __name__ == "__main__":
+    main()
