@@ -38,6 +38,30 @@ FORMATS = {
     "pgm": "PGM",
 }
 
+# Sound headers that frame_files.py leaves out, from which libFuzzer reaches the code that reads them: the case, the
+# text that is replaced in its first file, and the new text. In FITS, it has the same length.
+VARIANTS = [
+    ("nrrd", b"endian:", b"spacings: 1 2 nan\nkinds: domain domain time\nendian:"),
+    (
+        "nrrd",
+        b"endian:",
+        b"space: right-anterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,2)\nspace origin: (1,2,3)\nendian:",
+    ),
+    ("fits", b"BSCALE  =                    1", b"BSCALE  =                  2.5"),
+    ("fits 32", b"BITPIX  =                   32", b"BITPIX  =                  -32"),
+]
+
+
+def varied(cases: list[frame_files.Case]) -> list[frame_files.Case]:
+    by_name = {case.name: case for case in cases}
+    made = []
+    for name, old, new in VARIANTS:
+        first, *rest = by_name[name].files
+        assert old in first.data, (name, old)
+        file = frame_files.File(first.name, first.data.replace(old, new, 1))
+        made.append(frame_files.Case(name, [file, *rest], by_name[name].frames))
+    return made
+
 
 def inputs_of(case: frame_files.Case) -> list[bytes]:
     """The files of a case as one input, or, of frames in files of their own, each file as one."""
@@ -56,7 +80,8 @@ def main() -> None:
     pixels = frame_files.WIDTH * frame_files.HEIGHT
     # Eleven bits: below what 12 bits hold, as the packed formats need.
     frames = [b"".join(random.randrange(2048).to_bytes(2, "little") for _ in range(pixels)) for _ in range(FRAMES)]
-    cases = frame_files.all_cases(frames) + [case for _, case in known_cases(frames)]
+    sound = frame_files.all_cases(frames)
+    cases = sound + varied(sound) + [case for _, case in known_cases(frames)]
     for number, case in enumerate(cases):
         name = FORMATS.get(case.name.split()[0])
         if name is None:
