@@ -116,7 +116,7 @@ public:
   itkSetMacro(ExcessNoiseFactor, double);
   itkGetConstMacro(ExcessNoiseFactor, double);
 
-  /** Region and frames of the recording from which the stack was cut out, as those of SensorNoiseEstimator: the
+  /** Region and frames of the recording from which the stack was cut out, as in SensorNoiseEstimator: the
    * settings of the report have them, and no number changes. Default: nothing is recorded. Update() throws if they do
    * not have the size of the stack. */
   void
