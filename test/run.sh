@@ -148,7 +148,7 @@ fi
 unfuzzed=
 if [ "${SENSORNOISE_FUZZ:-}" != 0 ]; then
   set +e
-  bash "$here/test/fuzz/coverage_guided.sh" 2>&1 | tee "$here/build/coverage-guided.log"
+  bash "$here/test/fuzz/coverage_guided.sh" --runs 30000 2>&1 | tee "$here/build/coverage-guided.log"
   status="${PIPESTATUS[0]}"
   set -e
   if [ "$status" = 69 ]; then

@@ -6,13 +6,14 @@
 # reaches. It begins with the files of coverage_seeds.py. Of raw files of cameras it tries what is checked before LibRaw
 # decodes them; LibRaw itself, and frames without a header, are not in it.
 #
-#   coverage_guided.sh [--seconds N] [--format NAME]... [--jobs N]
+#   coverage_guided.sh [--seconds N] [--runs N] [--format NAME]... [--jobs N]
 #
-#   --seconds N      for each format (default: 20)
+#   --seconds N      at most, for each format (default: 20)
+#   --runs N         inputs of each format at most (default: no limit). A limit that is reached repeats exactly
 #   --format NAME    as FrameFormats.cxx calls it; several times for several formats (default: all)
 #   --jobs N         formats at a time (default: one for each processor)
 #
-# A crash, a finding of a sanitizer, an input of more than 5 seconds, an allocation of more than 64 MB, and pixels that
+# A crash, a finding of a sanitizer, an input of more than 20 seconds, an allocation of more than 192 MB, and pixels that
 # cannot be read after an inspection without an error are findings. The file of a finding is kept in
 # build/coverage-guided/findings. Prints what each format took and reached: edges, and features, which are edges with the
 # number of times that they are taken. Exit codes: 0 clean, 1 findings, 69 clang cannot be had (the last line says why).
@@ -20,11 +21,13 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 source examples/setup.sh
 seconds=20
+runs=-1
 jobs="$(nproc)"
 formats=()
 while [ $# -gt 0 ]; do
   case "$1" in
   --seconds) seconds="${2:?--seconds needs a number}" ;;
+  --runs) runs="${2:?--runs needs a number}" ;;
   --format) formats+=("${2:?--format needs a name}") ;;
   --jobs) jobs="${2:?--jobs needs a number}" ;;
   *) sed -n '4,/^set/s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
@@ -65,8 +68,8 @@ search() {
   local name="${1// /-}" status=0 log row
   log="$folder/logs/$name" # its last row of numbers: "#1234 DONE cov: 567 ft: 890 corp: ..."
   mkdir -p "$folder/corpus/$1"
-  "$folder/frame-file-fuzzer" "--format=$1" -seed=1 "-max_total_time=$seconds" -max_len=65536 -timeout=5 \
-    -malloc_limit_mb=64 -rss_limit_mb=1024 -print_final_stats=1 "-artifact_prefix=$folder/findings/$name-" \
+  "$folder/frame-file-fuzzer" "--format=$1" -seed=1 "-max_total_time=$seconds" "-runs=$runs" -max_len=65536 -timeout=20 \
+    -malloc_limit_mb=192 -rss_limit_mb=1024 -print_final_stats=1 "-artifact_prefix=$folder/findings/$name-" \
     "$folder/corpus/$1" "$folder/seeds/$1" >"$log" 2>&1 || status=$?
   row="$(grep -E '^#[0-9]+.* cov: ' "$log" | tail -1)"
   [ -n "$row" ] || row=" cov: 0 ft: 0"
@@ -93,7 +96,7 @@ echo "built in $SECONDS s"
 
 # In memory where the system has such a folder: each input is a file.
 TMPDIR="$(mktemp -d -p "$([ -w /dev/shm ] && echo /dev/shm || echo "${TMPDIR:-/tmp}")" sensornoise-XXXXXX)"
-export TMPDIR folder seconds
+export TMPDIR folder seconds runs
 export -f search
 trap 'rm -rf "$TMPDIR"' EXIT
 printf '%-12s %12s %8s %10s %10s\n' format executions edges features findings

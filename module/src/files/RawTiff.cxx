@@ -320,8 +320,8 @@ RequireWholeRawTiff(const std::string & file, FileBytes & bytes, std::uint64_t w
     if (isDng && IsRawImage(file, tiff, directory) && tiff.Number(file, directory, 256, "ImageWidth") == width &&
         tiff.Number(file, directory, 257, "ImageLength") == height)
     {
+      RequireApart(file, ChunksOf(file, tiff, directory), directories); // each byte is then decoded once
       DngImage(file, tiff, directory).RequireWhole();
-      RequireApart(file, ChunksOf(file, tiff, directory), directories);
       isFound = true;
     }
     else if (!isDng)
