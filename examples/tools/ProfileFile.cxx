@@ -26,6 +26,8 @@ namespace
 constexpr std::uintmax_t mostBytes = std::uintmax_t{ 1 } << 32U;
 /** Deepest nesting of JSON. Tuning files have 5 levels; flattening takes memory of the stack for each. */
 constexpr int mostDepth = 64;
+/** Longest name of a member [bytes], which the path of each member below it holds, too. Chosen: names have 40. */
+constexpr std::size_t mostNameBytes = 256;
 
 std::string
 ReadProfileBytes(const std::string & file)
@@ -49,7 +51,12 @@ ReadProfileBytes(const std::string & file)
 nlohmann::json
 ParseProfile(const std::string & file, const std::string & text)
 {
-  const auto limit = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json &) {
+  const auto limit = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json & value) {
+    if (event == nlohmann::json::parse_event_t::key && value.get_ref<const std::string &>().size() > mostNameBytes)
+    {
+      throw std::runtime_error("the profile " + file + " has a name of more than " + std::to_string(mostNameBytes) +
+                               " bytes (--check-profile); expected the JSON file of a camera");
+    }
     if (depth > mostDepth)
     {
       throw std::runtime_error("the profile " + file + " has more than " + std::to_string(mostDepth) +
@@ -70,7 +77,11 @@ ParseProfile(const std::string & file, const std::string & text)
 NoiseProfile
 ReadProfileFile(const std::string & file)
 {
-  const std::string bytes = ReadProfileBytes(file);
+  std::string bytes = ReadProfileBytes(file);
+  if (bytes.rfind("\xef\xbb\xbf", 0) == 0) // the byte order mark of UTF-8
+  {
+    bytes.erase(0, 3);
+  }
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   return first != std::string::npos && (bytes[first] == '{' || bytes[first] == '[')
            ? ReadNoiseProfile(ValuesOfJson(file, ParseProfile(file, bytes)))
@@ -82,8 +93,17 @@ CheckProfile(const NoiseProfile & profile, const MeasuredStack & measured, const
 {
   const std::vector<const Report *> frames = ReportsOf(measured);
   const std::string text = std::visit([](const auto & reports) { return sensornoise::ToJson(reports); }, measured);
-  const auto        noise = ReadCameraNoise(ValuesOfJson("of these frames", nlohmann::json::parse(text)), settings);
   ModelChecks       checks(frames.size());
+  CameraNoise       noise;
+  try
+  {
+    noise = ReadCameraNoise(ValuesOfJson("of these frames", nlohmann::json::parse(text)), settings);
+  }
+  catch (const std::exception & error) // the report is written all the same
+  {
+    std::cerr << "error: the profile " << profile.file << " cannot be checked: " << error.what() << '\n';
+    return checks;
+  }
   for (std::size_t k = 0; k < frames.size(); ++k)
   {
     CameraNoise burst = noise;

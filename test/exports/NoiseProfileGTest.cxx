@@ -120,12 +120,18 @@ TEST_F(NoiseProfiles, TruncatedArchivesAreRefused)
   std::string changed = whole;
   changed[whole.find('\n') + 20] ^= 1; // in the weights
   IsDamaged(changed, { "checksum" });
+  std::string       many = whole; // the directory claims 20,000 arrays, which may all be the same bytes
+  const std::size_t count = many.rfind("PK\x05\x06") + 10;
+  many[count] = '\x20';
+  many[count + 1] = '\x4e';
+  IsDamaged(many, { "20000 arrays" });
 }
 
 TEST_F(NoiseProfiles, NumbersThatNoProgramTakesAreRefused)
 {
   IsDamaged("", { "no format that is known" });
   IsDamaged("1e-4 2e-7 3", { "3 numbers" });
+  IsDamaged("c:\n  " + std::string(300, 'a') + ": 1\n", { "a name of 300 bytes" });
   IsDamaged("EGAIN   = nan / e\nRDNOISE = 3 /", { "EGAIN" });
   IsDamaged("c:\n  ElectronsPerCount: -2\n  ADOffset: 1\n  ReadNoise: 1\n", { "ElectronsPerCount = -2", "above 0" });
   IsDamaged("c:\n  Sensitivity: 2\n  Baseline: 1\nd:\n  Sensitivity: 3\n  Baseline: 1\n", { "several values of " });

@@ -154,6 +154,23 @@ TEST_F(ProfileCheck, SmoothedFramesHaveTheSensorsRecord)
   EXPECT_NEAR(check.bands.front().ratio.value_or(0.0), 1.0, 1e-6);
 }
 
+// Without a read noise in the file and in the report, the variance of the burst's line at its own dark level is taken.
+TEST_F(ProfileCheck, AnOffsetIsTestedWithoutAReadNoise)
+{
+  this->RemoveQuantity("/read_noise", "not-identifiable");
+  const auto checkOf = [this](double offsetDn) {
+    return CheckNoiseProfile(SensorProfile(1.0 / gain, std::nullopt, offsetDn),
+                             Frames(gain, readNoise * readNoise - gain * offset),
+                             ReadCameraNoise(m_Report));
+  };
+  EXPECT_EQ(checkOf(offset).verdict, NoiseModelCheck::Verdict::Fits) << checkOf(offset).sentence;
+  EXPECT_EQ(checkOf(offset + 300.0).verdict, NoiseModelCheck::Verdict::DoesNotFit) << checkOf(offset + 300.0).sentence;
+  this->RemoveQuantity("/offset", "not-identifiable");
+  m_Report.numbers.erase("/camera/black_level");
+  const std::string sentence = checkOf(offset + 300.0).sentence;
+  EXPECT_NE(sentence.find("the offset is not tested"), std::string::npos) << sentence;
+}
+
 TEST_F(ProfileCheck, ChannelsOfAMosaicHaveTheirPlane)
 {
   this->MakeMosaic();

@@ -7,6 +7,7 @@
 #include "helpers/ExportTestHelper.h"
 #include "sensornoise/Report.h"
 
+#include <optional>
 #include <string>
 
 /** Frames with the noise of the report of ExportTest, and the checks of profiles against them. */
@@ -47,7 +48,7 @@ protected:
     }
   }
   static sensornoise::NoiseProfile
-  ProfileOf(sensornoise::ProfileForm form, double scale, double constant)
+  ProfileOf(sensornoise::ProfileForm form, double scale, std::optional<double> constant)
   {
     sensornoise::NoiseProfile profile;
     profile.file = "profile";
@@ -67,7 +68,7 @@ protected:
     return ProfileOf(sensornoise::ProfileForm::Normalised, scale, constant);
   }
   static sensornoise::NoiseProfile
-  SensorProfile(double electronsPerDn, double readNoiseElectrons, double offsetDn)
+  SensorProfile(double electronsPerDn, std::optional<double> readNoiseElectrons, double offsetDn)
   {
     auto profile = ProfileOf(sensornoise::ProfileForm::Sensor, electronsPerDn, readNoiseElectrons);
     profile.channels.front().offsetDn = offsetDn;

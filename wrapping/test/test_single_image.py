@@ -90,8 +90,9 @@ def test_one_call_is_the_functional_style_with_regions_and_hashes(frames):
     )
     by_hand = itk.single_image_noise_estimator(np.ascontiguousarray(frames[1:3, :, 64:]))
     assert cut.gain.value == by_hand.gain.value
-    assert cut["settings"]["roi"] == [64, 0, 192, 192] and cut["settings"]["frames"] == [1, 3]
-    assert cut["input"]["frames"]["of"] == "pixels" and len(cut["input"]["frames"]["sha256"]) == 64
+    assert [cut["settings"][f"roi_{name}"] for name in ("x", "y", "width", "height")] == [64, 0, 192, 192]
+    assert (cut["settings"]["frame_range_first"], cut["settings"]["frame_range_end"]) == (1, 3)
+    assert cut["input"]["of"] == "pixels" and len(cut["input"]["sha256"]) == 64
 
 
 def test_the_pattern_of_a_mosaic_is_that_of_the_region(frames):

@@ -86,7 +86,10 @@ ReadCameraSettings(const StoredReport & report, CameraNoise & noise)
     for (const std::string & pointer : { camera + "bit_depth", std::string(at) + "/bit_depth" })
     {
       const auto bits = NumberAt(report, pointer);
-      noise.bitDepth = noise.bitDepth || !bits ? noise.bitDepth : static_cast<unsigned int>(*bits);
+      if (!noise.bitDepth && bits && *bits >= 1.0 && *bits <= 64.0)
+      {
+        noise.bitDepth = static_cast<unsigned int>(*bits);
+      }
     }
   }
 }

@@ -20,6 +20,10 @@ namespace
 constexpr std::size_t localHeadBytes = 30;
 constexpr std::size_t centralHeadBytes = 46;
 constexpr std::size_t endRecordBytes = 22;
+/** Largest array [bytes] and most arrays of an archive, as several names may share one array. Chosen: a model of one
+ * Gaussian has four arrays of at most 48 bytes behind 128 bytes of head. */
+constexpr std::size_t   mostMemberBytes = 65536;
+constexpr std::uint64_t mostMembers = 64;
 
 /** Returns a number of little endian in an archive. Throws ExportError if the archive ends before it. */
 std::uint64_t
@@ -89,6 +93,10 @@ ContentOfMember(const std::string & bytes, std::size_t at, const std::string & n
   {
     RefuseMember(name, "is compressed");
   }
+  if (size > mostMemberBytes)
+  {
+    RefuseMember(name, "has " + std::to_string(size) + " bytes");
+  }
   std::string  content = ArchiveText(bytes, begin, size);
   const auto * data = reinterpret_cast<const Bytef *>(content.data());
   if (crc32(crc32(0, nullptr, 0), data, static_cast<uInt>(content.size())) != ArchiveNumber(bytes, at + 16, 4))
@@ -110,6 +118,11 @@ ReadNpz(const std::string & bytes)
   std::map<std::string, std::vector<double>> arrays;
   auto                                       at = static_cast<std::size_t>(ArchiveNumber(bytes, end + 16, 4));
   const auto                                 members = ArchiveNumber(bytes, end + 10, 2);
+  if (members > mostMembers)
+  {
+    throw ExportError("the NumPy archive has " + std::to_string(members) +
+                      " arrays; expected the archive of one noise model, at most " + std::to_string(mostMembers));
+  }
   for (std::uint64_t member = 0; member < members; ++member)
   {
     if (ArchiveText(bytes, at, 4) != "PK\x01\x02")

@@ -237,7 +237,13 @@ DescribeExcess(const Band & band)
   const bool           isLow = *band.ratio > 1.0;
   const double         factor = isLow ? *band.ratio : 1.0 / *band.ratio;
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), factor < 1.2 ? "%.2f" : factor < 10.0 ? "%.1f" : "%.0f", factor);
+  std::snprintf(text.data(),
+                text.size(),
+                factor < 1.2    ? "%.2f"
+                : factor < 10.0 ? "%.1f"
+                : factor < 1e6  ? "%.0f"
+                                : "%.1e",
+                factor);
   return "is " + std::string(text.data()) + " times too " + (isLow ? "low" : "high") + level;
 }
 } // namespace
@@ -258,7 +264,9 @@ CheckNoiseProfile(const NoiseProfile & profile, const Report & frames, const Cam
   }
   if (!variance.hasReadNoise)
   {
-    check.sentence += "; the file has no read noise, and that of these frames is taken";
+    check.sentence += variance.isOffsetTested
+                        ? ". The file has no read noise: the read noise of these frames is taken"
+                        : ". The file has no read noise and these frames have no dark level: the offset is not tested";
   }
   return check;
 }

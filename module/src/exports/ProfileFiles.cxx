@@ -97,7 +97,7 @@ ProfileOfCareamics(const std::string & bytes)
   const double low = ArrayNamed(arrays, "min_signal", 1).front();
   const double high = ArrayNamed(arrays, "max_signal", 1).front();
   const double slope = std::exp(weight[3]) / (high - low);
-  if (!(high > low) || !std::isfinite(slope) || !std::isfinite(std::exp(weight[2])))
+  if (!(high > low) || !std::isfinite(slope) || !std::isfinite(std::exp(weight[2]) - slope * low))
   {
     throw ExportError("the noise model has min_signal = " + Text(low) + " and max_signal = " + Text(high) +
                       "; expected a brighter max_signal");

@@ -17,6 +17,9 @@ namespace sensornoise
 {
 namespace
 {
+/** Most amplifiers of a record. Chosen: a detector of LSST has 16. */
+constexpr std::size_t mostAmplifiers = 256;
+
 NoiseProfile
 OneChannel(ProfileForm form, double scale, std::optional<double> constant, std::optional<double> offsetDn = {})
 {
@@ -163,7 +166,13 @@ ReadLsst(const ProfileValues & values)
 {
   NoiseProfile profile;
   profile.form = ProfileForm::Sensor;
-  for (const std::string & name : values.Texts("ampNames"))
+  const std::vector<std::string> names = values.Texts("ampNames");
+  if (names.size() > mostAmplifiers)
+  {
+    throw ExportError("the record has " + std::to_string(names.size()) + " amplifiers; expected at most " +
+                      std::to_string(mostAmplifiers));
+  }
+  for (const std::string & name : names)
   {
     profile.channels.push_back({ name, values.Positive("gain/" + name), values.NotNegative("noise/" + name), {} });
   }

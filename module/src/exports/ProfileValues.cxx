@@ -14,6 +14,8 @@ namespace sensornoise
 {
 namespace
 {
+/** Longest name of a member [bytes], which the path of each member below it holds, too. Chosen: names have 40. */
+constexpr std::size_t mostNameBytes = 256;
 bool
 EndsWith(const std::string & text, const std::string & end)
 {
@@ -165,6 +167,11 @@ ReadYamlValues(const std::string & file, const std::string & text)
     while (!parents.empty() && parents.back().first >= indent)
     {
       parents.pop_back();
+    }
+    if (found->name.size() > mostNameBytes)
+    {
+      throw ExportError("the profile " + file + " has a name of " + std::to_string(found->name.size()) +
+                        " bytes; expected at most " + std::to_string(mostNameBytes));
     }
     const std::string pointer = (parents.empty() ? "" : parents.back().second) + "/" + found->name;
     const auto        number = FiniteNumber(found->value);

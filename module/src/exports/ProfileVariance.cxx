@@ -119,17 +119,26 @@ SetSensor(const std::string &    file,
   variance.slope = 1.0 / channel.scale;
   variance.unitDn = variance.slope;
   variance.hasReadNoise = channel.constant.has_value();
-  variance.darkDn2 = channel.constant           ? Squared(*channel.constant * variance.slope)
-                     : measured.readNoise.value ? Squared(*measured.readNoise.value)
-                                                : std::max(0.0, line.VarianceAt(*level)) / variance.smoothing;
+  const auto burstDark = DarkLevelOf(burst);
+  variance.isOffsetTested = channel.constant || measured.readNoise.value || burstDark;
+  variance.darkDn2 = channel.constant ? Squared(*channel.constant * variance.slope)
+                     : measured.readNoise.value
+                       ? Squared(*measured.readNoise.value)
+                       : std::max(0.0, line.VarianceAt(burstDark.value_or(*level))) / variance.smoothing;
 }
 } // namespace
 
 double
 ProfileVariance::At(double level) const
 {
-  return form == ProfileForm::Root ? LibcameraVariance(root, camera, level)
-                                   : std::max(floorDn2, smoothing * (slope * (level - levelDn) + darkDn2));
+  if (form == ProfileForm::Root)
+  {
+    return LibcameraVariance(root, camera, level);
+  }
+  const double variance = smoothing * (slope * (level - levelDn) + darkDn2);
+  // Where rounding may have made a variance negative, the largest that it allows is taken.
+  const bool isRoundedAway = !(variance > 0.0) && variance + roundingDn2 > 0.0;
+  return std::max(floorDn2, isRoundedAway ? variance + roundingDn2 : variance);
 }
 
 double

@@ -20,17 +20,20 @@ Squared(double value)
 /** The variance that a profile gives for one channel of a burst: slope (x - level) + dark at the level x [DN]. */
 struct ProfileVariance
 {
-  ProfileForm    form{ ProfileForm::Line };
-  double         slope{ 0.0 };         ///< [DN/e-]
-  double         levelDn{ 0.0 };       ///< black level or dark offset; 0 for a line whose black level is not known
-  double         darkDn2{ 0.0 };       ///< variance at that level
-  double         unitDn{ 1.0 };        ///< unit in which the file has the root of darkDn2
-  double         smoothing{ 1.0 };     ///< variance of the frames over that of the sensor, of smoothed frames [1]
-  double         floorDn2{ 0.0 };      ///< lowest variance that the program takes
-  double         roundingDn2{ 0.0 };   ///< largest error by rounding in the file
-  bool           hasReadNoise{ true }; ///< false: darkDn2 is that of the burst
-  LibcameraNoise root;                 ///< in place of slope and darkDn2, if the form is Root
-  CameraNoise    camera;               ///< of the burst: the levels of libcamera's model
+  ProfileForm form{ ProfileForm::Line };
+  double      slope{ 0.0 };         ///< [DN/e-]
+  double      levelDn{ 0.0 };       ///< black level or dark offset; 0 for a line whose black level is not known
+  double      darkDn2{ 0.0 };       ///< variance at that level
+  double      unitDn{ 1.0 };        ///< unit in which the file has the root of darkDn2
+  double      smoothing{ 1.0 };     ///< variance of the frames over that of the sensor, of smoothed frames [1]
+  double      floorDn2{ 0.0 };      ///< lowest variance that the program takes
+  double      roundingDn2{ 0.0 };   ///< largest error by rounding in the file
+  bool        hasReadNoise{ true }; ///< false: darkDn2 is that of the burst
+  /** Whether the offset of the file changes the variance. False: neither read noise nor level without light is known.
+   */
+  bool           isOffsetTested{ true };
+  LibcameraNoise root;   ///< in place of slope and darkDn2, if the form is Root
+  CameraNoise    camera; ///< of the burst: the levels of libcamera's model
 
   /** Returns the variance at a level [DN^2]. */
   double

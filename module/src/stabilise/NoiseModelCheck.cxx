@@ -184,7 +184,7 @@ CheckVariance(const Report & frames, const VarianceModel & model, const std::fun
       const bool isEnd = begin == 0 || end == bins;
       const auto distinct = static_cast<double>(frames.framesDistinct);
       band.fits = Fits(band,
-                       tolerance(0.5 * (band.lowDn + band.highDn)),
+                       std::max(tolerance(band.lowDn), tolerance(0.5 * (band.lowDn + band.highDn))),
                        isEnd ? SortingError(band, model, distinct, end - begin) : 0.0);
       begin = end;
     }
