@@ -26,8 +26,6 @@ namespace
 constexpr std::uintmax_t mostBytes = std::uintmax_t{ 1 } << 32U;
 /** Deepest nesting of JSON. Tuning files have 5 levels; flattening takes memory of the stack for each. */
 constexpr int mostDepth = 64;
-/** Longest name of a member [bytes], which the path of each member below it holds, too. Chosen: names have 40. */
-constexpr std::size_t mostNameBytes = 256;
 
 std::string
 ReadProfileBytes(const std::string & file)
@@ -52,9 +50,11 @@ nlohmann::json
 ParseProfile(const std::string & file, const std::string & text)
 {
   const auto limit = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json & value) {
-    if (event == nlohmann::json::parse_event_t::key && value.get_ref<const std::string &>().size() > mostNameBytes)
+    if (event == nlohmann::json::parse_event_t::key &&
+        value.get_ref<const std::string &>().size() > MostProfileNameBytes)
     {
-      throw std::runtime_error("the profile " + file + " has a name of more than " + std::to_string(mostNameBytes) +
+      throw std::runtime_error("the profile " + file + " has a name of more than " +
+                               std::to_string(MostProfileNameBytes) +
                                " bytes (--check-profile); expected the JSON file of a camera");
     }
     if (depth > mostDepth)

@@ -5,6 +5,7 @@
 
 #include "sensornoise/NoiseExport.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,6 +13,10 @@
 
 namespace sensornoise
 {
+
+/** Longest name of a member of a profile [bytes], which the path of each member below it holds, too. Chosen: names have
+ * 40. */
+inline constexpr std::size_t MostProfileNameBytes = 256;
 
 /** The form in which a file gives the variance of a pixel at the level x. B is the black level, W the white level [DN].
  */
@@ -32,7 +37,8 @@ struct ProfileChannel
   std::optional<double> offsetDn; ///< dark offset, only of sensors; none: the file has none
 };
 
-/** What the files of Android give for an ISO speed: S = A iso + B, O = C iso^2 + D d^2 with d = max(1, iso / max). */
+/** Noise model of Android, which depends on the ISO speed: S = A iso + B, O = C iso^2 + D d^2 with d = max(1, iso /
+ * max). */
 struct AndroidProfile
 {
   std::vector<std::string> channels;

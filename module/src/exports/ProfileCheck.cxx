@@ -129,25 +129,35 @@ AddFloor(const ProfileVariance & profile, std::vector<ProfileMistake> & mistakes
     { "min_sigma is the lowest variance, and " + Text(profile.floorDn2) + " DN^2 is too high", corrected });
 }
 
-/** Adds factors that are a power of two: of the levels, with or without the black level, and of the gain alone. */
+/** Calls \a add with each factor that is a power of two, by which the profile may be too low or too high, and with its
+ * words. */
+template <typename TAdd>
 void
-AddPowers(const ProfileVariance & profile, std::vector<ProfileMistake> & mistakes)
+ForPowers(TAdd add)
 {
   for (int bits = 1; bits <= mostBits; ++bits)
   {
     for (const double factor : { std::exp2(bits), std::exp2(-bits) })
     {
-      const std::string times = Text(std::exp2(bits)) + " times too " + (factor > 1.0 ? "low" : "high");
-      const std::string scale = "its levels are " + times + ", as for another white level or bit depth";
-      ProfileVariance   corrected = profile;
-      corrected.slope *= factor;
-      mistakes.push_back({ "its gain is " + times, corrected });
-      corrected.darkDn2 *= Squared(factor);
-      mistakes.push_back({ scale, corrected });
-      corrected.levelDn *= factor;
-      mistakes.push_back({ scale, corrected });
+      add(factor, Text(std::exp2(bits)) + " times too " + (factor > 1.0 ? "low" : "high"));
     }
   }
+}
+
+/** Adds factors that are a power of two: of the levels, with or without the black level, and of the gain alone. */
+void
+AddPowers(const ProfileVariance & profile, std::vector<ProfileMistake> & mistakes)
+{
+  ForPowers([&](double factor, const std::string & times) {
+    const std::string scale = "its levels are " + times + ", as for another white level or bit depth";
+    ProfileVariance   corrected = profile;
+    corrected.slope *= factor;
+    mistakes.push_back({ "its gain is " + times, corrected });
+    corrected.darkDn2 *= Squared(factor);
+    mistakes.push_back({ scale, corrected });
+    corrected.levelDn *= factor;
+    mistakes.push_back({ scale, corrected });
+  });
 }
 
 /** Returns the mistakes of libcamera's tuning: another scale, and the factor of the slope. */
@@ -163,14 +173,9 @@ LibcameraMistakes(const ProfileVariance & profile)
   };
   add("the slope lacks the factor 1.4 of rpi-ctt", 1.0, libcameraSlopeFactor);
   add("the slope has the factor 1.4 of rpi-ctt twice", 1.0, 1.0 / libcameraSlopeFactor);
-  for (int bits = 1; bits <= mostBits; ++bits)
-  {
-    for (const double factor : { std::exp2(bits), std::exp2(-bits) })
-    {
-      const std::string times = Text(std::exp2(bits)) + " times too " + (factor > 1.0 ? "low" : "high");
-      add("its levels are " + times + ", as for another bit depth or analogue gain", factor, std::sqrt(factor));
-    }
-  }
+  ForPowers([&add](double factor, const std::string & times) {
+    add("its levels are " + times + ", as for another bit depth or analogue gain", factor, std::sqrt(factor));
+  });
   return mistakes;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exports/ProfileValues.h"
 
+#include "exports/NoiseProfile.h"
 #include "base/Text.h"
 #include "files/TextHeader.h"
 
@@ -14,8 +15,6 @@ namespace sensornoise
 {
 namespace
 {
-/** Longest name of a member [bytes], which the path of each member below it holds, too. Chosen: names have 40. */
-constexpr std::size_t mostNameBytes = 256;
 bool
 EndsWith(const std::string & text, const std::string & end)
 {
@@ -168,10 +167,10 @@ ReadYamlValues(const std::string & file, const std::string & text)
     {
       parents.pop_back();
     }
-    if (found->name.size() > mostNameBytes)
+    if (found->name.size() > MostProfileNameBytes)
     {
       throw ExportError("the profile " + file + " has a name of " + std::to_string(found->name.size()) +
-                        " bytes; expected at most " + std::to_string(mostNameBytes));
+                        " bytes; expected at most " + std::to_string(MostProfileNameBytes));
     }
     const std::string pointer = (parents.empty() ? "" : parents.back().second) + "/" + found->name;
     const auto        number = FiniteNumber(found->value);

@@ -25,11 +25,11 @@ struct ProfileVariance
   double      levelDn{ 0.0 };       ///< black level or dark offset; 0 for a line whose black level is not known
   double      darkDn2{ 0.0 };       ///< variance at that level
   double      unitDn{ 1.0 };        ///< unit in which the file has the root of darkDn2
-  double      smoothing{ 1.0 };     ///< variance of the frames over that of the sensor, of smoothed frames [1]
+  double      smoothing{ 1.0 };     ///< variance of smoothed frames over the variance of the sensor [1]
   double      floorDn2{ 0.0 };      ///< lowest variance that the program takes
   double      roundingDn2{ 0.0 };   ///< largest error by rounding in the file
-  bool        hasReadNoise{ true }; ///< false: darkDn2 is that of the burst
-  /** Whether the offset of the file changes the variance. False: neither read noise nor level without light is known.
+  bool        hasReadNoise{ true }; ///< false: darkDn2 is the variance of the burst
+  /** Whether the dark offset of the file changes the variance. False: neither a read noise nor a dark level is known.
    */
   bool           isOffsetTested{ true };
   LibcameraNoise root;   ///< in place of slope and darkDn2, if the form is Root

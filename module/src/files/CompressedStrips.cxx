@@ -265,7 +265,7 @@ private:
     SkipSegment(length - 6);
   }
 
-  /** Of the scan: the next marker that is no restart is the end of the image. */
+  /** Requires that the next marker behind the scan, apart from restarts, is the end of the image. */
   void
   RequireEnd()
   {

@@ -137,7 +137,7 @@ FindCurvedFraction(const NoiseParameters & parameters, const PublishedScene & sc
 } // namespace
 
 PublishedEstimate
-EstimateAll(const PublishedFindings & found, const ParallelFor & parallelFor)
+EstimatePublished(const PublishedFindings & found, const ParallelFor & parallelFor)
 {
   const PublishedScene & scene = found.scene;
   PublishedEstimate      estimate;

@@ -138,7 +138,7 @@ struct PublishedEstimate
 
 /** Decides on every quantity by the results of the passes; the scene must be measurable. */
 SensorNoise_EXPORT PublishedEstimate
-EstimateAll(const PublishedFindings & found, const ParallelFor & parallelFor);
+EstimatePublished(const PublishedFindings & found, const ParallelFor & parallelFor);
 
 } // namespace sensornoise
 

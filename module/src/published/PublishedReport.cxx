@@ -183,7 +183,7 @@ MakePublishedReport(const PublishedFindings & found, const ParallelFor & paralle
     report.Warn(scene.failureReason->GetCode(), scene.failureReason->what());
     return report;
   }
-  const PublishedEstimate estimate = EstimateAll(found, parallelFor);
+  const PublishedEstimate estimate = EstimatePublished(found, parallelFor);
   WarnOfWidening(report, WarningCode::BrightSetWidened, "bright", scene.bright);
   WarnOfWidening(report, WarningCode::DarkSetWidened, "dark", scene.dark);
   WarnOfFlicker(report, found.flicker);

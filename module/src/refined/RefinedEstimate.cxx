@@ -151,7 +151,7 @@ WithholdGain(RefinedEstimate estimate)
 } // namespace
 
 RefinedEstimate
-EstimateAll(const RefinedResults & found)
+EstimateRefined(const RefinedResults & found)
 {
   const double       codesDn2 = found.variance.codeNoise.darkVarianceDn2;
   const GainEstimate ofFrames = EstimateGain(found);

@@ -59,7 +59,7 @@ struct RefinedEstimate
 
 /** Decides on every quantity by the results of the passes. */
 SensorNoise_EXPORT RefinedEstimate
-EstimateAll(const RefinedResults & found);
+EstimateRefined(const RefinedResults & found);
 
 } // namespace sensornoise
 

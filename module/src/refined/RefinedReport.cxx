@@ -244,7 +244,7 @@ MakeFailedReport(const RefinedSettings &           settings,
 Report
 MakeRefinedReport(const RefinedResults & found, const ParallelFor & parallelFor)
 {
-  const RefinedEstimate estimate = EstimateAll(found);
+  const RefinedEstimate estimate = EstimateRefined(found);
   Report                report = DescribeInput(found.settings, found.scene, found.variance.pixelUse);
   FillCurves(report, found, parallelFor);
   WarnOfScene(report, found);
