@@ -62,7 +62,9 @@ struct Maps
   VarianceData
   Data() const
   {
-    return { frame.mean.data(), frame.neighbourMean.data(), variance.data(), dof.data(), frame.usable.data(), Pixels };
+    return {
+      frame.mean.data(), frame.neighbourMean.data(), { variance.data() }, dof.data(), frame.usable.data(), Pixels
+    };
   }
 };
 

@@ -108,13 +108,13 @@ struct Input
     motion.inverseGram.resize(0, 0);
   }
   /** Once: the sums are turned into coordinates. */
-  ProjectedVariance
-  Project(const ParallelFor & parallelFor = SerialFor)
+  ProjectedSquares
+  Project(const ParallelFor & parallelFor = SerialFor, const FrameIllumination & illumination = {})
   {
     ResidualSquares squares;
     AppendResidualSquares(frame, Basis(), sums, true, parallelFor, squares);
     coordinates.emplace(std::move(sums));
-    return { frame, Basis(), motion, std::move(squares), model, mask, parallelFor };
+    return { frame, Basis(), motion, std::move(squares), model, mask, parallelFor, illumination };
   }
 };
 

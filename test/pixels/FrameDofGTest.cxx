@@ -185,29 +185,29 @@ TEST(SensorNoiseFrameDof, OfSeriesThatLiveInFewFramesCountsWhatTheGainPutsIn)
 
 TEST(SensorNoiseFrameDof, ChangesHowPreciseAPixelIsAndNotItsVariance)
 {
-  projection::Input  input(projection::NormalSeries());
-  ProjectedVariance  projected = input.Project();
-  const auto         variance = projected.GetVariance();
-  const auto         divisor = projected.GetDivisor();
-  const Eigen::Index frames = projection::Frames;
-  EXPECT_EQ(projected.GetDof(), divisor);
-  const Eigen::VectorXd gamma = 0.3 * std::sqrt(static_cast<double>(frames)) * projection::Basis().GetBasis().col(0);
-  projected.SetIllumination(NumbersOf(gamma), 100.0);
-  EXPECT_TRUE(projected.HasUnequalNoise());
+  projection::Input      input(projection::NormalSeries());
+  projection::Input      other(projection::NormalSeries());
+  const Eigen::Index     frames = projection::Frames;
+  const Eigen::VectorXd  gamma = 0.3 * std::sqrt(static_cast<double>(frames)) * projection::Basis().GetBasis().col(0);
+  const ProjectedSquares equal = input.Project();
+  const ProjectedSquares unequal = other.Project(SerialFor, { NumbersOf(gamma), 100.0 });
+  EXPECT_FALSE(equal.HasUnequalNoise());
+  EXPECT_TRUE(unequal.HasUnequalNoise());
+  const std::vector<float> & divisor = unequal.GetDivisor();
+  EXPECT_EQ(divisor, equal.GetDivisor());
+  EXPECT_EQ(ProjectedVariance(equal, 0.0).GetDof(), divisor);
   VarianceLine line;
   line.gain = 2.0;
   line.intercept = -150.0; // a variance of 50 DN^2 at the offset
-  projected.Compute(line);
-  projected.Compute(0.0);
-  const FrameDof dof(projection::Basis().GetBasis(), NumbersOf(gamma));
+  const ProjectedVariance projected = ProjectedVariance(unequal, 0.0).WithLine(line);
+  const FrameDof          dof(projection::Basis().GetBasis(), NumbersOf(gamma));
   for (std::size_t p = 0; p < projection::Pixels; ++p)
   {
     if (input.mask[p] != 0)
     {
       const double shot = 2.0 * (input.frame.neighbourMean[p] - 100.0);
       ASSERT_NEAR(projected.GetDof()[p], divisor[p] * dof.DofFractionAt(shot / (shot + 50.0)), 1e-4) << p;
-      ASSERT_NEAR(projected.GetVariance()[p], variance[p], 1e-9 * variance[p]) << p;
+      ASSERT_EQ(projected.GetVariance()[p], equal.VarianceAt(2.0)[p]) << p;
     }
   }
-  EXPECT_EQ(projected.GetDivisor(), divisor);
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/IlluminationResponses.h"
 #include "base/Eigen.h"
-#include "pixels/ProjectedVariance.h"
+#include "pixels/ProjectedSquares.h"
 #include "pixels/VarianceLine.h"
 #include "helpers/ProjectionTestHelper.h"
 
@@ -26,15 +26,14 @@ using Responses = std::function<Eigen::Vector2d(std::size_t p, double mean)>;
 /** Pixels with a noise of 400 DN^2 and these responses. */
 struct Scene
 {
-  Input             input;
-  ProjectedVariance projected;
-  VarianceLine      line;
+  Input            input;
+  ProjectedSquares squares; // turns the sums of the input into coordinates
+  VarianceLine     line;
 
   explicit Scene(const Responses & responses)
     : input(Series(responses))
-    , projected(input.Project())
+    , squares(input.Project())
   {
-    projected.Compute(0.0);
     line.intercept = 400.0;
   }
   static Eigen::MatrixXd

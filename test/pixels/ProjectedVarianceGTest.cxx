@@ -29,11 +29,11 @@ TEST(SensorNoiseProjectedVariance, IsTheExplicitResidualOverItsDegreesOfFreedom)
 {
   ASSERT_EQ(Basis().Size(), 3u);
   ASSERT_EQ(Basis().NumberOfIlluminationFactors(), Light);
-  const Eigen::MatrixXd series = NormalSeries();
-  Input                 input(series);
-  ProjectedVariance     projected = input.Project();
-  projected.Compute(0.0);
-  Eigen::MatrixXd design(Frames, 4);
+  const Eigen::MatrixXd   series = NormalSeries();
+  Input                   input(series);
+  const ProjectedSquares  squares = input.Project();
+  const ProjectedVariance projected(squares, 0.0);
+  Eigen::MatrixXd         design(Frames, 4);
   design << Eigen::VectorXd::Ones(Frames), Basis().GetBasis();
   const Eigen::MatrixXd rest = series - design * design.householderQr().solve(series);
   for (std::size_t p = 0; p < Pixels; ++p)
@@ -54,27 +54,24 @@ TEST(SensorNoiseProjectedVariance, IsTheExplicitResidualOverItsDegreesOfFreedom)
 
 TEST(SensorNoiseProjectedVariance, WhatTheBasisSpansIsRemovedExactly)
 {
-  const Eigen::MatrixXd series = NormalSeries();
-  Input                 input(series);
-  ProjectedVariance     expected = input.Project();
-  expected.Compute(0.0);
+  const Eigen::MatrixXd  series = NormalSeries();
+  Input                  input(series);
+  const ProjectedSquares expected = input.Project();
   // Every pixel has another response, up to ten times its noise, to temporal components in the span of the basis.
   Eigen::MatrixXd responses(3, Pixels);
   for (Eigen::Index i = 0; i < responses.size(); ++i)
   {
     responses(i) = 1000.0 * std::sin(static_cast<double>(i));
   }
-  Input             waving(series + Basis().GetBasis() * responses);
-  ProjectedVariance projected = waving.Project();
-  projected.Compute(0.0);
-  Input             rounded(series + Wave(2.0, 0.3) * responses.row(0)); // known with 20 bits only
-  ProjectedVariance nearly = rounded.Project();
-  nearly.Compute(0.0);
+  Input                  waving(series + Basis().GetBasis() * responses);
+  const ProjectedSquares projected = waving.Project();
+  Input                  rounded(series + Wave(2.0, 0.3) * responses.row(0)); // known with 20 bits only
+  const ProjectedSquares nearly = rounded.Project();
   for (std::size_t p = 0; p < Pixels; ++p)
   {
-    const double variance = expected.GetVariance()[p];
-    ASSERT_NEAR(projected.GetVariance()[p], variance, 1e-8) << p; // rounding of squares of 1e7
-    ASSERT_NEAR(nearly.GetVariance()[p], variance, 1e-4 * variance) << p;
+    const double variance = expected.VarianceAt(0.0)[p];
+    ASSERT_NEAR(projected.VarianceAt(0.0)[p], variance, 1e-8) << p; // rounding of squares of 1e7
+    ASSERT_NEAR(nearly.VarianceAt(0.0)[p], variance, 1e-4 * variance) << p;
   }
 }
 
@@ -98,10 +95,9 @@ TEST(SensorNoiseProjectedVariance, ExpectedVarianceOfFlickeringNoiseIsUnbiased)
   noise.array() -= noise.mean();
   noise -= q * (q.transpose() * noise);
   noise *= std::sqrt(expectedRss) / noise.norm();
-  Input             input((noise + q * responses).replicate(1, Pixels));
-  ProjectedVariance projected = input.Project();
-  projected.Compute(gain);
-  EXPECT_NEAR(projected.GetVariance()[5 * Width + 7], variance, 1e-4);
+  Input                  input((noise + q * responses).replicate(1, Pixels));
+  const ProjectedSquares projected = input.Project();
+  EXPECT_NEAR(projected.VarianceAt(gain)[5 * Width + 7], variance, 1e-4);
 }
 
 TEST(SensorNoiseProjectedVariance, LeverageOfTheMotionCostsDegreesOfFreedom)
@@ -111,7 +107,8 @@ TEST(SensorNoiseProjectedVariance, LeverageOfTheMotionCostsDegreesOfFreedom)
   input.motion.coefficients.setZero(Frames, 2);
   input.motion.inverseGram.resize(2, 2);
   input.motion.inverseGram << 2e-4, 5e-5, 5e-5, 3e-4;
-  const ProjectedVariance projected = input.Project();
+  const ProjectedSquares  squares = input.Project();
+  const ProjectedVariance projected(squares, 0.0);
   double                  largest = 0.0;
   for (std::size_t p = 0; p < Pixels; ++p)
   {
@@ -132,7 +129,8 @@ TEST(SensorNoiseProjectedVariance, LeverageOfTheMotionCostsDegreesOfFreedom)
 TEST(SensorNoiseProjectedVariance, RougherClassesHaveRougherSurroundings)
 {
   Input                   input(NormalSeries());
-  const ProjectedVariance projected = input.Project();
+  const ProjectedSquares  squares = input.Project();
+  const ProjectedVariance projected(squares, 0.0);
   std::vector<double>     energy(ProjectedVariance::Classes, 0.0);
   std::vector<double>     count(ProjectedVariance::Classes, 0.0);
   for (std::size_t p = 0; p < Pixels; ++p)
@@ -166,10 +164,65 @@ TEST(SensorNoiseProjectedVariance, ThreadsChangeNoBit)
   const Eigen::MatrixXd series = NormalSeries();
   Input                 input(series);
   Input                 other(series);
-  ProjectedVariance     expected = input.Project();
-  ProjectedVariance     projected = other.Project(Threads(3));
-  expected.Compute(1.0);
-  projected.Compute(1.0);
-  EXPECT_TRUE(HaveSameBits(projected.GetVariance(), expected.GetVariance()));
-  EXPECT_TRUE(HaveSameBits(projected.GetDof(), expected.GetDof()));
+  ProjectedSquares      expected = input.Project();
+  ProjectedSquares      projected = other.Project(Threads(3));
+  EXPECT_TRUE(HaveSameBits(projected.GetDivisor(), expected.GetDivisor()));
+  EXPECT_TRUE(HaveSameBits(std::move(projected).TakeVarianceAt(1.0), std::move(expected).TakeVarianceAt(1.0)));
+}
+
+TEST(SensorNoiseProjectedVariance, IsAFunctionOfTheGainAndOfTheRatios)
+{
+  Input                   input(NormalSeries());
+  ProjectedSquares        squares = input.Project();
+  const ProjectedVariance plain(squares, 0.0);
+  VarianceLine            line;
+  line.gain = 2.0;
+  const ProjectedVariance corrected = plain.WithLine(line);
+  const ProjectedVariance divided = corrected.WithRatios(std::vector<float>(Pixels, 4.0F));
+  std::vector<double>     filled(Pixels);
+  divided.GetVariance().Fill(0, Pixels, filled.data());
+  double largest = 0.0;
+  for (std::size_t p = 0; p < Pixels; ++p)
+  {
+    const double rise = 2.0 * static_cast<double>(squares.GetPerGain()[p]);
+    largest = std::max(largest, std::abs(rise));
+    ASSERT_EQ(corrected.GetVariance()[p], plain.GetVariance()[p] + rise) << p;
+    ASSERT_EQ(divided.GetVariance()[p], corrected.GetVariance()[p] / 4.0) << p;
+    ASSERT_EQ(filled[p], divided.GetVariance()[p]) << p;
+    ASSERT_EQ(corrected.WithLine({}).GetVariance()[p], plain.GetVariance()[p]) << p;
+  }
+  EXPECT_GT(largest, 0.1); // the correction is no rounding error
+  EXPECT_FALSE(corrected.HasRatios());
+  EXPECT_TRUE(divided.WithLine({}).HasRatios());
+  const double              first = corrected.GetVariance()[5 * Width + 7];
+  const std::vector<double> taken = std::move(squares).TakeVarianceAt(2.0);
+  EXPECT_EQ(taken[5 * Width + 7], first);
+}
+
+TEST(SensorNoiseProjectedVariance, ReplacedSquaresHaveTheirOwnDegreesOfFreedom)
+{
+  Input                  input(NormalSeries());
+  Input                  other(NormalSeries());
+  const ProjectedSquares plain = input.Project();
+  const std::size_t      p = 5 * Width + 7;
+  const double           half = 0.5 * DofWithoutMotion();
+  ResidualSquares        rest;
+  AppendResidualSquares(other.frame, Basis(), other.sums, false, SerialFor, rest);
+  CodeNoise codes; // a remainder of 3 DN^2 at every level
+  codes.remaindersDn2 = { 3.0, 3.0 };
+  const ProjectedSquares replaced(other.frame,
+                                  Basis(),
+                                  other.motion,
+                                  std::move(rest),
+                                  other.model,
+                                  other.mask,
+                                  SerialFor,
+                                  {},
+                                  { { p }, { 400.0 * half }, half },
+                                  codes);
+  EXPECT_NEAR(replaced.GetDivisor()[p], half, 1e-5 * half);
+  EXPECT_NEAR(replaced.VarianceAt(0.0)[p], 400.0 - 3.0, 1e-4);
+  EXPECT_NEAR(replaced.GetPerGain()[p], 2.0 * plain.GetPerGain()[p], 1e-5 * std::abs(plain.GetPerGain()[p]));
+  EXPECT_NEAR(replaced.VarianceAt(0.0)[p + 1], plain.VarianceAt(0.0)[p + 1] - 3.0, 1e-9);
+  EXPECT_EQ(replaced.VarianceAt(0.0)[0], 0.0); // outside of the mask
 }

@@ -62,6 +62,7 @@ struct Burst
   std::unique_ptr<TemporalBasis>     basis;
   InitialNoiseModel                  model;
   MotionSeries                       motion;
+  std::unique_ptr<ProjectedSquares>  squares;
   std::unique_ptr<ProjectedVariance> projected;
 
   Burst(const std::function<double(std::size_t p)> & varianceOf, double offsetSdDn = 0.0)
@@ -100,11 +101,11 @@ struct Burst
     model.slopeDn = 0.4;
     model.darkestDn = BlackDn + 20.0;
     motion.inverseGram.resize(0, 0);
-    ResidualSquares squares;
-    AppendResidualSquares(frame, *basis, sums, false, SerialFor, squares);
-    projected =
-      std::make_unique<ProjectedVariance>(frame, *basis, motion, std::move(squares), model, frame.usable, SerialFor);
-    projected->Compute(0.0);
+    ResidualSquares rest;
+    AppendResidualSquares(frame, *basis, sums, false, SerialFor, rest);
+    squares =
+      std::make_unique<ProjectedSquares>(frame, *basis, motion, std::move(rest), model, frame.usable, SerialFor);
+    projected = std::make_unique<ProjectedVariance>(*squares, 0.0);
   }
   RejectionModel
   Judge(const ParallelFor & parallelFor = SerialFor) const

@@ -48,7 +48,7 @@ struct Maps
   VarianceData
   Data() const
   {
-    return { mean.data(), neighbourMean.data(), variance.data(), dof.data(), mask.data(), Pixels };
+    return { mean.data(), neighbourMean.data(), { variance.data() }, dof.data(), mask.data(), Pixels };
   }
 };
 } // namespace

@@ -26,14 +26,15 @@ namespace
 struct Noise
 {
   Input             input;
+  ProjectedSquares  squares;
   ProjectedVariance projected;
   RejectionModel    line;
 
   explicit Noise(const std::function<double(std::size_t p)> & factor)
     : input(Series(factor))
-    , projected(input.Project())
+    , squares(input.Project())
+    , projected(squares, 0.0)
   {
-    projected.Compute(0.0);
     line.line.intercept = 400.0;
     line.line.isDetermined = true;
   }

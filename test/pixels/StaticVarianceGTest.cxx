@@ -4,7 +4,7 @@
 #include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Report.h"
-#include "pixels/ProjectedVariance.h"
+#include "pixels/ProjectedSquares.h"
 #include "helpers/ProjectionTestHelper.h"
 
 #include <cmath>
@@ -39,7 +39,7 @@ Series()
 }
 
 StaticVariance
-Find(ProjectedVariance & projected, const std::vector<std::uint8_t> & usable)
+Find(const ProjectedSquares & projected, const std::vector<std::uint8_t> & usable)
 {
   return FitStaticVariance(
     projected, usable, std::vector<std::uint8_t>(Pixels, Unknown), Gain, OffsetDn, OffsetDn, SerialFor);
@@ -48,9 +48,9 @@ Find(ProjectedVariance & projected, const std::vector<std::uint8_t> & usable)
 
 TEST(SensorNoiseStaticVariance, LineIsFoundAndNoisyPixelsAreTrimmed)
 {
-  Input             input(Series());
-  ProjectedVariance projected = input.Project();
-  const auto        found = Find(projected, input.mask);
+  Input                  input(Series());
+  const ProjectedSquares projected = input.Project();
+  const auto             found = Find(projected, input.mask);
   ASSERT_TRUE(found.line.isDetermined);
   EXPECT_NEAR(found.line.gain, Gain, 4.0 * std::sqrt(found.line.covariance(0, 0)));
   EXPECT_NEAR(found.line.intercept, Intercept, 4.0 * std::sqrt(found.line.covariance(1, 1)));
@@ -73,7 +73,7 @@ TEST(SensorNoiseStaticVariance, LineIsFoundAndNoisyPixelsAreTrimmed)
 TEST(SensorNoiseStaticVariance, TooFewPixelsDetermineNoLine)
 {
   Input                     input(Series());
-  ProjectedVariance         projected = input.Project();
+  const ProjectedSquares    projected = input.Project();
   std::vector<std::uint8_t> few(Pixels, 0);
   for (std::size_t x = 30; x < 38; ++x)
   {

@@ -69,7 +69,7 @@ CurveOfPixels(double gain, double wave)
     variance.push_back((20.0 + gain * mean[p]) * (1.0 + wave * std::sin(0.03 * mean[p])) * chiSquare(random) / 30.0);
   }
   VarianceFit fit(
-    { mean.data(), mean.data(), variance.data(), dof.data(), mask.data(), pixels }, SerialFor, std::nullopt);
+    { mean.data(), mean.data(), { variance.data() }, dof.data(), mask.data(), pixels }, SerialFor, std::nullopt);
   fit.Iterate(8);
   return fit.CurveAbout(fit.GetLine());
 }

@@ -53,7 +53,7 @@ struct Maps
   VarianceData
   Data() const
   {
-    return { mean.data(), mean.data(), variance.data(), dof.data(), mask.data(), Pixels };
+    return { mean.data(), mean.data(), { variance.data() }, dof.data(), mask.data(), Pixels };
   }
   VarianceFit
   Fit(TrimRule rule, const ParallelFor & parallelFor = SerialFor) const

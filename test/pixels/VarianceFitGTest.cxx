@@ -49,7 +49,7 @@ struct Maps
   VarianceData
   Data() const
   {
-    return { mean.data(), neighbourMean.data(), variance.data(), dof.data(), mask.data(), Pixels };
+    return { mean.data(), neighbourMean.data(), { variance.data() }, dof.data(), mask.data(), Pixels };
   }
   VarianceLine
   Fit(const ParallelFor & parallelFor = SerialFor) const

@@ -115,9 +115,10 @@ CodeNoise::ErrorOfLine(double pivotDn) const
   return error;
 }
 
-void
-SubtractLine(StaticVariance & variance, const CodeNoise & noise)
+StaticVariance
+WithoutLineOfCodes(StaticVariance variance)
 {
+  const CodeNoise & noise = variance.codeNoise;
   for (VarianceLine * line :
        { &variance.line, &variance.instrumentalLine, &variance.curve.line, &variance.ofOwnLevels.line })
   {
@@ -125,7 +126,7 @@ SubtractLine(StaticVariance & variance, const CodeNoise & noise)
     line->intercept -= noise.interceptDn2;
     line->covariance += noise.ErrorOfLine(line->pivotDn);
   }
-  variance.codeNoise = noise;
+  return variance;
 }
 
 } // namespace sensornoise

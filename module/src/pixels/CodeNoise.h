@@ -70,9 +70,10 @@ MakeCodeNoise(const CodeRange &         codes,
               const InitialNoiseModel & model,
               double                    darkStepDn);
 
-/** Subtracts the line of \a noise from all fitted lines, adds its covariance to theirs, and stores \a noise. */
-SensorNoise_EXPORT void
-SubtractLine(StaticVariance & variance, const CodeNoise & noise);
+/** Returns \a variance without the line of its code noise in all fitted lines, and with the covariance of this line in
+ * theirs. */
+SensorNoise_EXPORT StaticVariance
+WithoutLineOfCodes(StaticVariance variance);
 
 } // namespace sensornoise
 

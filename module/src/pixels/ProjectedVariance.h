@@ -3,26 +3,18 @@
 #ifndef sensornoise_pixels_ProjectedVariance_h
 #define sensornoise_pixels_ProjectedVariance_h
 
-#include "SensorNoiseExport.h"
-#include "sensornoise/Parallel.h"
-#include "pixels/CodeNoise.h"
-#include "pixels/UnequalIllumination.h"
-#include "pixels/ProjectionSums.h"
+#include "pixels/ProjectedSquares.h"
 #include "pixels/RoughnessClasses.h"
 #include "pixels/VarianceLine.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace sensornoise
 {
-
-class TemporalBasis;
-struct MotionSeries;
-struct InitialNoiseModel;
-struct ReferenceFrame;
 
 /** \class ProjectedVariance
  * \brief Variance of every pixel over time, without the variation that is not sensor noise.
@@ -47,165 +39,102 @@ struct ReferenceFrame;
  * - The divisor of the squares is (T - 1 - J) (1 - h). The degrees of freedom by which the variance scatters are a
  *   different number where the illumination changes strongly, see FrameDof.
  *
- * Pixels are sorted into RoughnessClasses for the test of fit (TestClasses). */
-class SensorNoise_EXPORT ProjectedVariance
+ * ProjectedSquares has the maps, from which the variance is computed where it is read: the object is small, and one is
+ * made for each gain. Pixels are sorted into RoughnessClasses for the test of fit (TestClasses). */
+class ProjectedVariance
 {
 public:
   /** Number of roughness classes. */
   static constexpr std::size_t Classes = RoughnessClasses;
 
-  /** Computes the variance with the gain 0. \a squares are the residual squares for the components of \a basis. All
-   * references must outlive the object. */
-  ProjectedVariance(const ReferenceFrame &            frame,
-                    const TemporalBasis &             basis,
-                    const MotionSeries &              motion,
-                    ResidualSquares                   squares,
-                    const InitialNoiseModel &         model,
-                    const std::vector<std::uint8_t> & mask,
-                    const ParallelFor &               parallelFor);
+  /** Ratio of the variance of each pixel to the variance of a uniform sensor, see MapOfRatios() [1]; null: 1. */
+  using Ratios = std::shared_ptr<const std::vector<float>>;
 
-  /** Subtracts the remainder of the quantization noise that is not a line in the level, see CodeNoise. */
-  void
-  SubtractRemainder(const CodeNoise & noise);
+  /** The variance with the correction of \a gain [DN/e-]. The initial noise model gives the fraction of shot noise.
+   * \a squares must outlive the object. */
+  ProjectedVariance(const ProjectedSquares & squares, double gain)
+    : ProjectedVariance(squares, squares.GetInitialLine(), gain, nullptr)
+  {}
 
-  /** Replaces the squares of pixel \a p of the mask by \a squares [DN^2], whose expectation is \a freedom times the
-   * variance of the pixel. Squares without the noise that is common to a row are an example. To be called before
-   * SetIllumination() and Compute(). */
-  void
-  ReplaceSquares(std::size_t p, double squares, double dof);
-
-  /** Allows for noise that differs from frame to frame. \a gamma + 1 is the illumination factor of each frame, and
-   * \a offsetDn the dark offset. The fraction of shot noise is taken from the initial noise model until Compute(line)
-   * is called. If not \a isShotNoiseKnown, all noise is taken to be shot noise, which gives the fewest degrees of
-   * freedom. */
-  void
-  SetIllumination(const std::vector<double> & gamma, double offsetDn, bool isShotNoiseKnown = true);
-
-  /** Computes the variance with another gain [DN/e-] for the correction of noise that changes with the signal. */
-  void
-  Compute(double gain);
-  /** Computes the variance with the gain of \a line, and the degrees of freedom with its fraction of shot noise. */
-  void
-  Compute(const VarianceLine & line);
-
-  /** Divides the variance of every pixel by its ratio to the variance of a uniform sensor, see MapOfRatios() [1].
-   * Empty: the variance is not divided. Earlier ratios are undone first. */
-  void
-  SetRatios(std::vector<float> ratios);
+  /** Returns the variance with the gain of \a line, its fraction of shot noise, and the ratios of this object. */
+  ProjectedVariance
+  WithLine(const VarianceLine & line) const
+  {
+    return { *m_Squares, line, line.gain, m_Ratios };
+  }
+  /** Returns the variance divided by \a ratios, otherwise as this object. */
+  ProjectedVariance
+  WithRatios(std::vector<float> ratios) const
+  {
+    return { *m_Squares, m_Line, m_Gain, std::make_shared<const std::vector<float>>(std::move(ratios)) };
+  }
   /** Returns whether the variance is divided by ratios. */
   bool
   HasRatios() const
   {
-    return !m_Ratios.empty();
+    return m_Ratios != nullptr;
   }
-  /** Returns the measured variance, which is not divided by ratios [DN^2]. */
-  std::vector<double>
-  MeasuredVariance() const;
 
-  /** Returns the gain of the last Compute() [DN/e-]; at first 0. */
+  /** Returns the gain that corrects the variance [DN/e-]. */
   double
   GetGain() const
   {
     return m_Gain;
   }
   /** Returns the variance of every pixel [DN^2]; 0 outside the mask. */
-  const std::vector<double> &
+  PixelVariance
   GetVariance() const
   {
-    return m_Variance;
-  }
-  /** Moves the measured variance out of the object. */
-  std::vector<double>
-  TakeVariance()
-  {
-    this->SetRatios({});
-    return std::move(m_Variance);
+    PixelVariance variance = m_Squares->VarianceAt(m_Gain);
+    variance.ratios = m_Ratios ? m_Ratios->data() : nullptr;
+    return variance;
   }
   /** Returns the effective degrees of freedom of every pixel's variance; 0 outside the mask. */
   const std::vector<float> &
   GetDof() const
   {
-    return m_Dof.empty() ? m_Divisor : m_Dof;
+    return m_Dof.empty() ? m_Squares->GetDivisor() : m_Dof;
   }
-  /** Returns the divisor of every pixel's squares, (T - 1 - J) (1 - h); 0 outside the mask. */
-  const std::vector<float> &
-  GetDivisor() const
-  {
-    return m_Divisor;
-  }
-  /** Returns the fraction of the degrees of freedom that a change of the illumination leaves to pixels of a level
-   * [1]. */
+  /** Returns ProjectedSquares::DofFractionAt() with the fraction of shot noise of this object [1]. */
   double
   DofFractionAtPixel(double levelDn) const
   {
-    return m_FrameDof.IsEqual() ? 1.0 : m_FrameDof.DofFractionAt(this->ShotFractionAt(levelDn));
-  }
-  /** Returns whether the noise differs from frame to frame by as much as matters, see FrameDof::IsEqual(). */
-  bool
-  HasUnequalNoise() const
-  {
-    return !m_FrameDof.IsEqual();
-  }
-  /** Returns the factor of the gain in the corrected squares of each pixel, sum_i S_i sum_j K_ij [DN]. */
-  const std::vector<float> &
-  GetSkew() const
-  {
-    return m_Skew;
+    return m_Squares->DofFractionAt(levelDn, m_Line);
   }
   /** Returns the roughness class of pixel \a p, from 0 (flat) to Classes - 1. */
   std::uint8_t
   ClassOf(std::size_t p) const
   {
-    return m_ClassOf[p];
+    return m_Squares->GetClasses()[p];
   }
-  const std::vector<std::uint8_t> &
-  GetClasses() const
+  const ProjectedSquares &
+  GetSquares() const
   {
-    return m_ClassOf;
+    return *m_Squares;
   }
   const ReferenceFrame &
   GetFrame() const
   {
-    return m_Frame;
+    return m_Squares->GetFrame();
   }
-  const TemporalBasis &
-  GetBasis() const
-  {
-    return m_Basis;
-  }
-  VarianceData
+  /** Returns the maps for a regression. They are valid as long as this object. */
+  SensorNoise_EXPORT VarianceData
   GetData(const std::vector<std::uint8_t> & mask) const;
 
 private:
-  /** Divides the squares of the mask's pixels by their divisors. */
-  void
-  DivideSquares(const MotionSeries & motion, const InitialNoiseModel & model);
-  /** Computes the effective degrees of freedom of the mask's pixels. */
-  void
-  ComputeDof();
-  /** Returns the fraction of the variance at a level of the neighbours' mean that is shot noise [1]. */
-  double
-  ShotFractionAt(double levelDn) const
-  {
-    return m_IsShotNoiseKnown ? m_NoiseLine.gain * (levelDn - m_OffsetDn) / m_NoiseLine.At(levelDn) : 1.0;
-  }
+  ProjectedVariance(const ProjectedSquares & squares, const VarianceLine & line, double gain, Ratios ratios)
+    : m_Squares(&squares)
+    , m_Line(line)
+    , m_Gain(gain)
+    , m_Ratios(std::move(ratios))
+    , m_Dof(squares.DofBy(line))
+  {}
 
-  const ReferenceFrame &            m_Frame;
-  const TemporalBasis &             m_Basis;
-  const std::vector<std::uint8_t> & m_Mask;
-  ParallelFor                       m_ParallelFor;
-  double                            m_Gain{ 0.0 };
-  CodeNoise                         m_CodeNoise; // its remainder is subtracted from the variance
-  std::vector<double>               m_Variance;
-  std::vector<float>                m_Skew; // sum_i S_i sum_j K_ij [DN]
-  std::vector<float>                m_Divisor;
-  std::vector<float>                m_Ratios; // variance relative to a uniform sensor [1]; empty: 1
-  std::vector<float>                m_Dof;    // effective degrees of freedom; empty: equal to the divisor
-  FrameDof                          m_FrameDof;
-  VarianceLine                      m_NoiseLine; // gives the fraction of shot noise for m_Dof
-  double                            m_OffsetDn{ 0.0 };
-  bool                              m_IsShotNoiseKnown{ true };
-  std::vector<std::uint8_t>         m_ClassOf;
+  const ProjectedSquares * m_Squares;
+  VarianceLine             m_Line; // gives the fraction of shot noise
+  double                   m_Gain;
+  Ratios                   m_Ratios;
+  std::vector<float>       m_Dof; // empty: equal to the divisor
 };
 
 } // namespace sensornoise

@@ -45,12 +45,12 @@ struct TileRow
   {
     const VarianceLine   own = line; // a copy that no pointer can alias
     const double * const mean = data.mean + first;
-    const double * const variance = data.variance + first;
     const float * const  dof = data.dof + first;
+    data.variance.Fill(first, pixels, excess);
     for (std::size_t i = 0; i < pixels; ++i)
     {
       expected[i] = own.At(mean[i]);
-      excess[i] = variance[i] - expected[i];
+      excess[i] -= expected[i];
       chance[i] = own.SamplingVariance(dof[i], expected[i]);
     }
   }

@@ -137,13 +137,13 @@ struct TestedRun
   {
     const ReferenceFrame & frame = projected.GetFrame();
     const double * const   level = judge.LevelsOf(frame).data() + first;
-    const double * const   variance = projected.GetVariance().data() + first;
     const float * const    dof = projected.GetDof().data() + first;
     const VarianceLine     line = judge.line;
     judge.FillVariance(level, pixels, expected);
+    projected.GetVariance().Fill(first, pixels, ratio.data());
     for (std::size_t i = 0; i < pixels; ++i)
     {
-      ratio[i] = variance[i] / expected[i];
+      ratio[i] /= expected[i];
       const FarLimits far(line.EffectiveDof(dof[i], expected[i]));
       isAbove[i] = ratio[i] < far.high ? 0.0 : 1.0;
       isOff[i] = ratio[i] > far.low ? isAbove[i] : 1.0;

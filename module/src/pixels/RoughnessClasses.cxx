@@ -279,7 +279,7 @@ LineThroughMedians(const ProjectedVariance & projected, const std::vector<std::u
 } // namespace
 
 std::vector<std::uint8_t>
-MaskOfFlatClasses(const ProjectedVariance &         projected,
+MaskOfFlatClasses(const ProjectedSquares &          squares,
                   const std::vector<std::uint8_t> & usable,
                   const ParallelFor &               parallelFor)
 {
@@ -287,7 +287,7 @@ MaskOfFlatClasses(const ProjectedVariance &         projected,
   std::vector<std::uint8_t> mask(usable.size());
   ForPixels(mask.size(),
             parallelFor,
-            [=, usable = usable.data(), classOf = projected.GetClasses().data(), own = mask.data()](std::size_t p) {
+            [=, usable = usable.data(), classOf = squares.GetClasses().data(), own = mask.data()](std::size_t p) {
               own[p] = usable[p] != 0 && classOf[p] <= last ? 1 : 0;
             });
   return mask;

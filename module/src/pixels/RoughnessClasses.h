@@ -15,6 +15,7 @@
 namespace sensornoise
 {
 
+class ProjectedSquares;
 class ProjectedVariance;
 struct InitialNoiseModel;
 struct ReferenceFrame;
@@ -38,7 +39,7 @@ ClassifyRoughness(const ReferenceFrame &            frame,
 /** Returns the mask of the \a usable pixels of the flatter roughness classes. Motion that the temporal components do
  * not describe leaves almost no residuals there. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
-MaskOfFlatClasses(const ProjectedVariance &         projected,
+MaskOfFlatClasses(const ProjectedSquares &          squares,
                   const std::vector<std::uint8_t> & usable,
                   const ParallelFor &               parallelFor);
 

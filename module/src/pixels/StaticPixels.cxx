@@ -53,7 +53,7 @@ SumClasses(const ProjectedVariance &         projected,
     OfRun error{};
     CallWithAvx2([&,
                   level = frame.neighbourMean.data() + first,
-                  divisor = projected.GetDivisor().data() + first,
+                  divisor = projected.GetSquares().GetDivisor().data() + first,
                   dof = projected.GetDof().data() + first,
                   spread = line.line.noiseDispersionDn4] {
       run.Judge(projected, line, first, pixels);
@@ -228,7 +228,7 @@ FindRejectedCores(const ProjectedVariance & projected,
   const ReferenceFrame &    frame = projected.GetFrame();
   const std::size_t         width = frame.geometry.width;
   const std::size_t         height = frame.geometry.height;
-  const auto                dof = static_cast<double>(frame.frames - 1 - projected.GetBasis().Size());
+  const auto                dof = static_cast<double>(frame.frames - 1 - projected.GetSquares().GetBasis().Size());
   std::vector<std::uint8_t> core(frame.mean.size());
   ForBoxBands(height, parallelFor, [&](std::size_t first, std::size_t last) {
     BoxRows ratios(RowsOf(pixels.ratio, width), width, height, radius, first, last);

@@ -46,14 +46,29 @@ ComputeFeedback(const ProjectedVariance &         projected,
                 const std::vector<std::uint8_t> & mask,
                 const ParallelFor &               parallelFor)
 {
-  return projected.HasUnequalNoise() && line.isDetermined ? GainFeedback(projected, line, mask, parallelFor)
-                                                          : GainFeedback();
+  return projected.GetSquares().HasUnequalNoise() && line.isDetermined
+           ? GainFeedback(projected, line, mask, parallelFor)
+           : GainFeedback();
 }
+
+/** A line, and the variance that it was fitted to. */
+struct FittedLine
+{
+  VarianceLine      line;
+  ProjectedVariance projected;
+
+  /** Returns the variance with the gain of the line. */
+  ProjectedVariance
+  OfLine() const
+  {
+    return projected.WithLine(line);
+  }
+};
 
 /** Fits a line to the pixels of \a mask, again until the gain that corrects the variances equals the gain of the
  * line. */
-VarianceLine
-FitFixedPointLine(ProjectedVariance &                 projected,
+FittedLine
+FitFixedPointLine(ProjectedVariance                   projected,
                   const std::vector<std::uint8_t> &   mask,
                   const std::optional<VarianceLine> & start,
                   const ParallelFor &                 parallelFor)
@@ -68,30 +83,32 @@ FitFixedPointLine(ProjectedVariance &                 projected,
     {
       break;
     }
-    projected.Compute(settled);
+    projected = projected.WithLine(settled);
     line = FitSampleLine(projected.GetData(mask), settled, parallelFor);
   }
-  return line;
+  return { line, std::move(projected) };
 }
 
 /** Fits the first line to the flat pixels of \a mask. If only dark areas of the scene are flat, brighter pixels are
  * added to the mask, provided that their variance lies on one line with the variance of the dark pixels. */
-VarianceLine
-FitFirstLine(ProjectedVariance &               projected,
+FittedLine
+FitFirstLine(ProjectedVariance                 projected,
              const std::vector<std::uint8_t> & usable,
              std::vector<std::uint8_t> &       mask,
              const ParallelFor &               parallelFor)
 {
   if (const std::optional<BrighterPixels> brighter = FindBrighterPixels(projected, usable, mask, parallelFor))
   {
-    VarianceLine line = FitFixedPointLine(projected, brighter->mask, brighter->through, parallelFor);
-    if (line.isDetermined && AgreesWithLine(projected, brighter->beyond, line) && AgreesWithLine(projected, mask, line))
+    FittedLine fitted = FitFixedPointLine(std::move(projected), brighter->mask, brighter->through, parallelFor);
+    if (fitted.line.isDetermined && AgreesWithLine(fitted.projected, brighter->beyond, fitted.line) &&
+        AgreesWithLine(fitted.projected, mask, fitted.line))
     {
       mask = brighter->mask;
-      return line;
+      return fitted;
     }
+    projected = std::move(fitted.projected); // its gain is nearer than the one of the initial model
   }
-  return FitFixedPointLine(projected, mask, std::nullopt, parallelFor);
+  return FitFixedPointLine(std::move(projected), mask, std::nullopt, parallelFor);
 }
 
 /** Fits the line of all pixels of the data, with its errors. */
@@ -124,7 +141,7 @@ SelectPixels(const ProjectedVariance &         projected,
             parallelFor,
             [usable = usable.data(),
              misfit = misfit.data(),
-             classOf = projected.GetClasses().data(),
+             classOf = projected.GetSquares().GetClasses().data(),
              firstBad = found.classes.firstBad,
              use = found.pixelUse.data(),
              mask = found.mask.data()](std::size_t p) {
@@ -145,27 +162,21 @@ CompareMeasuredParts(const ProjectedVariance &         projected,
                      const std::vector<std::uint8_t> & mask,
                      const ParallelFor &               parallelFor)
 {
-  VarianceData        data = projected.GetData(mask);
-  std::vector<double> measured;
-  if (projected.HasRatios())
-  {
-    measured = projected.MeasuredVariance();
-    data.variance = measured.data();
-  }
+  VarianceData data = projected.GetData(mask);
+  data.variance.ratios = nullptr;
   return CompareParts(MakePartTiles(data, projected.GetFrame().geometry, reference, parallelFor));
 }
 
 /** Divides the variance by the ratios of parts whose gains differ much, so that their pixels are not rejected, and fits
- * \a drawn again. Changes nothing unless most pixels then follow the line: other causes of differences between parts,
- * such as a non-linear response, are left to the fit. */
-void
-CorrectForParts(ProjectedVariance &               projected,
+ * the line of \a drawn again. Returns \a drawn unless most pixels then follow the line: other causes of differences
+ * between parts, such as a non-linear response, are left to the fit. */
+FittedLine
+CorrectForParts(FittedLine                        drawn,
                 const PartReference &             reference,
                 const std::vector<std::uint8_t> & mask,
-                VarianceLine &                    drawn,
                 const ParallelFor &               parallelFor)
 {
-  GainByParts parts = CompareMeasuredParts(projected, reference, mask, parallelFor);
+  GainByParts parts = CompareMeasuredParts(drawn.projected, reference, mask, parallelFor);
   for (auto * const own : { &parts.places, &parts.phases })
   {
     if (*own && !(*own)->DifferMuch())
@@ -175,17 +186,13 @@ CorrectForParts(ProjectedVariance &               projected,
   }
   if (parts.Larger() == nullptr)
   {
-    return;
+    return drawn;
   }
-  const ReferenceFrame & frame = projected.GetFrame();
-  projected.SetRatios(MapOfRatios(parts, frame.mean, frame.geometry, reference, parallelFor));
-  const VarianceLine line = FitFixedPointLine(projected, mask, drawn, parallelFor);
-  if (!line.isDetermined || !AgreesWithLine(projected, mask, line))
-  {
-    projected.SetRatios({});
-    return;
-  }
-  drawn = line;
+  const ReferenceFrame &  frame = drawn.projected.GetFrame();
+  const ProjectedVariance divided =
+    drawn.projected.WithRatios(MapOfRatios(parts, frame.mean, frame.geometry, reference, parallelFor));
+  FittedLine again = FitFixedPointLine(divided, mask, drawn.line, parallelFor);
+  return again.line.isDetermined && AgreesWithLine(again.projected, mask, again.line) ? again : drawn;
 }
 
 /** Corrects the slope for the noise of the means, and for the correlation of this noise with the variance, which skewed
@@ -198,6 +205,7 @@ CorrectForNoisyMeans(VarianceLine & line, double offsetDn, std::size_t frames)
   line.gain -= bias;
   line.intercept += bias * line.pivotDn;
 }
+
 /** Levels and variance inflation that FitStaticVariance() is called with, see there. */
 struct FitPremises
 {
@@ -207,9 +215,56 @@ struct FitPremises
   double varianceInflation;
 };
 
+/** Result of FitStaticVariance(), and whether the variance was divided by the ratios of parts. */
+struct StaticFit
+{
+  StaticVariance variance;
+  bool           isDivided{ false };
+};
+
+/** The pixels that were selected, and their line. */
+struct SelectedLine
+{
+  FittedLine     drawn;
+  StaticVariance found; ///< mask, use of the pixels, and classes are set
+};
+
+/** Selects the pixels of a static scene. The line of the flat classes rejects neighbourhoods, and then classes among
+ * the others. With \a mayDivide the variance may be divided by the ratios of parts. */
+SelectedLine
+SelectStaticPixels(const ProjectedSquares &          squares,
+                   const std::vector<std::uint8_t> & usable,
+                   std::vector<std::uint8_t>         pixelUse,
+                   const FitPremises &               premises,
+                   bool                              mayDivide,
+                   const ParallelFor &               parallelFor)
+{
+  StaticVariance found;
+  found.varianceInflation = premises.varianceInflation;
+  found.pixelUse = std::move(pixelUse);
+  found.mask = MaskOfFlatClasses(squares, usable, parallelFor);
+  FittedLine drawn = FitFirstLine({ squares, premises.slopeDn }, usable, found.mask, parallelFor);
+  if (mayDivide && drawn.line.isDetermined)
+  {
+    const PartReference reference{ drawn.line, premises.blackDn, premises.varianceInflation };
+    drawn = CorrectForParts(std::move(drawn), reference, found.mask, parallelFor);
+  }
+  bool isJudged = false;
+  for (int round = 0; round < 2 && drawn.line.isDetermined && !isJudged; ++round)
+  {
+    RejectionModel judge = FitRejectionModel(drawn.line, drawn.projected, found.mask, premises.blackDn, parallelFor);
+    judge.varianceInflation = premises.varianceInflation;
+    const ProjectedVariance projected = drawn.OfLine();
+    const std::size_t       misfits = SelectPixels(projected, judge, usable, found, parallelFor);
+    isJudged = static_cast<double>(misfits) < InPixels.fewRejected * static_cast<double>(usable.size());
+    drawn = FitFixedPointLine(projected, found.mask, judge.line, parallelFor);
+  }
+  return { std::move(drawn), std::move(found) };
+}
+
 /** Computes FitStaticVariance() once. With \a mayDivide the variance may be divided by the ratios of parts. */
-StaticVariance
-FitOnce(ProjectedVariance &               projected,
+StaticFit
+FitOnce(const ProjectedSquares &          squares,
         const std::vector<std::uint8_t> & usable,
         std::vector<std::uint8_t>         pixelUse,
         const FitPremises &               premises,
@@ -217,55 +272,36 @@ FitOnce(ProjectedVariance &               projected,
         const ParallelFor &               parallelFor)
 {
   const auto [slopeDn, offsetDn, blackDn, varianceInflation] = premises;
-  StaticVariance found;
-  found.varianceInflation = varianceInflation;
-  found.pixelUse = std::move(pixelUse);
-  // The line of the flat classes rejects neighbourhoods, and then classes among the others.
-  projected.SetRatios({});
-  projected.Compute(slopeDn);
-  found.mask = MaskOfFlatClasses(projected, usable, parallelFor);
-  VarianceLine drawn = FitFirstLine(projected, usable, found.mask, parallelFor);
-  if (mayDivide && drawn.isDetermined)
+  auto [drawn, found] = SelectStaticPixels(squares, usable, std::move(pixelUse), premises, mayDivide, parallelFor);
+  const bool isDivided = drawn.projected.HasRatios();
+  if (!drawn.line.isDetermined)
   {
-    CorrectForParts(projected, { drawn, blackDn, varianceInflation }, found.mask, drawn, parallelFor);
+    return { std::move(found), isDivided };
   }
-  bool isJudged = false;
-  for (int round = 0; round < 2 && drawn.isDetermined && !isJudged; ++round)
-  {
-    RejectionModel judge = FitRejectionModel(drawn, projected, found.mask, blackDn, parallelFor);
-    judge.varianceInflation = varianceInflation;
-    projected.Compute(drawn);
-    const std::size_t misfits = SelectPixels(projected, judge, usable, found, parallelFor);
-    isJudged = static_cast<double>(misfits) < InPixels.fewRejected * static_cast<double>(usable.size());
-    drawn = FitFixedPointLine(projected, found.mask, judge.line, parallelFor);
-  }
-  if (!drawn.isDetermined)
-  {
-    return found;
-  }
-  projected.Compute(drawn);
-  const VarianceData data = projected.GetData(found.mask);
-  VarianceFit        fit = FitAllPixels(data, drawn, blackDn, parallelFor);
+  ProjectedVariance  projected = drawn.OfLine();
+  VarianceFit        fit = FitAllPixels(projected.GetData(found.mask), drawn.line, blackDn, parallelFor);
   const GainFeedback feedback = ComputeFeedback(projected, fit.GetLine(), found.mask, parallelFor);
   if (feedback.IsLarge())
   {
     const VarianceLine settled = feedback.SolveFixedPoint(fit.GetLine(), projected.GetGain());
-    projected.Compute(settled);
-    fit = FitAllPixels(data, settled, blackDn, parallelFor);
+    projected = projected.WithLine(settled);
+    fit = FitAllPixels(projected.GetData(found.mask), settled, blackDn, parallelFor);
   }
-  const auto settle = [&](const VarianceLine & fitted) {
-    return feedback.SolveFixedPoint(fitted, projected.GetGain());
+  found.correctingGain = projected.GetGain();
+  const auto settle = [&gain = found.correctingGain, &feedback](const VarianceLine & fitted) {
+    return feedback.SolveFixedPoint(fitted, gain);
   };
   VarianceLine line = settle(fit.GetLine());
   if (!line.isDetermined)
   {
-    return found;
+    return { std::move(found), isDivided };
   }
   const std::vector<std::uint8_t> trimmed = fit.FindTrimmed();
-  ForPixels(trimmed.size(), parallelFor, [&](std::size_t p) {
-    found.pixelUse[p] = trimmed[p] != 0 ? static_cast<std::uint8_t>(PixelUse::Outlier) : found.pixelUse[p];
+  ForPixels(trimmed.size(), parallelFor, [&use = found.pixelUse, &trimmed](std::size_t p) {
+    use[p] = trimmed[p] != 0 ? static_cast<std::uint8_t>(PixelUse::Outlier) : use[p];
   });
   const ReferenceFrame & frame = projected.GetFrame();
+  const VarianceData     data = projected.GetData(found.mask);
   found.pattern = EstimateFixedPattern(frame, data, line, blackDn, parallelFor);
   if (found.pattern.LargestFraction() * std::abs(line.gain) >
       InPixels.negligiblePattern * std::sqrt(line.covariance(0, 0)))
@@ -284,12 +320,12 @@ FitOnce(ProjectedVariance &               projected,
   }
   found.notStatic = static_cast<std::size_t>(
     std::count(found.pixelUse.begin(), found.pixelUse.end(), static_cast<std::uint8_t>(PixelUse::NotStatic)));
-  return found;
+  return { std::move(found), isDivided };
 }
 } // namespace
 
 StaticVariance
-FitStaticVariance(ProjectedVariance &               projected,
+FitStaticVariance(const ProjectedSquares &          squares,
                   const std::vector<std::uint8_t> & usable,
                   std::vector<std::uint8_t>         pixelUse,
                   double                            slopeDn,
@@ -299,14 +335,14 @@ FitStaticVariance(ProjectedVariance &               projected,
                   double                            varianceInflation)
 {
   const FitPremises premises{ slopeDn, offsetDn, blackDn, varianceInflation };
-  StaticVariance    found = FitOnce(projected, usable, pixelUse, premises, true, parallelFor);
-  if (projected.HasRatios() && found.parts.Larger() == nullptr)
+  StaticFit         found = FitOnce(squares, usable, pixelUse, premises, true, parallelFor);
+  if (found.isDivided && found.variance.parts.Larger() == nullptr)
   {
     // The pixels that fit do not confirm the differences between parts: a non-linear response, on a chart, looks like
     // them.
-    found = FitOnce(projected, usable, std::move(pixelUse), premises, false, parallelFor);
+    found = FitOnce(squares, usable, std::move(pixelUse), premises, false, parallelFor);
   }
-  return found;
+  return std::move(found.variance);
 }
 
 } // namespace sensornoise

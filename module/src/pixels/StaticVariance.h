@@ -19,7 +19,7 @@
 namespace sensornoise
 {
 
-class ProjectedVariance;
+class ProjectedSquares;
 
 /** Result of the third pass: the pixels that fit a static scene, and the line of their variance. */
 struct StaticVariance
@@ -44,12 +44,15 @@ struct StaticVariance
   /** The parts of the frame whose gains differ. The lines then describe the variance divided by the ratios of these
    * parts. */
   GainByParts parts;
-  /** Quantization noise of companded data; it has been subtracted from all of the above. */
+  /** Quantization noise of companded data. Its remainder has been subtracted from all of the above; its line has not,
+   * see WithoutLineOfCodes(). */
   CodeNoise codeNoise;
   /** 1: a pixel that fits a static scene. Includes outliers, which a fit trims. */
   std::vector<std::uint8_t> mask;
   /** Values of PixelUse. Pixels of the mask that the final fit trims are PixelUse::Outlier. */
   std::vector<std::uint8_t> pixelUse;
+  /** Gain by which the variance of the pixels is corrected, see ProjectedVariance [DN/e-]. */
+  double correctingGain{ 0.0 };
   /** Number of pixels whose use is PixelUse::NotStatic. */
   std::size_t notStatic{ 0 };
   /** Variance inflation by the spatial noise correlation, see RejectionModel [1]. */
@@ -66,7 +69,7 @@ struct StaticVariance
  * by the spatial noise correlation, see RejectionModel [1]. If too few pixels are left, the line is not determined, and
  * the results that depend on it are missing. */
 SensorNoise_EXPORT StaticVariance
-FitStaticVariance(ProjectedVariance &               projected,
+FitStaticVariance(const ProjectedSquares &          squares,
                   const std::vector<std::uint8_t> & usable,
                   std::vector<std::uint8_t>         pixelUse,
                   double                            slopeDn,

@@ -60,8 +60,7 @@ GainFeedback::GainFeedback(const ProjectedVariance &         projected,
     Sums
   };
   const ReferenceFrame & frame = projected.GetFrame();
-  const float * const    skew = projected.GetSkew().data();
-  const float * const    divisor = projected.GetDivisor().data();
+  const float * const    perGain = projected.GetSquares().GetPerGain().data();
   const float * const    dof = projected.GetDof().data();
   const auto   s = SumBlocks<Sums>(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
     for (std::size_t p = begin; p < end; ++p)
@@ -72,7 +71,7 @@ GainFeedback::GainFeedback(const ProjectedVariance &         projected,
         const double half = 0.5 * static_cast<double>(dof[p]);
         const double w = half / (expected * expected + half * line.noiseDispersionDn4);
         const double x = frame.mean[p] - line.pivotDn;
-        const double k = static_cast<double>(skew[p]) / static_cast<double>(divisor[p]);
+        const auto   k = static_cast<double>(perGain[p]);
         sums[W] += w;
         sums[WX] += w * x;
         sums[WXX] += w * x * x;

@@ -346,7 +346,7 @@ SampledVariance::SampledVariance(const VarianceData & data, std::size_t most, co
 VarianceData
 SampledVariance::GetData() const
 {
-  return { m_Mean.data(), m_NeighbourMean.data(), m_Variance.data(), m_Dof.data(), m_Mask.data(), m_Mask.size() };
+  return { m_Mean.data(), m_NeighbourMean.data(), { m_Variance.data() }, m_Dof.data(), m_Mask.data(), m_Mask.size() };
 }
 
 } // namespace sensornoise

@@ -12,12 +12,46 @@
 namespace sensornoise
 {
 
+/** Variance of every pixel, computed where it is read: a map, corrected by a gain, and divided by ratios [DN^2]. */
+struct PixelVariance
+{
+  const double * map{ nullptr };     ///< variance with the gain 0 [DN^2]
+  const float *  perGain{ nullptr }; ///< rise of the variance with the gain [DN]; null: 0
+  const float *  ratios{ nullptr };  ///< variance relative to a uniform sensor [1]; null: 1
+  double         gain{ 0.0 };        ///< gain that corrects the variance [DN/e-]
+
+  double
+  operator[](std::size_t p) const
+  {
+    const double corrected = perGain != nullptr ? map[p] + gain * static_cast<double>(perGain[p]) : map[p];
+    return ratios != nullptr ? corrected / static_cast<double>(ratios[p]) : corrected;
+  }
+  /** Sets \a variance to the values of \a pixels pixels from pixel \a first on. For loops with SIMD instructions. */
+  void
+  Fill(std::size_t first, std::size_t pixels, double * variance) const
+  {
+    const PixelVariance own = *this; // a copy that no pointer can alias
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      variance[i] = own.map[first + i];
+    }
+    for (std::size_t i = 0; own.perGain != nullptr && i < pixels; ++i)
+    {
+      variance[i] += own.gain * static_cast<double>(own.perGain[first + i]);
+    }
+    for (std::size_t i = 0; own.ratios != nullptr && i < pixels; ++i)
+    {
+      variance[i] /= static_cast<double>(own.ratios[first + i]);
+    }
+  }
+};
+
 /** Maps for a regression of the variance on the mean. */
 struct VarianceData
 {
   const double *       mean;          ///< temporal mean [DN]
   const double *       neighbourMean; ///< mean of the 8 neighbours [DN]
-  const double *       variance;      ///< unbiased variance [DN^2]
+  PixelVariance        variance;      ///< unbiased variance [DN^2]
   const float *        dof;           ///< degrees of freedom of the variance
   const std::uint8_t * mask;          ///< nonzero at the pixels that count
   std::size_t          pixels;        ///< number of pixels

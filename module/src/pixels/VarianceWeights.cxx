@@ -89,11 +89,11 @@ struct Departure
   {
     return line.At(data.neighbourMean[p]);
   }
-  /** Returns the excess of the variance over the line at the pixel's own level [DN^2]. */
+  /** Returns the excess of \a variance, that of pixel \a p, over the line at the pixel's own level [DN^2]. */
   double
-  Excess(std::size_t p) const
+  Excess(std::size_t p, double variance) const
   {
-    return data.variance[p] - line.At(data.mean[p]);
+    return variance - line.At(data.mean[p]);
   }
   /** Returns 1 if \a excess is kept, else 0. */
   double
@@ -116,12 +116,12 @@ VarianceFit::WeighByDistance(std::size_t first, std::size_t pixels, Run & run) c
   CallWithAvx2([&] {
     const Departure of{ m_Line, m_Data, m_ReachDn2, m_ReachBelowDn2 };
     OfRun           counts;
+    m_Data.variance.Fill(first, pixels, run.value.data());
     for (std::size_t i = 0; i < pixels; ++i)
     {
       const std::size_t p = first + i;
       run.weight[i] = WeightAt(of.line, 0.5 * of.data.dof[p], of.Expected(p));
-      run.value[i] = of.data.variance[p];
-      counts[i] = of.IsWithinReach(of.Excess(p));
+      counts[i] = of.IsWithinReach(of.Excess(p, run.value[i]));
     }
     TakeWeights(counts, pixels, run.weight);
   });
@@ -133,9 +133,11 @@ VarianceFit::WeighByLevel(std::size_t first, std::size_t pixels, Run & run) cons
   CallWithAvx2([&] {
     const VarianceLine line = m_Line; // copies that no pointer can alias
     const VarianceData data = m_Data;
+    OfRun              variance;
     OfRun              dof;
     OfRun              ratio;
     OfRun              counts;
+    data.variance.Fill(first, pixels, variance.data());
     for (std::size_t i = 0; i < pixels; ++i)
     {
       const std::size_t p = first + i;
@@ -143,7 +145,7 @@ VarianceFit::WeighByLevel(std::size_t first, std::size_t pixels, Run & run) cons
       const double      expected = line.At(data.neighbourMean[p]);
       run.weight[i] = WeightAt(line, 0.5 * data.dof[p], expected);
       dof[i] = line.EffectiveDof(data.dof[p], own);
-      ratio[i] = data.variance[p] / own;
+      ratio[i] = variance[i] / own;
     }
     for (std::size_t i = 0; i < pixels; ++i)
     {
@@ -154,7 +156,7 @@ VarianceFit::WeighByLevel(std::size_t first, std::size_t pixels, Run & run) cons
     TakeWeights(counts, pixels, run.weight);
     for (std::size_t i = 0; i < pixels; ++i)
     {
-      run.value[i] = data.variance[first + i] / run.value[i];
+      run.value[i] = variance[i] / run.value[i];
     }
   });
 }
@@ -209,13 +211,15 @@ VarianceFit::EstimateNoiseDispersion(std::size_t first, std::size_t pixels, Disp
 {
   CallWithAvx2([&] {
     const Departure of{ m_Line, m_Data, m_ReachDn2, m_ReachBelowDn2 };
+    OfRun           variance;
     OfRun           counts;
+    m_Data.variance.Fill(first, pixels, variance.data());
     for (std::size_t i = 0; i < pixels; ++i)
     {
       const std::size_t p = first + i;
       const double      expected = of.Expected(p);
       const double      chance = of.line.SamplingVariance(of.data.dof[p], expected);
-      const double      excess = of.Excess(p);
+      const double      excess = of.Excess(p, variance[i]);
       terms.weight[i] = 1.0 / (chance * chance);
       terms.more[i] = excess * excess - chance;
       terms.chance[i] = chance;

@@ -101,17 +101,17 @@ namespace
 /** Data by which the noise of the frames of the sample is compared. */
 struct FrameComparison
 {
-  const NoiseResiduals &    residuals;
-  const ProjectedVariance & projected;
-  const StaticScene &       scene;
-  TileLevels                levels;
-  bool                      isIlluminationLocal{ false }; ///< the illumination changes differently between tiles
+  const NoiseResiduals &   residuals;
+  const ProjectedSquares & squares;
+  const StaticScene &      scene;
+  TileLevels               levels;
+  bool                     isIlluminationLocal{ false }; ///< the illumination changes differently between tiles
 
   /** Returns whether the noise variance differs between frames by as much as counts. */
   bool
   AreUnequal() const
   {
-    return scene.changesStrongly || projected.HasUnequalNoise();
+    return scene.changesStrongly || squares.HasUnequalNoise();
   }
 };
 
@@ -187,7 +187,7 @@ CompareFrames(const StaticVariance &  variance,
     std::max(MovesLittle(by) ? 0.0 : InRefined.leastUnlikeUnderMotion,
              by.isIlluminationLocal ? InRefined.leastUnlikeUnderLocalIllumination : InRefined.leastUnlikeNoise);
   const std::vector<std::uint8_t> used = MaskOfUsed(variance.pixelUse);
-  const FrameEnergies             flat(by.residuals, MaskOfFlatClasses(by.projected, used, parallelFor), parallelFor);
+  const FrameEnergies             flat(by.residuals, MaskOfFlatClasses(by.squares, used, parallelFor), parallelFor);
   const double                    chance = std::sqrt(2.0 * varianceInflation / std::max(1.0, flat.Pixels().sum()));
   FrameNoise                      noise;
   for (const auto & [line, error] : LinesByError(variance))
@@ -237,19 +237,26 @@ struct ChosenPixels
   std::vector<std::uint8_t> & pixelUse;
 };
 
+/** The illumination that is specific to rows or columns, and the squares without it. */
+struct AllowedLines
+{
+  LineIllumination lines;
+  ReplacedSquares  replaced;
+};
+
 /** Subtracts the illumination that is specific to rows or columns if its effect exceeds
  * InRefined.leastLineIllumination. If some temporal components of the illumination could not be projected out (\a
  * areSeriesLeft), subtracts it wherever it is significant. */
-LineIllumination
+AllowedLines
 AllowForLines(NoiseResiduals &     residuals,
-              ProjectedVariance &  projected,
               const StaticScene &  scene,
               const ChosenPixels & pixels,
               double               signalDn,
               bool                 areSeriesLeft,
               const ParallelFor &  parallelFor)
 {
-  LineIllumination lines;
+  AllowedLines       allowed;
+  LineIllumination & lines = allowed.lines;
   lines.found = EstimateLineIlluminationChange(residuals, LineAxis::Rows, parallelFor);
   if (const MeasuredNumber ofColumns = EstimateLineIlluminationChange(residuals, LineAxis::Columns, parallelFor);
       ofColumns.value * lines.found.standardError > lines.found.value * ofColumns.standardError)
@@ -261,25 +268,28 @@ AllowForLines(NoiseResiduals &     residuals,
   const bool   counts = EffectOfLineIllumination(lines.found, signalDn, scene.model.slopeDn, least) > 0.0;
   if (counts && residuals.HasEnoughPixels())
   {
-    SubtractLineIllumination(lines, residuals, projected, pixels.chosen, pixels.pixelUse, parallelFor);
+    allowed.replaced = SubtractLineIllumination(
+      lines, residuals, scene.frame.geometry.width, pixels.chosen, pixels.pixelUse, parallelFor);
   }
   if (counts || areSeriesLeft)
   {
     lines.remainingVariance = RestOfIllumination(residuals, parallelFor);
   }
-  return lines;
+  return allowed;
 }
 } // namespace
 
 PixelNoise
-MeasurePixelNoise(ProjectedVariance &                      projected,
+MeasurePixelNoise(ResidualSquares                          squares,
                   FrameSample                              sample,
                   const StaticScene &                      scene,
                   const std::optional<const SceneSeries> & series,
                   const RefinedSettings &                  settings,
-                  double                                   codesDn2,
+                  const CodeNoise &                        codeNoise,
+                  bool                                     isOneScene,
                   const ParallelFor &                      parallelFor)
 {
+  const double              codesDn2 = codeNoise.darkVarianceDn2;
   const double              blackDn = BlackLevel(settings, scene, series);
   const double              offsetDn = series->offset + scene.model.centreDn;
   std::vector<std::uint8_t> pixelUse = scene.pixelUse;
@@ -289,24 +299,37 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   const double   repeated = sample.RepeatedFraction(chosen, scene.summary.codes.quantisationStepDn);
   NoiseResiduals residuals(
     std::move(sample), series->basis.GetBasis(), { scene.frame.mean, chosen, zeroDn, isTold }, parallelFor);
-  LineIllumination lines;
+  AllowedLines allowed;
   if (settings.rollingShutter != RollingShutter::Off)
   {
-    lines = AllowForLines(residuals,
-                          projected,
-                          scene,
-                          { chosen, pixelUse },
-                          scene.model.brightestDn - blackDn,
-                          series->local.beyond > 1.0,
-                          parallelFor);
+    allowed = AllowForLines(residuals,
+                            scene,
+                            { chosen, pixelUse },
+                            scene.model.brightestDn - blackDn,
+                            series->local.beyond > 1.0,
+                            parallelFor);
   }
   // If the levels do not identify the offset, no line of the pixels determines the fraction of shot noise.
-  projected.SetIllumination(series->line.gamma, offsetDn, !scene.changesStrongly || series->isOffsetIdentifiable);
-  const auto fit = [&](double varianceInflation) {
-    return FitStaticVariance(
+  const FrameIllumination illumination{ series->line.gamma,
+                                        offsetDn,
+                                        !scene.changesStrongly || series->isOffsetIdentifiable };
+  ProjectedSquares        projected(scene.frame,
+                             series->basis,
+                             series->motion,
+                             std::move(squares),
+                             scene.model,
+                             scene.frame.usable,
+                             parallelFor,
+                             illumination,
+                             allowed.replaced,
+                             codeNoise);
+  const auto              fit = [&](double varianceInflation) {
+    StaticVariance variance = FitStaticVariance(
       projected, chosen, pixelUse, scene.model.slopeDn, offsetDn, blackDn, parallelFor, varianceInflation);
+    variance.codeNoise = codeNoise;
+    return variance;
   };
-  PixelNoise noise{ fit(1.0), {}, {}, lines };
+  PixelNoise noise{ fit(1.0), {}, {}, allowed.lines, {} };
   if (!noise.variance.line.isDetermined)
   {
     return noise;
@@ -316,7 +339,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
                                     projected,
                                     scene,
                                     { series->line.gamma, offsetDn, zeroDn },
-                                    series->local.series.cols() > 0 || lines.isTakenOff };
+                                    series->local.series.cols() > 0 || allowed.lines.isTakenOff };
   const auto compare = [&] { noise.variance.fromFrames = LineOfFrames(noise.variance, comparison, parallelFor); };
   const auto allowForFrames = [&] {
     compare();
@@ -350,9 +373,15 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   MeasureSettledFrames(noise.correlation, residuals, codesDn2, parallelFor);
   if (noise.correlation.kind != NoiseKind::NotMeasured)
   {
-    noise.lines.left = EstimateLineIlluminationChange(residuals, lines.axis, parallelFor);
+    noise.lines.left = EstimateLineIlluminationChange(residuals, allowed.lines.axis, parallelFor);
   }
   FindOtherCauses(noise.correlation, residuals, repeated, MovesLittle(comparison), parallelFor);
+  if (!isOneScene) // frames of several scenes are not comparable
+  {
+    noise.variance.fromFrames = {};
+    noise.frames = {};
+  }
+  noise.correctedVariance = std::move(projected).TakeVarianceAt(noise.variance.correctingGain);
   return noise;
 }
 

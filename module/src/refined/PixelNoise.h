@@ -6,7 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "correlation/FrameSample.h"
 #include "correlation/NoiseCorrelation.h"
-#include "pixels/ProjectedVariance.h"
+#include "pixels/ProjectedSquares.h"
 #include "pixels/StaticVariance.h"
 #include "pixels/VarianceLine.h"
 #include "refined/FramePhotonTransfer.h"
@@ -60,18 +60,23 @@ struct PixelNoise
   NoiseCorrelation correlation;
   FrameNoise       frames; ///< indices among the distinct frames
   LineIllumination lines;
+  /** Variance without flicker and motion [DN^2]; 0 at pixels that are not usable; empty: there is no line. */
+  std::vector<double> correctedVariance;
 };
 
 /** Fits the variance and measures the noise correlation. If the correlation is strong, the mean variance of a tile
- * scatters more, and the pixels are tested a second time for a static scene. \a codesDn2 is the variance of the
- * quantization noise in the dark [DN^2]. If too few pixels remain for a line, only the variance is set. */
+ * scatters more, and the pixels are tested a second time for a static scene. The remainder of \a codeNoise is
+ * subtracted from the variance of the pixels before it is fitted, and \a codeNoise becomes a member of the result. The
+ * noise of the frames is compared only if \a isOneScene. If too few pixels remain for a line, only the variance is set.
+ */
 SensorNoise_EXPORT PixelNoise
-MeasurePixelNoise(ProjectedVariance &                      projected,
+MeasurePixelNoise(ResidualSquares                          squares,
                   FrameSample                              sample,
                   const StaticScene &                      scene,
                   const std::optional<const SceneSeries> & series,
                   const RefinedSettings &                  settings,
-                  double                                   codesDn2,
+                  const CodeNoise &                        codeNoise,
+                  bool                                     isOneScene,
                   const ParallelFor &                      parallelFor);
 
 } // namespace sensornoise

@@ -7,10 +7,8 @@
 #include "moments/Constants.h"
 #include "moments/DarkMaps.h"
 #include "moments/StackMaps.h"
-#include "pixels/ProjectedVariance.h"
 #include "refined/RefinedResults.h"
 #include "refined/MemoryNeed.h"
-#include "refined/PixelNoise.h"
 #include "refined/RefinedReport.h"
 #include "report/StackReport.h"
 #include "report/Quantities.h"
@@ -41,6 +39,20 @@ LargestMeanDn(const std::vector<double> & mean)
     largest = std::isfinite(level) ? std::max(largest, std::abs(level)) : largest;
   }
   return largest;
+}
+
+/** Returns \a noise with the frames of its groups by their indices in the stack; \a counted has those of the distinct
+ * frames. */
+FrameNoise
+WithIndicesOfStack(FrameNoise noise, const std::vector<std::size_t> & counted)
+{
+  for (FrameGroup & group : noise.groups)
+  {
+    std::transform(group.frames.begin(), group.frames.end(), group.frames.begin(), [&](std::size_t frame) {
+      return counted[frame];
+    });
+  }
+  return noise;
 }
 } // namespace
 
@@ -213,7 +225,7 @@ RefinedPasses<TPixel>::EndMoments()
       std::move(maps), m_Geometry, m_Layout, levels, m_IsWithoutMerging, m_ParallelFor);
     return;
   }
-  this->MakeScene(std::move(maps));
+  this->MakeScene(std::move(maps), std::nullopt);
 }
 
 template <typename TPixel>
@@ -222,7 +234,7 @@ RefinedPasses<TPixel>::EndLevels()
 {
   LevelProjection::Maps maps = m_Levels->TakeMaps(m_ParallelFor);
   m_Levels.reset();
-  this->MakeScene(std::move(maps.ofScene), std::move(maps.rawVariance));
+  this->MakeScene(std::move(maps.ofScene), StrongChange{ this->NoiseOfDarkestFrame(), std::move(maps.rawVariance) });
 }
 
 template <typename TPixel>
@@ -237,35 +249,17 @@ RefinedPasses<TPixel>::NoiseOfDarkestFrame() const
 
 template <typename TPixel>
 void
-RefinedPasses<TPixel>::MakeScene(StackMaps maps, std::vector<double> rawVariance)
+RefinedPasses<TPixel>::MakeScene(StackMaps maps, std::optional<StrongChange> strongChange)
 {
   m_HasScene = true;
-  const bool            isProjected = !rawVariance.empty();
-  std::optional<double> darkestNoiseDn2;
-  if (isProjected)
-  {
-    darkestNoiseDn2 = this->NoiseOfDarkestFrame();
-  }
-  m_Scene = std::make_unique<StaticScene>(MakeStaticScene(maps.summary,
-                                                          std::move(maps.mean),
-                                                          std::move(maps.variance),
-                                                          std::move(maps.valid),
-                                                          m_UserMask,
-                                                          m_Geometry,
-                                                          m_Distinct.Count(),
-                                                          m_Distinct.OfDistinct(m_Moments.GetFrameMeans()),
-                                                          m_ParallelFor,
-                                                          darkestNoiseDn2));
-  std::unique_ptr<FrameSums> sums;
-  if (!m_Scene->failureReason)
-  {
-    sums = std::make_unique<FrameSums>(MakeSceneRegressors(*m_Scene, m_ParallelFor), m_ParallelFor);
-    sums->SetLayout(m_Layout);
-  }
-  if (isProjected)
-  {
-    m_Scene->frame.variance = std::move(rawVariance); // for the variance map and the squares of the third pass
-  }
+  SceneAndOutliers made = MakeStaticScene(std::move(maps),
+                                          m_UserMask,
+                                          m_Geometry,
+                                          m_Distinct.Count(),
+                                          m_Distinct.OfDistinct(m_Moments.GetFrameMeans()),
+                                          std::move(strongChange),
+                                          m_ParallelFor);
+  m_Scene = std::make_unique<StaticScene>(std::move(made.scene));
   if (m_Scene->failureReason)
   {
     throw NothingToMeasure(*m_Scene->failureReason);
@@ -275,7 +269,8 @@ RefinedPasses<TPixel>::MakeScene(StackMaps maps, std::vector<double> rawVariance
     m_Settings.RequireOffsetWithin(1000.0 * LargestMeanDn(m_Scene->frame.mean),
                                    "1000 times the largest level of the frames");
   }
-  m_FrameSums = std::move(sums);
+  m_FrameSums = std::make_unique<FrameSums>(MakeSceneRegressors(*m_Scene, made.outliers, m_ParallelFor), m_ParallelFor);
+  m_FrameSums->SetLayout(m_Layout);
 }
 
 template <typename TPixel>
@@ -315,7 +310,7 @@ bool
 RefinedPasses<TPixel>::EndProjections()
 {
   const bool isIlluminationLocal = m_Series->local.series.cols() > 0; // the report needs the coordinates then
-  if (m_Variance)
+  if (m_Noise)
   {
     m_Projections->EndIlluminationPass(m_Scene->frame);
   }
@@ -325,19 +320,12 @@ RefinedPasses<TPixel>::EndProjections()
   }
   else
   {
-    this->MeasureVariance();
-    const double most = m_FrameNoise.areFramesEqual ? InMoments.largestOtherGroup : InMoments.largestLeftOutFraction;
-    if (this->RestartWithoutFrames(m_FrameNoise.unlike, FrameFault::OtherNoise, most))
+    this->MeasureNoise();
+    const double most = m_Noise->frames.areFramesEqual ? InMoments.largestOtherGroup : InMoments.largestLeftOutFraction;
+    if (this->RestartWithoutFrames(m_Noise->frames.unlike, FrameFault::OtherNoise, most))
     {
       this->ForgetFindings();
       return false;
-    }
-    const std::vector<std::size_t> counted = m_Distinct.Counted();
-    for (FrameGroup & group : m_FrameNoise.groups)
-    {
-      std::transform(group.frames.begin(), group.frames.end(), group.frames.begin(), [&](std::size_t place) {
-        return counted[place];
-      });
     }
     if (isIlluminationLocal && !m_Projections->HasCoordinates())
     {
@@ -345,10 +333,10 @@ RefinedPasses<TPixel>::EndProjections()
       return false;
     }
   }
+  // The components are weighted with all noise, the noise of codes included.
   m_Reestimated.emplace(
-    ReestimateComponents(*m_FrameSums, *m_Series, m_Projections->TakeCoordinates(), *m_Variance, m_ParallelFor));
+    ReestimateComponents(*m_FrameSums, *m_Series, m_Projections->TakeCoordinates(), m_Noise->variance, m_ParallelFor));
   m_Projections.reset();
-  SubtractLine(*m_Variance, CodeNoise(m_Variance->codeNoise)); // the components were weighted with all noise
   return true;
 }
 
@@ -360,51 +348,35 @@ RefinedPasses<TPixel>::ForgetFindings()
   m_FrameSums.reset();
   m_Series.reset();
   m_Projections.reset();
-  m_Variance.reset();
-  m_Correlation = {};
-  m_FrameNoise = {};
-  m_Lines = {};
+  m_Noise.reset();
   m_CorrectedVariance.clear();
   m_HasScene = false;
 }
 
 template <typename TPixel>
 void
-RefinedPasses<TPixel>::MeasureVariance()
+RefinedPasses<TPixel>::MeasureNoise()
 {
-  FillNeighbourMean(m_Scene->frame, m_ParallelFor);
-  const ReferenceFrame & frame = m_Scene->frame;
-  ProjectedVariance      projected(frame,
-                              m_Series->basis,
-                              m_Series->motion,
-                              m_Projections->TakeSquares(),
-                              m_Scene->model,
-                              frame.usable,
-                              m_ParallelFor);
-  const CodeNoise        codeNoise = this->FindCodeNoise();
-  projected.SubtractRemainder(codeNoise);
-  PixelNoise noise = MeasurePixelNoise(
-    projected, m_Projections->TakeSample(), *m_Scene, m_Series, m_Settings, codeNoise.darkVarianceDn2, m_ParallelFor);
-  m_Variance.emplace(std::move(noise.variance));
-  m_Variance->codeNoise = codeNoise;
-  if (!m_Variance->line.isDetermined)
+  m_Scene->frame.neighbourMean = ComputeNeighbourMean(m_Scene->frame, m_ParallelFor);
+  const ReferenceFrame &         frame = m_Scene->frame;
+  const std::vector<std::size_t> counted = m_Distinct.Counted();
+  const CodeNoise                codeNoise = this->FindCodeNoise();
+  m_Noise.emplace(MeasurePixelNoise(m_Projections->TakeSquares(),
+                                    m_Projections->TakeSample(),
+                                    *m_Scene,
+                                    m_Series,
+                                    m_Settings,
+                                    codeNoise,
+                                    !m_Thumbnails.FindChange(counted).IsLarge(),
+                                    m_ParallelFor));
+  if (!m_Noise->variance.line.isDetermined)
   {
     throw NothingToMeasure(
       "too few pixels are left to fit the variance, or all have one intensity. Include dark and bright areas "
       "in the scene, or measure a larger part of it (--roi)",
       WarningCode::IntensityRangeTooSmall);
   }
-  m_Correlation = std::move(noise.correlation);
-  m_Lines = noise.lines;
-  if (m_Thumbnails.FindChange(m_Distinct.Counted()).IsLarge()) // frames of several scenes are not comparable
-  {
-    m_Variance->fromFrames = {};
-  }
-  else
-  {
-    m_FrameNoise = std::move(noise.frames);
-  }
-  m_CorrectedVariance = projected.TakeVariance();
+  m_CorrectedVariance = std::move(m_Noise->correctedVariance);
   ForPixels(m_CorrectedVariance.size(), m_ParallelFor, [&](std::size_t p) {
     m_CorrectedVariance[p] = frame.usable[p] != 0 ? m_CorrectedVariance[p] + codeNoise.RemainderAt(frame.mean[p])
                                                   : std::numeric_limits<double>::quiet_NaN();
@@ -421,30 +393,36 @@ RefinedPasses<TPixel>::FindCodeNoise() const
 }
 
 template <typename TPixel>
+Report
+RefinedPasses<TPixel>::MakeMeasuredReport() const
+{
+  const StaticVariance variance = WithoutLineOfCodes(m_Noise->variance);
+  return MakeRefinedReport({ m_Settings,
+                             *m_Scene,
+                             *m_Series,
+                             variance,
+                             *m_Reestimated,
+                             m_CorrectedVariance,
+                             BlackLevel(m_Settings, *m_Scene, m_Series),
+                             m_Noise->correlation,
+                             WithIndicesOfStack(m_Noise->frames, m_Distinct.Counted()),
+                             m_Noise->lines,
+                             m_ExposureFit ? &*m_ExposureFit : nullptr,
+                             FindDarkSignal(m_Settings.offset, m_Scene->frame, variance.pixelUse, m_ParallelFor) },
+                           m_ParallelFor);
+}
+
+template <typename TPixel>
 void
 RefinedPasses<TPixel>::MakeReport()
 {
-  m_Report =
-    m_FailureReason
-      ? MakeFailedReport(m_Settings, *m_Scene, this->GetPixelUse(), *m_FailureReason)
-      : MakeRefinedReport({ m_Settings,
-                            *m_Scene,
-                            *m_Series,
-                            *m_Variance,
-                            *m_Reestimated,
-                            m_CorrectedVariance,
-                            BlackLevel(m_Settings, *m_Scene, m_Series),
-                            m_Correlation,
-                            m_FrameNoise,
-                            m_Lines,
-                            m_ExposureFit ? &*m_ExposureFit : nullptr,
-                            FindDarkSignal(m_Settings.offset, m_Scene->frame, m_Variance->pixelUse, m_ParallelFor) },
-                          m_ParallelFor);
+  m_Report = m_FailureReason ? MakeFailedReport(m_Settings, *m_Scene, this->GetPixelUse(), *m_FailureReason)
+                             : this->MakeMeasuredReport();
   ReportLinearity(m_Report, m_ExposureFit);
   FileStatuses(m_Report);
   DivideExcessNoise(m_Report, m_Settings.excessNoiseFactor);
-  RestoreUnknownMeans(m_Scene->frame, m_ParallelFor);
-  WarnOfMosaic(m_Report, m_Scene->frame.mean, m_Geometry, m_ParallelFor);
+  m_Mean = KnownMeans(m_Scene->frame, m_ParallelFor);
+  WarnOfMosaic(m_Report, m_Mean, m_Geometry, m_ParallelFor);
   NoteMask(m_Report, m_Geometry, m_UserMask);
   ReportSceneChange(m_Report, m_Thumbnails.FindChange(m_Distinct.Counted()));
   ReportAllFrames(m_Report, m_Distinct, this->GetLeftOut());

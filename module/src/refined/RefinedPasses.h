@@ -7,15 +7,13 @@
 #include "sensornoise/FrameGeometry.h"
 #include "base/NothingToMeasure.h"
 #include "sensornoise/Parallel.h"
-#include "correlation/NoiseCorrelation.h"
 #include "moments/ExposureFit.h"
 #include "moments/StackMaps.h"
 #include "moments/StackPasses.h"
-#include "pixels/StaticVariance.h"
+#include "refined/PixelNoise.h"
 #include "refined/PixelProjections.h"
 #include "refined/RefinedResults.h"
 #include "sensornoise/Settings.h"
-#include "refined/FramePhotonTransfer.h"
 #include "sensornoise/Report.h"
 #include "scene/StaticScene.h"
 #include "series/FrameSums.h"
@@ -107,7 +105,7 @@ public:
     if (m_FrameSums)
     {
       m_FrameSums->EndFrames(m_ParallelFor);
-      ReleaseNeighbourMean(m_Scene->frame);
+      std::exchange(m_Scene->frame.neighbourMean, {}); // computed again when the third pass ends
     }
   }
   const Report &
@@ -118,7 +116,7 @@ public:
   const std::vector<double> &
   GetMean() const override
   {
-    return m_Scene->frame.mean;
+    return m_Mean.empty() ? m_Scene->frame.mean : m_Mean;
   }
   const std::vector<double> &
   GetVariance() const override
@@ -136,14 +134,14 @@ public:
   const std::vector<std::uint8_t> &
   GetPixelUse() const override
   {
-    return m_Variance ? m_Variance->pixelUse : m_Scene->pixelUse;
+    return m_Noise ? m_Noise->variance.pixelUse : m_Scene->pixelUse;
   }
 
   /** Return the maps, which are moved out of the object. */
   std::vector<double>
   TakeMean() override
   {
-    return std::move(m_Scene->frame.mean);
+    return std::move(m_Mean.empty() ? m_Scene->frame.mean : m_Mean);
   }
   std::vector<double>
   TakeVariance() override
@@ -158,7 +156,7 @@ public:
   std::vector<std::uint8_t>
   TakePixelUse() override
   {
-    return std::move(m_Variance ? m_Variance->pixelUse : m_Scene->pixelUse);
+    return std::move(m_Noise ? m_Noise->variance.pixelUse : m_Scene->pixelUse);
   }
 
 private:
@@ -217,22 +215,23 @@ private:
    * neighbouring pixels [DN^2]. */
   double
   NoiseOfDarkestFrame() const;
-  /** Makes the scene from \a maps, and starts the second pass. \a rawVariance, if not empty, replaces the variance in
-   * \a maps after the scene was made [DN^2]. */
+  /** Makes the scene, see MakeStaticScene(), and starts the second pass. */
   void
-  MakeScene(StackMaps maps, std::vector<double> rawVariance = {});
+  MakeScene(StackMaps maps, std::optional<StrongChange> strongChange);
   void
   EndFrameSums();
   bool
   EndProjections();
   void
-  MeasureVariance();
+  MeasureNoise();
   /** Discards all results of the passes after the moments. */
   void
   ForgetFindings();
   /** Returns the quantization noise of companded codes. */
   CodeNoise
   FindCodeNoise() const;
+  Report
+  MakeMeasuredReport() const;
   void
   MakeReport();
 
@@ -245,11 +244,9 @@ private:
   std::unique_ptr<FrameSums>                 m_FrameSums; // null in that pass, or if the stack cannot be measured
   std::optional<const SceneSeries>           m_Series;
   std::optional<PixelProjections>            m_Projections;
-  std::optional<StaticVariance>              m_Variance;
+  std::optional<PixelNoise>                  m_Noise;
   std::optional<const ReestimatedComponents> m_Reestimated;
-  NoiseCorrelation                           m_Correlation;
-  FrameNoise                                 m_FrameNoise;
-  LineIllumination                           m_Lines;
+  std::vector<double>                        m_Mean; // for display, when the report is made
   std::vector<double>                        m_CorrectedVariance;
   std::optional<const NothingToMeasure>      m_FailureReason;
   bool                                       m_HasScene{ false };

@@ -178,18 +178,19 @@ RestOfIllumination(const NoiseResiduals & residuals, const ParallelFor & paralle
            : 0.0;
 }
 
-void
+ReplacedSquares
 SubtractLineIllumination(LineIllumination &          lines,
                          NoiseResiduals &            residuals,
-                         ProjectedVariance &         projected,
+                         std::size_t                 width,
                          std::vector<std::uint8_t> & chosen,
                          std::vector<std::uint8_t> & pixelUse,
                          const ParallelFor &         parallelFor)
 {
   const std::vector<float>  left = residuals.TakeOffLines(lines.axis, chosen, parallelFor);
   const SampleTiles &       tiles = residuals.GetTiles();
-  const std::size_t         width = projected.GetFrame().geometry.width;
   std::vector<std::uint8_t> sampled(chosen.size(), 0);
+  ReplacedSquares           replaced;
+  replaced.dof = residuals.GetDof();
   for (std::size_t i = 0; i < tiles.origins.size(); ++i)
   {
     for (std::size_t p = 0; p < tiles.Pixels(); ++p)
@@ -198,7 +199,8 @@ SubtractLineIllumination(LineIllumination &          lines,
       if (chosen[pixel] != 0 && left[i * tiles.Pixels() + p] > 0.0F)
       {
         sampled[pixel] = 1;
-        projected.ReplaceSquares(pixel, residuals.SquaresOf(i)[p], residuals.GetDof());
+        replaced.pixels.push_back(pixel);
+        replaced.squares.push_back(residuals.SquaresOf(i)[p]);
       }
     }
   }
@@ -212,6 +214,7 @@ SubtractLineIllumination(LineIllumination &          lines,
   chosen = std::move(sampled);
   lines.isTakenOff = true;
   lines.pixels = static_cast<std::size_t>(std::count(chosen.begin(), chosen.end(), std::uint8_t{ 1 }));
+  return replaced;
 }
 
 namespace

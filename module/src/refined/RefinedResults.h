@@ -8,7 +8,7 @@
 #include "correlation/NoiseResiduals.h"
 #include "moments/ExposureFit.h"
 #include "pixels/IlluminationResponses.h"
-#include "pixels/ProjectedVariance.h"
+#include "pixels/ProjectedSquares.h"
 #include "pixels/ProjectionSums.h"
 #include "pixels/StaticVariance.h"
 #include "refined/FramePhotonTransfer.h"
@@ -89,13 +89,13 @@ EffectOfLineIllumination(const MeasuredNumber & square, double signalDn, double 
 SensorNoise_EXPORT double
 RestOfIllumination(const NoiseResiduals & residuals, const ParallelFor & parallelFor);
 
-/** Subtracts the noise and illumination of whole \a lines from \a residuals, whose pixels are \a chosen, and replaces
- * the variance in \a projected by the remaining one. Pixels outside of the sample are removed from \a chosen and
- * marked in \a pixelUse. */
-SensorNoise_EXPORT void
+/** Subtracts the noise and illumination of whole \a lines from \a residuals, whose pixels are \a chosen, and returns
+ * the remaining squares. \a width is the width of the frame. Pixels outside of the sample are removed from \a chosen
+ * and marked in \a pixelUse. */
+SensorNoise_EXPORT ReplacedSquares
 SubtractLineIllumination(LineIllumination &          lines,
                          NoiseResiduals &            residuals,
-                         ProjectedVariance &         projected,
+                         std::size_t                 width,
                          std::vector<std::uint8_t> & chosen,
                          std::vector<std::uint8_t> & pixelUse,
                          const ParallelFor &         parallelFor);

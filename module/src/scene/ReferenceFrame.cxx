@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/ReferenceFrame.h"
 
+#include "base/BoxSum.h"
 #include "base/ParallelWork.h"
 
 #include <algorithm>
@@ -13,38 +14,80 @@ namespace sensornoise
 
 namespace
 {
-/** Returns the mean of the finite neighbours of a pixel [DN]; 0 if there is none. */
-double
-MeanOfNeighbours(const std::vector<double> & mean, const FrameGeometry & geometry, std::size_t x, std::size_t y)
+/** A row and the rows above and below it, with NaN at the pixels without a mean [DN]. */
+struct KnownRows
 {
-  double sum = 0.0;
-  int    count = 0;
-  for (std::size_t row = y - std::min<std::size_t>(y, 1); row <= std::min(y + 1, geometry.height - 1); ++row)
+  std::vector<double> above;
+  std::vector<double> here;
+  std::vector<double> below;
+
+  /** Reads the rows about row \a y. A row outside of the frame is left as it is. */
+  void
+  Read(const ReferenceFrame & frame, std::size_t y)
   {
+    const std::size_t width = frame.geometry.width;
+    const auto        read = [&](std::size_t row, std::vector<double> & known) {
+      const double * const mean = frame.mean.data() + row * width;
+      const double * const variance = frame.variance.data() + row * width;
+      known.resize(width);
+      for (std::size_t x = 0; x < width; ++x)
+      {
+        known[x] = std::isnan(variance[x]) ? variance[x] : mean[x];
+      }
+    };
+    if (y > 0)
+    {
+      read(y - 1, above);
+    }
+    read(y, here);
+    if (y + 1 < frame.geometry.height)
+    {
+      read(y + 1, below);
+    }
+  }
+};
+
+/** Returns the mean of the known neighbours of pixel \a x of row \a y, the middle one of \a rows [DN]; 0 if there is
+ * none. */
+double
+MeanOfNeighbours(const KnownRows & rows, const FrameGeometry & geometry, std::size_t x, std::size_t y)
+{
+  double     sum = 0.0;
+  int        count = 0;
+  const auto add = [&](const std::vector<double> & row, bool hasPixelItself) {
     for (std::size_t column = x - std::min<std::size_t>(x, 1); column <= std::min(x + 1, geometry.width - 1); ++column)
     {
-      const double level = mean[row * geometry.width + column];
-      if (std::isfinite(level) && (row != y || column != x))
+      if (std::isfinite(row[column]) && (column != x || !hasPixelItself))
       {
-        sum += level;
+        sum += row[column];
         ++count;
       }
     }
+  };
+  if (y > 0)
+  {
+    add(rows.above, false);
+  }
+  add(rows.here, true);
+  if (y + 1 < geometry.height)
+  {
+    add(rows.below, false);
   }
   return count > 0 ? sum / count : 0.0;
 }
 
-/** Computes the means of the neighbours in row \a y. Most pixels have 8 finite neighbours: their sum is computed
- * without a test of each one. If it is not finite, the mean is computed again from the finite ones. */
+/** Computes the means of the neighbours in row \a y, the middle one of \a rows. Most pixels have 8 known neighbours:
+ * their sum is computed without a test of each one. If it is not finite, the mean is computed again from the known
+ * ones. */
 void
-FillNeighbourMeans(const std::vector<double> & mean, const FrameGeometry & geometry, std::size_t y, double * means)
+ComputeNeighbourMeans(const KnownRows & rows, const FrameGeometry & geometry, std::size_t y, double * means)
 {
   const std::size_t width = geometry.width;
   if (y > 0 && y + 1 < geometry.height)
   {
-    const double * const here = mean.data() + y * width;
-    const double * const above = here - width;
-    const double * const below = here + width;
+    const double * const here = rows.here.data();
+    const double * const above = rows.above.data();
+    const double * const below = rows.below.data();
     for (std::size_t x = 1; x + 1 < width; ++x)
     {
       means[x] =
@@ -56,7 +99,7 @@ FillNeighbourMeans(const std::vector<double> & mean, const FrameGeometry & geome
   {
     if (x == 0 || x + 1 == width || y == 0 || y + 1 == geometry.height || !std::isfinite(means[x]))
     {
-      means[x] = MeanOfNeighbours(mean, geometry, x, y);
+      means[x] = MeanOfNeighbours(rows, geometry, x, y);
     }
   }
 }
@@ -104,42 +147,41 @@ MakeReferenceFrame(std::vector<double>               mean,
       CallWithAvx2([&] { FillUsable(frame.variance, valid, width, y, frame.usable.data() + y * width); });
     }
   });
-  FillNeighbourMean(frame, parallelFor);
+  frame.neighbourMean = ComputeNeighbourMean(frame, parallelFor);
+  ForBlocks(frame.mean.size(), parallelFor, [&frame](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      const bool isKnown = std::isfinite(frame.mean[p]) && !std::isnan(frame.variance[p]);
+      frame.mean[p] = isKnown ? frame.mean[p] : frame.neighbourMean[p];
+    }
+  });
   return frame;
 }
 
-void
-RestoreUnknownMeans(ReferenceFrame & frame, const ParallelFor & parallelFor)
+std::vector<double>
+ComputeNeighbourMean(const ReferenceFrame & frame, const ParallelFor & parallelFor)
 {
-  ForBlocks(frame.mean.size(), parallelFor, [&frame](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
+  auto neighbourMean = MakeMap<double>(frame.mean.size(), parallelFor);
+  ForBoxBands(frame.geometry.height, parallelFor, [&](std::size_t first, std::size_t last) {
+    KnownRows rows;
+    for (std::size_t y = first; y < last; ++y)
     {
-      frame.mean[p] = std::isnan(frame.variance[p]) ? frame.variance[p] : frame.mean[p];
+      double * const means = neighbourMean.data() + y * frame.geometry.width;
+      rows.Read(frame, y);
+      ComputeNeighbourMeans(rows, frame.geometry, y, means);
     }
   });
+  return neighbourMean;
 }
 
-void
-FillNeighbourMean(ReferenceFrame & frame, const ParallelFor & parallelFor)
+std::vector<double>
+KnownMeans(const ReferenceFrame & frame, const ParallelFor & parallelFor)
 {
-  RestoreUnknownMeans(frame, parallelFor); // a value filled in for a pixel must not enter the mean of its neighbours
-  frame.neighbourMean = MakeMap<double>(frame.mean.size(), parallelFor);
-  parallelFor(frame.geometry.height, [&](std::size_t y) {
-    double * const means = frame.neighbourMean.data() + y * frame.geometry.width;
-    CallWithAvx2([&] { FillNeighbourMeans(frame.mean, frame.geometry, y, means); });
+  auto known = MakeMap<double>(frame.mean.size(), parallelFor);
+  ForPixels(known.size(), parallelFor, [&](std::size_t p) {
+    known[p] = std::isnan(frame.variance[p]) ? frame.variance[p] : frame.mean[p];
   });
-  ForBlocks(frame.mean.size(), parallelFor, [&frame](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
-    {
-      frame.mean[p] = std::isfinite(frame.mean[p]) ? frame.mean[p] : frame.neighbourMean[p];
-    }
-  });
-}
-
-void
-ReleaseNeighbourMean(ReferenceFrame & frame)
-{
-  std::exchange(frame.neighbourMean, {});
+  return known;
 }
 
 } // namespace sensornoise

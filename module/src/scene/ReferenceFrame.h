@@ -42,15 +42,14 @@ MakeReferenceFrame(std::vector<double>               mean,
                    std::size_t                       frames,
                    const ParallelFor &               parallelFor = SerialFor);
 
-/** Releases the memory of the means of the neighbours, which FillNeighbourMean() computes again. */
-SensorNoise_EXPORT void
-ReleaseNeighbourMean(ReferenceFrame & frame);
-SensorNoise_EXPORT void
-FillNeighbourMean(ReferenceFrame & frame, const ParallelFor & parallelFor = SerialFor);
+/** Returns ReferenceFrame::neighbourMean, computed from the other maps of \a frame. A pixel without a mean is no
+ * neighbour. */
+SensorNoise_EXPORT std::vector<double>
+ComputeNeighbourMean(const ReferenceFrame & frame, const ParallelFor & parallelFor = SerialFor);
 
-/** Sets the unknown means to NaN again, as in a map for display. */
-SensorNoise_EXPORT void
-RestoreUnknownMeans(ReferenceFrame & frame, const ParallelFor & parallelFor = SerialFor);
+/** Returns the means of \a frame [DN], with NaN where there is none, as in a map for display. */
+SensorNoise_EXPORT std::vector<double>
+KnownMeans(const ReferenceFrame & frame, const ParallelFor & parallelFor = SerialFor);
 
 /** Calls function(begin, end) for blocks of the pixels of all rows except those next to the border, in any order and
  * possibly at the same time. Within these blocks a stencil reads nothing outside of the map, not even at the ends of

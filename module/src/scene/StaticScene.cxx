@@ -257,24 +257,24 @@ ExcludeTransientRegion(StaticScene & scene)
 }
 } // namespace
 
-StaticScene
-MakeStaticScene(const StackSummary &              summary,
-                std::vector<double>               mean,
-                std::vector<double>               variance,
-                std::vector<std::uint8_t>         valid,
+SceneAndOutliers
+MakeStaticScene(StackMaps                         maps,
                 const std::vector<std::uint8_t> & userMask,
                 const FrameGeometry &             geometry,
                 std::size_t                       frames,
                 const std::vector<double> &       frameMeans,
-                const ParallelFor &               parallelFor,
-                const std::optional<double> &     darkestNoiseDn2)
+                std::optional<StrongChange>       strongChange,
+                const ParallelFor &               parallelFor)
 {
-  StaticScene scene;
-  scene.summary = summary;
-  scene.changesStrongly = darkestNoiseDn2.has_value();
-  scene.border = FindMaskedBorder(mean, valid, geometry);
+  std::vector<std::uint8_t> & valid = maps.valid;
+  SceneAndOutliers            made;
+  StaticScene &               scene = made.scene;
+  scene.summary = maps.summary;
+  scene.changesStrongly = strongChange.has_value();
+  scene.border = FindMaskedBorder(maps.mean, valid, geometry);
   LeaveOutBorder(valid, scene.border, geometry);
-  scene.frame = MakeReferenceFrame(std::move(mean), std::move(variance), valid, geometry, frames, parallelFor);
+  scene.frame =
+    MakeReferenceFrame(std::move(maps.mean), std::move(maps.variance), valid, geometry, frames, parallelFor);
   scene.pixelUse = FindPixelUse(scene.frame, valid, userMask, parallelFor);
   MarkBorder(scene);
   // After the reference frame: a masked pixel may serve as a neighbour.
@@ -294,21 +294,31 @@ MakeStaticScene(const StackSummary &              summary,
     }
     // Under strong changes of the illumination the range of a pixel is known only roughly: in a flat field all pixels
     // or none are in the guard band.
-    const CodeRange codes = scene.changesStrongly ? summary.AttainedCodes() : summary.codes;
-    UsablePixels    found = ExcludeCoarseAndGuarded(
+    const CodeRange       codes = scene.changesStrongly ? scene.summary.AttainedCodes() : scene.summary.codes;
+    std::optional<double> darkestNoiseDn2;
+    if (strongChange)
+    {
+      darkestNoiseDn2 = strongChange->darkestNoiseDn2;
+    }
+    UsablePixels found = ExcludeCoarseAndGuarded(
       scene.frame, scene.model, codes, frameMeans, std::move(scene.pixelUse), parallelFor, darkestNoiseDn2);
     scene.frame.usable = std::move(found.usable);
     scene.pixelUse = std::move(found.pixelUse);
     scene.usable = found.count;
     scene.nearClip = found.nearClip;
     scene.coarse = found.coarse;
-    RequireFineQuantization(found, summary.codes.quantisationStepDn);
+    RequireFineQuantization(found, scene.summary.codes.quantisationStepDn);
+    made.outliers = FindOutlierPixels(scene.frame, scene.model, parallelFor);
   }
   catch (const NothingToMeasure & failureReason)
   {
     scene.failureReason = failureReason;
   }
-  return scene;
+  if (strongChange)
+  {
+    scene.frame.variance = std::move(strongChange->rawVariance);
+  }
+  return made;
 }
 
 } // namespace sensornoise

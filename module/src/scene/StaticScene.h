@@ -78,24 +78,35 @@ struct StaticScene
   std::optional<NothingToMeasure> failureReason;
 };
 
+/** What the scene needs beside the maps if the illumination changes strongly (LevelProjection). */
+struct StrongChange
+{
+  double              darkestNoiseDn2{ 0.0 }; ///< upper bound of the noise variance in the darkest frame [DN^2]
+  std::vector<double> rawVariance;            ///< variance with the changes of the illumination [DN^2]
+};
+
+/** A scene, and the pixels that only the sums of the second pass leave out. */
+struct SceneAndOutliers
+{
+  StaticScene               scene;
+  std::vector<std::uint8_t> outliers; ///< see FindOutlierPixels(); empty if the scene cannot be measured
+};
+
 /** Makes the scene from the maps of a stack.
- * \param mean, variance, valid maps of MakeStackMaps()
  * \param userMask if not empty, nonzero at the pixels to be used
  * \param frames number of distinct frames
  * \param frameMeans means of the frames [DN]
- * \param darkestNoiseDn2 if given, the illumination changes strongly and \a variance is without these changes
- * (LevelProjection); it is an upper bound of the noise variance in the darkest frame [DN^2] */
-SensorNoise_EXPORT StaticScene
-MakeStaticScene(const StackSummary &              summary,
-                std::vector<double>               mean,
-                std::vector<double>               variance,
-                std::vector<std::uint8_t>         valid,
+ * \param strongChange if given, the illumination changes strongly, and the variance in \a maps is without these
+ * changes. The model, the usable pixels and the outliers are found with it. The frame of the scene has the raw
+ * variance */
+SensorNoise_EXPORT SceneAndOutliers
+MakeStaticScene(StackMaps                         maps,
                 const std::vector<std::uint8_t> & userMask,
                 const FrameGeometry &             geometry,
                 std::size_t                       frames,
                 const std::vector<double> &       frameMeans,
-                const ParallelFor &               parallelFor = SerialFor,
-                const std::optional<double> &     darkestNoiseDn2 = std::nullopt);
+                std::optional<StrongChange>       strongChange,
+                const ParallelFor &               parallelFor = SerialFor);
 
 } // namespace sensornoise
 

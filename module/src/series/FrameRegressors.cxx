@@ -266,14 +266,15 @@ FrameRegressors::ClassifyPixels(const std::vector<std::uint8_t> & take, const Pa
 }
 
 FrameRegressors
-MakeSceneRegressors(const StaticScene & scene, const ParallelFor & parallelFor)
+MakeSceneRegressors(const StaticScene &               scene,
+                    const std::vector<std::uint8_t> & outliers,
+                    const ParallelFor &               parallelFor)
 {
-  const std::vector<std::uint8_t> unexplained = FindOutlierPixels(scene.frame, scene.model, parallelFor);
-  const std::size_t               pixels = unexplained.size();
-  std::vector<std::uint8_t>       take(pixels);
-  std::vector<std::uint8_t>       whole(pixels); // missing single pixels would roughen the instruments
+  const std::size_t         pixels = outliers.size();
+  std::vector<std::uint8_t> take(pixels);
+  std::vector<std::uint8_t> whole(pixels); // missing single pixels would roughen the instruments
   ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
-    const std::uint8_t * const why = unexplained.data();
+    const std::uint8_t * const why = outliers.data();
     const std::uint8_t * const usable = scene.frame.usable.data() + begin;
     std::transform(why + begin, why + end, usable, take.data() + begin, [](std::uint8_t own, std::uint8_t use) {
       return own == 0 ? use : std::uint8_t{ 0 };

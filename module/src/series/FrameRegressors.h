@@ -132,10 +132,12 @@ private:
   ShiftInstruments                    m_Instruments;
 };
 
-/** Makes the regressors of the second pass, over all usable pixels except outlier pixels, see FindOutlierPixels(). They
+/** Makes the regressors of the second pass, over all usable pixels except \a outliers, see FindOutlierPixels(). They
  * hold the address of the frame of \a scene, which must outlive them without being moved. */
 SensorNoise_EXPORT FrameRegressors
-MakeSceneRegressors(const StaticScene & scene, const ParallelFor & parallelFor);
+MakeSceneRegressors(const StaticScene &               scene,
+                    const std::vector<std::uint8_t> & outliers,
+                    const ParallelFor &               parallelFor);
 
 } // namespace sensornoise
 
