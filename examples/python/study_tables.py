@@ -10,9 +10,11 @@
     build/bin/measure-cases 'check/*' --seeds 8 >check.jsonl
     build/bin/measure-cases 'efficiency/*/target' --method published --seeds 20 >table2.jsonl
     python examples/python/study_tables.py --paper table2.jsonl
+    build/bin/measure-cases 'single/*' --seeds 20 >single.jsonl
 
-Each study has its own table. Its columns are explained in study_efficiency.py, study_robustness.py, study_sensors.py
-and study_check.py. --paper prints the efficiency study next to Tables 2 and 3 of Sur & Grédiac 2015 (study_paper.py).
+Each study has its own table. Its columns are explained in study_efficiency.py, study_robustness.py, study_sensors.py,
+study_check.py and study_single.py. --paper prints the efficiency study next to Tables 2 and 3 of Sur & Grédiac 2015
+(study_paper.py).
 """
 
 import argparse
@@ -23,6 +25,7 @@ import study_efficiency
 import study_paper
 import study_robustness
 import study_sensors
+import study_single
 from study_records import case_of, read_records
 
 STUDIES = {
@@ -30,6 +33,7 @@ STUDIES = {
     "robustness": study_robustness,
     "sensors": study_sensors,
     "check": study_check,
+    "single": study_single,
 }
 
 

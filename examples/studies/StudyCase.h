@@ -66,6 +66,10 @@ AppendSensorCases(std::vector<StudyCase> & cases);
 void
 AppendCheckCases(std::vector<StudyCase> & cases);
 
+/** Appends the single images: scenes without and with texture, clipped frames, and composites of bursts. */
+void
+AppendSingleImageCases(std::vector<StudyCase> & cases);
+
 /** Returns all cases, in the order in which they are listed. */
 std::vector<StudyCase>
 GetStudyCases();

@@ -13,6 +13,7 @@ GetStudyCases()
   AppendRobustnessCases(cases);
   AppendSensorCases(cases);
   AppendCheckCases(cases);
+  AppendSingleImageCases(cases);
   return cases;
 }
 

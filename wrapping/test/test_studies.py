@@ -90,6 +90,32 @@ def test_a_demand_is_missed_by_too_few_stacks(capsys):
     assert f"{tail:.2g} (8/10" in worst and worst.endswith("below 0.001: 0 of 2 settings")
 
 
+def test_a_single_image_is_silent_if_its_gain_is_far_off_without_a_warning(capsys):
+    from study_single import print_table
+
+    def image(value, codes=()):
+        others = {"case": "single/B/bars", "truth": {"gain": 1.0, "intercept": -36.0}}
+        one = record(quantity(value, 0.1, [value - 0.2, value + 0.2]), **others)
+        one["report"]["warnings"] = [{"code": code} for code in codes]
+        return one
+
+    print_table([image(1.3), image(1.3, ["texture-dominates"]), image(0.8, ["other"]), image(0.95)])
+    _, row = capsys.readouterr().out.splitlines()
+    name, scene, number, bias, rms, worst, z, held, _, warned, silent = row.split()
+    assert (name, scene, number, bias, worst) == ("B", "bars", "4/4", "+8.75", "30.00")
+    assert rms == f"{100 * math.sqrt((0.09 + 0.09 + 0.04 + 0.0025) / 4):.2f}" and z == f"{float(rms) / 10:.2f}"
+    assert (held, warned, silent) == ("2/4", "1", "2")
+
+
+def test_a_composite_is_compared_with_the_program_of_the_paper():
+    from study_single import verdict_on
+
+    paper = (1.01, 0.005)
+    assert [verdict_on(mean, 1.0, paper) for mean in (1.009, 0.991, 1.014, 1.016, 0.985)] == [
+        *("closer", "closer", "within", "neither", "neither")
+    ]
+
+
 def test_the_paper_has_a_figure_for_each_quantity():
     from study_paper import QUANTITIES, TABLES
 
@@ -119,6 +145,7 @@ def test_tables_are_made_of_what_the_program_prints(tmp_path, capsys):
     import study_tables
 
     cases = ("efficiency/B3/target", "robustness/hot_pixels/target", "check/B3/target", "sensors/plain/B3, plain, 50*")
+    cases += ("single/B/target", "single/B3 composite/target")
     done = run(*cases, "--size", 96, "--frames", 30)
     (tmp_path / "cases.jsonl").write_text(done.stdout)
     assert study_tables.main([str(tmp_path / "cases.jsonl")]) == 0
@@ -128,6 +155,8 @@ def test_tables_are_made_of_what_the_program_prints(tmp_path, capsys):
         "hot_pixels           target",
         "0 of 1 missed",
         "plain, all settings together: 2 stacks",
+        "B          target        ",
+        "B3   target   gain              1 ",
     ):
         assert expected in text
     assert study_tables.main(["--paper", str(tmp_path / "cases.jsonl")]) == 0
