@@ -5,8 +5,8 @@
     measure_speed.py --bin build/bin [--parts passes,threads,files,frames,programs] [--opencv VENV/bin/python] ...
 
 Parts:
-    passes     TemporalStatistics, ITK's projections and whole estimates, in units of a pass that reads the stack sample
-               by sample. SensorNoiseBenchmark measures this part and the next three
+    passes     TemporalStatistics, ITK's projections, whole estimates, and a single image of 24 megapixels, in units of
+               a pass that reads the stack sample by sample. SensorNoiseBenchmark measures this part and the next three
     threads    two threads against one
     files      100 TIFFs against the same frames in memory
     frames     the cost as a fixed part (in frames) and a part per sample, from 50 to 400 frames; --large-frames: number
@@ -30,7 +30,7 @@ from speed_programs import measure_programs
 
 METHODS = ("Statistics", "Published", "Refined")
 FILTERS = {
-    "passes": "^(ReadPassAgain|TemporalStatistics|Projections|Estimate)/",
+    "passes": "^(ReadPassAgain|TemporalStatistics|Projections|Estimate|SingleImage)/",
     "threads": "^TwoThreads/",
     "files": "^FromFiles/",
 }
