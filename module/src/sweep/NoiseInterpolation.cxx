@@ -1,0 +1,328 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/NoiseInterpolation.h"
+
+#include "base/Text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <stdexcept>
+
+namespace sensornoise
+{
+namespace
+{
+/** A point of the line: ln(setting), and the number or its logarithm. */
+struct LinePoint
+{
+  double x{ 0.0 };
+  double y{ 0.0 };
+  double error{ 0.0 };
+};
+
+LinePoint
+PointOf(const SettingNumber & number, bool isLogarithmic)
+{
+  const NumberWithError & of = number.number;
+  return isLogarithmic ? LinePoint{ std::log(number.setting), std::log(of.value), of.standardError / of.value }
+                       : LinePoint{ std::log(number.setting), of.value, of.standardError };
+}
+
+double
+SecondDifference(const LinePoint & a, const LinePoint & b, const LinePoint & c)
+{
+  return ((c.y - b.y) / (c.x - b.x) - (b.y - a.y) / (b.x - a.x)) / (c.x - a.x);
+}
+
+/** Returns the place of the neighbour above a setting, which is between the first and the last of them. */
+std::size_t
+PlaceAbove(const std::vector<SettingNumber> & points, double setting)
+{
+  const auto above = std::find_if(
+    points.begin() + 1, points.end() - 1, [setting](const SettingNumber & each) { return each.setting >= setting; });
+  return static_cast<std::size_t>(above - points.begin());
+}
+} // namespace
+
+NumberWithError
+InterpolateNumber(const std::vector<SettingNumber> & points, double setting, bool isLogarithmic)
+{
+  if (points.size() < 2 || !(setting >= points.front().setting && setting <= points.back().setting))
+  {
+    throw std::invalid_argument("the setting is " + Text(setting) +
+                                "; expected a setting between two measured ones, where nothing is extrapolated");
+  }
+  std::vector<LinePoint> line;
+  for (const SettingNumber & each : points)
+  {
+    line.push_back(PointOf(each, isLogarithmic));
+  }
+  const std::size_t above = PlaceAbove(points, setting);
+  const LinePoint & low = line[above - 1];
+  const LinePoint & high = line[above];
+  const double      x = std::log(setting);
+  const double      weight = (x - low.x) / (high.x - low.x);
+  const double      y = (1.0 - weight) * low.y + weight * high.y;
+  double            bend = above > 1 ? std::abs(SecondDifference(line[above - 2], low, high)) : 0.0;
+  bend = above + 1 < line.size() ? std::max(bend, std::abs(SecondDifference(low, high, line[above + 1]))) : bend;
+  const double error =
+    std::hypot((1.0 - weight) * low.error, weight * high.error, std::abs((x - low.x) * (high.x - x)) * bend);
+  return isLogarithmic ? NumberWithError{ std::exp(y), std::exp(y) * error } : NumberWithError{ y, error };
+}
+
+namespace
+{
+/** A number of a channel at one setting; none: it is not identified there. */
+using NumberOfSetting = std::function<std::optional<NumberWithError>(const CameraNoise &)>;
+
+/** The measured settings on one side of the switch, and the setting between two of them. */
+class NoiseBetween
+{
+public:
+  NoiseBetween(const MeasuredRange & range, double setting)
+    : m_Setting(setting)
+  {
+    const auto isOnSide = [&](double each) {
+      return !range.switchBetween || (each <= range.switchBetween->first) == (setting <= range.switchBetween->first);
+    };
+    for (std::size_t i = 0; i < range.settings.size(); ++i)
+    {
+      if (isOnSide(range.settings[i]))
+      {
+        m_Settings.push_back(range.settings[i]);
+        m_Noise.push_back(&range.noise[i]);
+      }
+    }
+    m_Above =
+      static_cast<std::size_t>(std::upper_bound(m_Settings.begin(), m_Settings.end(), setting) - m_Settings.begin());
+  }
+
+  const CameraNoise &
+  Below() const
+  {
+    return *m_Noise[m_Above - 1];
+  }
+  const CameraNoise &
+  Above() const
+  {
+    return *m_Noise[m_Above];
+  }
+  double
+  SettingBelow() const
+  {
+    return m_Settings[m_Above - 1];
+  }
+  double
+  SettingAbove() const
+  {
+    return m_Settings[m_Above];
+  }
+
+  /** Interpolates a number that is known at both neighbours. Other settings give the bend where they have it. */
+  std::optional<NumberWithError>
+  Number(const NumberOfSetting & of, bool isLogarithmic) const
+  {
+    std::vector<SettingNumber> points;
+    for (std::size_t i = 0; i < m_Settings.size(); ++i)
+    {
+      const auto number = of(*m_Noise[i]);
+      const bool isKnown = number && (!isLogarithmic || number->value > 0.0);
+      if (isKnown)
+      {
+        points.push_back({ m_Settings[i], *number });
+      }
+      else if (i + 1 == m_Above || i == m_Above)
+      {
+        return std::nullopt;
+      }
+    }
+    return InterpolateNumber(points, m_Setting, isLogarithmic);
+  }
+
+private:
+  double                           m_Setting;
+  std::vector<double>              m_Settings;
+  std::vector<const CameraNoise *> m_Noise;
+  std::size_t                      m_Above{ 0 };
+};
+
+std::optional<NumberWithError>
+NumberOf(const ReportedNumber & reported)
+{
+  return reported.value ? std::optional<NumberWithError>({ *reported.value, reported.standardError.value_or(0.0) })
+                        : std::nullopt;
+}
+
+ReportedNumber
+Reported(const std::optional<NumberWithError> & number)
+{
+  ReportedNumber reported;
+  if (number)
+  {
+    reported.value = number->value;
+    reported.standardError = number->standardError;
+  }
+  reported.status = number ? "identified" : "not-identifiable";
+  return reported;
+}
+
+std::optional<double>
+Narrower(const std::optional<double> & a, const std::optional<double> & b, bool isLower)
+{
+  return a && b ? std::optional<double>(isLower ? std::max(*a, *b) : std::min(*a, *b)) : std::nullopt;
+}
+
+/** The level at which the variance is interpolated: the offset, else the black level. */
+std::optional<double>
+DarkLevelOf(const CameraNoise & noise, std::size_t channel)
+{
+  const auto & offset = noise.channels[channel].offset.value;
+  return offset ? offset : noise.blackLevelDn;
+}
+
+/** The total intercept: the interpolated variance at the dark level minus slope times level. */
+std::optional<NumberWithError>
+InterceptOf(const NoiseBetween & between, std::size_t channel, const ReportedNumber & slope)
+{
+  const auto level = between.Number(
+    [&](const CameraNoise & noise) {
+      const auto dark = DarkLevelOf(noise, channel);
+      return dark ? std::optional<NumberWithError>({ *dark, 0.0 }) : std::nullopt;
+    },
+    false);
+  const auto variance = between.Number(
+    [&](const CameraNoise & noise) -> std::optional<NumberWithError> {
+      const ChannelNoise & of = noise.channels[channel];
+      const auto           dark = DarkLevelOf(noise, channel);
+      if (!dark || !of.varianceSlope.value || !of.totalIntercept.value)
+      {
+        return std::nullopt;
+      }
+      return NumberWithError{ *of.varianceSlope.value * *dark + *of.totalIntercept.value, 0.0 };
+    },
+    true);
+  if (!level || !variance || !slope.value)
+  {
+    return std::nullopt;
+  }
+  return NumberWithError{ variance->value - *slope.value * level->value, 0.0 };
+}
+
+ChannelNoise
+InterpolateChannel(const NoiseBetween & between, std::size_t channel)
+{
+  const auto number = [&](ReportedNumber ChannelNoise::* member, bool isLogarithmic) {
+    return Reported(between.Number([&](const CameraNoise & noise) { return NumberOf(noise.channels[channel].*member); },
+                                   isLogarithmic));
+  };
+  const ChannelNoise & below = between.Below().channels[channel];
+  const ChannelNoise & above = between.Above().channels[channel];
+  ChannelNoise         made;
+  made.channel = below.channel;
+  made.varianceSlope = number(&ChannelNoise::varianceSlope, true);
+  made.gain = number(&ChannelNoise::gain, true);
+  made.offset = number(&ChannelNoise::offset, false);
+  made.readNoise = number(&ChannelNoise::readNoise, true);
+  made.totalIntercept = Reported(InterceptOf(between, channel, made.varianceSlope));
+  made.totalIntercept.standardError.reset();
+  const auto electrons = between.Number(
+    [&](const CameraNoise & noise) -> std::optional<NumberWithError> {
+      const ChannelNoise & of = noise.channels[channel];
+      if (!of.readNoise.value || !of.gain.value || !of.readNoiseElectronsError)
+      {
+        return std::nullopt;
+      }
+      return NumberWithError{ *of.readNoise.value / *of.gain.value, *of.readNoiseElectronsError };
+    },
+    true);
+  made.readNoiseElectronsError = electrons ? std::optional<double>(electrons->standardError) : std::nullopt;
+  made.lowestDn = Narrower(below.lowestDn, above.lowestDn, true);
+  made.highestDn = Narrower(below.highestDn, above.highestDn, false);
+  made.clipHighDn = Narrower(below.clipHighDn, above.clipHighDn, false);
+  return made;
+}
+
+std::string
+SettingWords(const MeasuredRange & range, double setting)
+{
+  return (range.isIso ? "ISO " : "the gain ") + Text(setting);
+}
+
+/** Throws ExportError unless the setting can be interpolated. */
+void
+RequireInside(const MeasuredRange & range, double setting)
+{
+  if (range.settings.empty() || !(setting >= range.settings.front() && setting <= range.settings.back()))
+  {
+    throw ExportError(SettingWords(range, setting) + " is outside of the measured settings" +
+                      (range.settings.empty()
+                         ? ", as none was measured"
+                         : ", " + Text(range.settings.front()) + " to " + Text(range.settings.back())) +
+                      "; nothing is extrapolated. Measure a burst at this setting.");
+  }
+  if (range.switchBetween && setting > range.switchBetween->first && setting < range.switchBetween->second)
+  {
+    throw ExportError(SettingWords(range, setting) + " is between " + Text(range.switchBetween->first) + " and " +
+                      Text(range.switchBetween->second) +
+                      ", where the camera switches its conversion gain; expected a setting on either side. Measure a "
+                      "burst at this setting.");
+  }
+}
+} // namespace
+
+InterpolatedNoise
+InterpolateNoise(const MeasuredRange & range, double setting)
+{
+  constexpr double sameSetting = 1e-6; // relative: a setting that was typed with six digits
+  for (std::size_t i = 0; i < range.settings.size(); ++i)
+  {
+    if (std::abs(range.settings[i] / setting - 1.0) < sameSetting)
+    {
+      return { range.noise[i], setting, setting };
+    }
+  }
+  RequireInside(range, setting);
+  const NoiseBetween between(range, setting);
+  InterpolatedNoise  made{ between.Below(), between.SettingBelow(), between.SettingAbove() };
+  const auto         level = [&](std::optional<double> CameraNoise::* member) {
+    const auto number = between.Number(
+      [member](const CameraNoise & noise) {
+        return noise.*member ? std::optional<NumberWithError>({ *(noise.*member), 0.0 }) : std::nullopt;
+      },
+      false);
+    return number ? std::optional<double>(number->value) : std::nullopt;
+  };
+  made.noise.name += " at " + SettingWords(range, setting);
+  made.noise.blackLevelDn = level(&CameraNoise::blackLevelDn);
+  made.noise.whiteLevelDn = level(&CameraNoise::whiteLevelDn);
+  made.noise.isoSpeed = range.isIso ? std::optional<double>(setting) : std::nullopt;
+  for (std::size_t channel = 0; channel < made.noise.channels.size(); ++channel)
+  {
+    made.noise.channels[channel] = InterpolateChannel(between, channel);
+  }
+  return made;
+}
+
+std::string
+SentenceOf(const InterpolatedNoise & noise)
+{
+  if (noise.below == noise.above)
+  {
+    return "";
+  }
+  std::string gains;
+  for (const ChannelNoise & channel : noise.noise.channels)
+  {
+    if (channel.gain.value)
+    {
+      gains += (gains.empty() ? "" : ", ") + (channel.channel == "mono" ? "" : channel.channel + " ") +
+               Measured(*channel.gain.value, channel.gain.standardError.value_or(0.0));
+    }
+  }
+  return "The noise is interpolated between the measured settings " + Text(noise.below) + " and " + Text(noise.above) +
+         (gains.empty() ? "." : ": gain " + gains + " DN/e-.");
+}
+
+} // namespace sensornoise

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_sweep_NoiseInterpolation_h
+#define sensornoise_sweep_NoiseInterpolation_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/NoiseExport.h"
+#include "sweep/SettingNoise.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** A number at one setting of the camera. */
+struct SettingNumber
+{
+  double          setting{ 0.0 }; ///< above 0
+  NumberWithError number;
+};
+
+/** Returns the number at a \a setting between two neighbouring settings of \a points, which are in ascending order.
+ *
+ * The line is straight in ln(setting) and, with \a isLogarithmic, in ln(number): then all numbers are above 0. Its
+ * standard error has two parts, added in squares: the errors of both neighbours by their weights, and the largest error
+ * of a straight line through a curve, |(x - x0) (x - x1) f''/2|. Here f''/2 is the larger of the second divided
+ * differences with the point before and the point behind, and 0 if there is neither. Throws std::invalid_argument
+ * unless there are two points and the setting is between the first and the last one. */
+SensorNoise_EXPORT NumberWithError
+InterpolateNumber(const std::vector<SettingNumber> & points, double setting, bool isLogarithmic);
+
+/** The measured settings of a camera. */
+struct MeasuredRange
+{
+  std::vector<CameraNoise>                 noise;         ///< of one camera, with the same channels
+  std::vector<double>                      settings;      ///< of each of noise, in ascending order
+  std::optional<std::pair<double, double>> switchBetween; ///< settings between which the conversion gain is switched
+  bool                                     isIso{ true }; ///< the settings are ISO speeds
+};
+
+/** The noise at a setting that was not measured. */
+struct InterpolatedNoise
+{
+  CameraNoise noise;
+  double      below{ 0.0 }; ///< the measured settings around it; both equal the setting if it was measured
+  double      above{ 0.0 };
+};
+
+/** Returns the noise of the camera at a \a setting: the measured one, or the interpolation between the neighbours on
+ * the same side of the switch.
+ *
+ * Gain, slope of the variance, read noise and the variance at the dark offset are interpolated in logarithms, the
+ * offset and the levels linearly in ln(setting), each with InterpolateNumber(). The total intercept is the variance at
+ * the offset minus slope times offset. Where the offset is not identified, the black level takes its place. Levels at
+ * which pixels saturate, and the measured range of levels, are the narrower ones. A quantity that is not identified at
+ * one of the neighbours is missing. Throws ExportError if the setting is outside of the measured ones, or the switch is
+ * between its neighbours. */
+SensorNoise_EXPORT InterpolatedNoise
+InterpolateNoise(const MeasuredRange & range, double setting);
+
+/** Returns a sentence about an interpolated noise: its neighbours, and the gain with its error. "" if it was measured.
+ */
+SensorNoise_EXPORT std::string
+SentenceOf(const InterpolatedNoise & noise);
+
+} // namespace sensornoise
+
+#endif
