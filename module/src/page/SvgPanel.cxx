@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page/SvgPanel.h"
 
+#include "base/Text.h"
 #include "page/HtmlText.h"
 
 #include <algorithm>
@@ -73,6 +74,10 @@ AsSvgFile(std::string figure, const std::string & title)
 std::string
 PlotAxis::LabelOf(double tick) const
 {
+  if (isLogarithmic)
+  {
+    return Text(std::pow(10.0, tick));
+  }
   const double largest = std::max(std::abs(low), std::abs(high));
   std::string  text = Fixed(std::abs(tick), decimals);
   if (decimals > 5 || largest >= 1e7)
@@ -127,6 +132,36 @@ MakeAxis(double low, double high, int mostTicks)
   return axis;
 }
 
+PlotAxis
+MakeLogarithmicAxis(double low, double high)
+{
+  constexpr std::size_t fewTicks = 8; // whose labels do not touch
+  constexpr std::size_t mostTicks = 20;
+  PlotAxis              axis = MakeAxis(low, high, 1);
+  axis.isLogarithmic = true;
+  for (const std::vector<double> & factors :
+       { std::vector<double>{ 1.0, 2.0, 5.0 }, std::vector<double>{ 1.0, 3.0 }, std::vector<double>{ 1.0 } })
+  {
+    axis.ticks.clear();
+    for (double power = std::floor(axis.low); power <= axis.high && axis.ticks.size() < mostTicks; power += 1.0)
+    {
+      for (const double factor : factors)
+      {
+        const double tick = power + std::log10(factor);
+        if (tick >= axis.low && tick <= axis.high)
+        {
+          axis.ticks.push_back(tick);
+        }
+      }
+    }
+    if (axis.ticks.size() <= fewTicks)
+    {
+      break;
+    }
+  }
+  return axis;
+}
+
 void
 FiniteRange::Add(double value)
 {
@@ -151,6 +186,12 @@ PlotAxis
 FiniteRange::Axis(int mostTicks) const
 {
   return MakeAxis(m_Low, m_High, mostTicks);
+}
+
+PlotAxis
+FiniteRange::LogarithmicAxis() const
+{
+  return MakeLogarithmicAxis(m_Low, m_High);
 }
 
 SvgPanel::SvgPanel(std::string &       svg,

@@ -16,6 +16,7 @@ struct PlotAxis
   double              high{ 1.0 };
   std::vector<double> ticks;
   int                 decimals{ 0 }; ///< decimal places of the labels of the ticks
+  bool isLogarithmic{ false };       ///< range and ticks are decimal logarithms of the numbers, which are the labels
 
   /** Returns the label of a tick. It has three significant digits if the axis has more than 5 decimals, or numbers from
    * 1e7 on. */
@@ -33,6 +34,12 @@ struct PlotAxis
 PlotAxis
 MakeAxis(double low, double high, int mostTicks);
 
+/** Returns the logarithmic axis over [\a low, \a high], which are decimal logarithms, with a margin of 4 % on each
+ * side. The ticks are 1, 2 and 5 times a power of ten; where these are more than 8, 1 and 3 times, then powers alone,
+ * and at most 20. Ends are treated as by MakeAxis(). */
+PlotAxis
+MakeLogarithmicAxis(double low, double high);
+
 /** Range of the finite numbers that were added. */
 class FiniteRange
 {
@@ -44,6 +51,9 @@ public:
   /** Returns the axis over the range, by MakeAxis(). Without numbers it is a narrow range about 0. */
   PlotAxis
   Axis(int mostTicks) const;
+  /** Returns the axis over the range by MakeLogarithmicAxis(). The numbers are decimal logarithms. */
+  PlotAxis
+  LogarithmicAxis() const;
 
 private:
   double m_Low{ 0.0 };

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "page/HtmlText.h"
+#include "page/PageSections.h"
+#include "page/SvgPanel.h"
+#include "sensornoise/Version.h"
+#include "sweep/SweepSummary.h"
+#include "sweep/SweepText.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+namespace
+{
+constexpr double figureHeight = 320.0; // [unit of the figure]
+constexpr double axisBelow = 46.0;     // height of the ticks and the name of the axis [unit of the figure]
+
+using NumberOfRow = std::optional<NumberWithError> SweepRow::*;
+
+/** Points with bars of 95 % intervals, as decimal logarithms. */
+struct LogPoints
+{
+  std::vector<double> x;
+  std::vector<double> y;
+  std::vector<double> barX; // ends of the bars, with a gap behind each
+  std::vector<double> barY;
+  FiniteRange         range;
+};
+
+LogPoints
+PointsOf(const SweepSummary & summary, NumberOfRow number)
+{
+  constexpr double gap = std::numeric_limits<double>::quiet_NaN();
+  LogPoints        points;
+  for (const SweepRow & row : summary.rows)
+  {
+    if (const auto & known = row.*number)
+    {
+      const double x = std::log10(row.setting);
+      const double half = 1.96 * known->standardError;
+      const double low = std::log10(std::max(known->value - half, 0.1 * known->value));
+      const double high = std::log10(known->value + half);
+      points.x.push_back(x);
+      points.y.push_back(std::log10(known->value));
+      points.barX.insert(points.barX.end(), { x, x, gap });
+      points.barY.insert(points.barY.end(), { low, high, gap });
+      points.range.Add({ low, high });
+    }
+  }
+  return points;
+}
+
+/** Draws the lines of the gains, on the mean over the channels. */
+void
+DrawGainLines(SvgPanel & panel, const SweepSummary & summary)
+{
+  for (const GainLine::Part & part : summary.line.parts)
+  {
+    const auto level = [&part](double setting) { return std::log10(part.scale.value * setting); };
+    panel.Line(
+      { std::log10(part.lowest), std::log10(part.highest) }, { level(part.lowest), level(part.highest) }, "after");
+  }
+}
+
+/** Draws a dashed vertical line in the middle of the switch. */
+void
+DrawSwitch(SvgPanel & panel, const SweepSummary & summary, const PlotAxis & y)
+{
+  if (summary.conversionSwitch)
+  {
+    const double x = 0.5 * std::log10(summary.conversionSwitch->below * summary.conversionSwitch->above);
+    panel.Line({ x, x }, { y.low, y.high }, "third dashed");
+  }
+}
+
+std::string
+SweepFigure(const SweepSummary & summary, NumberOfRow number, const std::string & name, bool hasLines)
+{
+  const LogPoints points = PointsOf(summary, number);
+  if (points.x.empty())
+  {
+    return "<p>No setting has a value.</p>\n";
+  }
+  FiniteRange settings;
+  settings.Add(points.x);
+  const PlotAxis x = settings.LogarithmicAxis();
+  const PlotAxis y = points.range.LogarithmicAxis();
+  const double   left = y.LabelWidth() + 12.0;
+  std::string    svg = OpenSvg(figureHeight, name + " of every setting with its 95 % interval");
+  {
+    SvgPanel panel(svg,
+                   { left, 26.0, FigureWidth - left - 12.0, figureHeight - 26.0 - axisBelow },
+                   x,
+                   y,
+                   summary.isIso ? "ISO speed" : "gain setting",
+                   Escaped(name));
+    DrawSwitch(panel, summary, y);
+    if (hasLines)
+    {
+      DrawGainLines(panel, summary);
+    }
+    panel.Line(points.barX, points.barY, "error");
+    panel.Points(points.x, points.y, "before", PlotMarker::Square);
+  }
+  return "<figure>" + svg + "</svg>\n<figcaption>Squares: one for each channel, with 95 % intervals" +
+         (hasLines ? "; line: gain = constant × setting" : "") +
+         (summary.conversionSwitch ? "; dashed: the switch of the conversion gain" : "") + ".</figcaption></figure>\n";
+}
+
+std::string
+RowOfCells(const SweepCellRow & cells, const char * tag)
+{
+  std::string row;
+  for (const std::string & cell : cells)
+  {
+    row += "<" + std::string(tag) + ">" + Escaped(cell) + "</" + tag + ">";
+  }
+  return "<tr>" + row + "</tr>\n";
+}
+
+std::string
+TableOf(const SweepSummary & summary)
+{
+  const SweepCells cells = SweepCellsOf(summary);
+  std::string      rows;
+  for (std::size_t i = 1; i < cells.size(); ++i)
+  {
+    rows += RowOfCells(cells[i], "td");
+  }
+  return "<div style=\"overflow-x:auto\"><table class=\"settings\"><thead>" + RowOfCells(cells.front(), "th") +
+         "</thead><tbody>\n" + rows + "</tbody></table></div>\n";
+}
+
+std::string
+UnmeasuredTable(const SweepSummary & summary)
+{
+  std::string rows;
+  for (const UnmeasuredSetting & each : summary.unmeasured)
+  {
+    rows += "<tr><th scope=\"row\" class=\"label\">" +
+            Escaped(each.setting ? SweepSettingText(summary, *each.setting) : each.name) + "</th><td>" +
+            Escaped(each.reason) + "</td></tr>\n";
+  }
+  return rows.empty() ? ""
+                      : Heading("h2", "Settings that were not measured") + "<table class=\"settings\"><tbody>\n" +
+                          rows + "</tbody></table>\n";
+}
+} // namespace
+
+std::string
+ToHtml(const SweepSummary & summary)
+{
+  std::string findings;
+  for (const std::string & finding : FindingsOf(summary))
+  {
+    findings += "<p>" + Escaped(finding) + "</p>\n";
+  }
+  return Page("Noise of an image sensor over its settings",
+              "<p>" + Escaped(SweepTitle(summary)) + ".</p>\n" + findings + Heading("h2", "Gain") +
+                SweepFigure(summary, &SweepRow::gain, "gain [DN/e⁻]", true) + Heading("h2", "Read noise") +
+                SweepFigure(summary, &SweepRow::readNoiseElectrons, "read noise [e⁻]", false) +
+                Heading("h2", "All settings") + TableOf(summary) + UnmeasuredTable(summary) +
+                "<p class=\"soft\">ITKSensorNoise " + Escaped(GetModuleVersion()) + "</p>\n",
+              "");
+}
+
+} // namespace sensornoise

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/SweepSummary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+namespace
+{
+std::optional<NumberWithError>
+Known(const ReportedNumber & number)
+{
+  const bool isKnown = number.value && number.standardError && std::isfinite(*number.value) &&
+                       std::isfinite(*number.standardError) && *number.standardError >= 0.0;
+  return isKnown ? std::optional<NumberWithError>({ *number.value, *number.standardError }) : std::nullopt;
+}
+
+std::optional<NumberWithError>
+KnownPositive(const ReportedNumber & number)
+{
+  const auto known = Known(number);
+  return known && known->value > 0.0 ? known : std::nullopt;
+}
+
+std::optional<NumberWithError>
+ElectronsOf(const ChannelNoise & channel)
+{
+  const auto gain = KnownPositive(channel.gain);
+  const auto sigma = KnownPositive(channel.readNoise);
+  if (!gain || !sigma || !channel.readNoiseElectronsError)
+  {
+    return std::nullopt;
+  }
+  return NumberWithError{ sigma->value / gain->value, *channel.readNoiseElectronsError };
+}
+
+SweepRow
+RowOf(double setting, const CameraNoise & noise, const ChannelNoise & channel)
+{
+  SweepRow row;
+  row.setting = setting;
+  row.channel = channel.channel;
+  row.gain = KnownPositive(channel.gain);
+  row.offsetDn = Known(channel.offset);
+  row.readNoiseDn = KnownPositive(channel.readNoise);
+  row.readNoiseElectrons = ElectronsOf(channel);
+  const std::optional<double> top = channel.clipHighDn ? channel.clipHighDn : noise.whiteLevelDn;
+  if (!top || !row.offsetDn || !(*top > row.offsetDn->value) || !row.gain)
+  {
+    return row;
+  }
+  const double signal = *top - row.offsetDn->value;
+  const double offsetError = row.offsetDn->standardError / signal;
+  const double well = signal / row.gain->value;
+  row.fullWellElectrons = { well, well * std::hypot(offsetError, row.gain->standardError / row.gain->value) };
+  if (row.readNoiseDn)
+  {
+    const double decibels = 20.0 / std::log(10.0);
+    row.dynamicRangeDb = { decibels * std::log(signal / row.readNoiseDn->value),
+                           decibels *
+                             std::hypot(offsetError, row.readNoiseDn->standardError / row.readNoiseDn->value) };
+  }
+  return row;
+}
+
+using NumberOfChannel = std::function<std::optional<NumberWithError>(const ChannelNoise &)>;
+
+/** The channels that have a number at each setting at which any channel has it. */
+std::set<std::string>
+CommonChannels(const MeasuredRange & range, const NumberOfChannel & of)
+{
+  std::set<std::string> common;
+  bool                  isFirst = true;
+  for (const CameraNoise & noise : range.noise)
+  {
+    std::set<std::string> known;
+    for (const ChannelNoise & channel : noise.channels)
+    {
+      if (of(channel))
+      {
+        known.insert(channel.channel);
+      }
+    }
+    if (known.empty())
+    {
+      continue;
+    }
+    std::set<std::string> both;
+    std::set_intersection(common.begin(), common.end(), known.begin(), known.end(), std::inserter(both, both.begin()));
+    common = isFirst ? known : both;
+    isFirst = false;
+  }
+  return common;
+}
+
+std::optional<NumberWithError>
+MeanOf(const CameraNoise & noise, const std::set<std::string> & channels, const NumberOfChannel & of)
+{
+  double sum = 0.0;
+  double squares = 0.0;
+  double count = 0.0;
+  for (const ChannelNoise & channel : noise.channels)
+  {
+    const auto number = of(channel);
+    if (number && channels.count(channel.channel) > 0)
+    {
+      sum += std::log(number->value);
+      squares += std::pow(number->standardError / number->value, 2.0);
+      count += 1.0;
+    }
+  }
+  if (count == 0.0)
+  {
+    return std::nullopt;
+  }
+  const double mean = std::exp(sum / count);
+  return NumberWithError{ mean, mean * std::sqrt(squares) / count };
+}
+} // namespace
+
+std::vector<SettingNoise>
+MeanOverChannels(const MeasuredRange & range)
+{
+  const auto gain = [](const ChannelNoise & channel) { return KnownPositive(channel.gain); };
+  const auto gainChannels = CommonChannels(range, gain);
+  const auto readNoiseChannels = CommonChannels(range, ElectronsOf);
+
+  std::vector<SettingNoise> settings;
+  for (std::size_t i = 0; i < range.noise.size(); ++i)
+  {
+    settings.push_back({ range.settings[i],
+                         MeanOf(range.noise[i], gainChannels, gain),
+                         MeanOf(range.noise[i], readNoiseChannels, ElectronsOf) });
+  }
+  return settings;
+}
+
+SweepSummary
+SummariseSweep(const MeasuredRange & range, const std::vector<UnmeasuredSetting> & unmeasured)
+{
+  SweepSummary summary;
+  summary.isIso = range.isIso;
+  summary.unmeasured = unmeasured;
+  for (std::size_t i = 0; i < range.noise.size(); ++i)
+  {
+    const CameraNoise & noise = range.noise[i];
+    summary.camera = summary.camera.empty() ? noise.camera : summary.camera;
+    for (const ChannelNoise & channel : noise.channels)
+    {
+      summary.rows.push_back(RowOf(range.settings[i], noise, channel));
+    }
+  }
+  summary.settings = MeanOverChannels(range);
+  summary.conversionSwitch = FindGainSwitch(summary.settings);
+  summary.line = FitGainLine(summary.settings, summary.conversionSwitch);
+  return summary;
+}
+
+} // namespace sensornoise

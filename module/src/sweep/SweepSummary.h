@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_sweep_SweepSummary_h
+#define sensornoise_sweep_SweepSummary_h
+
+#include "SensorNoiseExport.h"
+#include "sweep/GainLine.h"
+#include "sweep/NoiseInterpolation.h"
+#include "sweep/SettingNoise.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** Numbers of one channel of a camera at one setting; none where a number is not identified. */
+struct SweepRow
+{
+  double                         setting{ 0.0 };
+  std::string                    channel; ///< "mono", "R", "G1", "G2" or "B"
+  std::optional<NumberWithError> gain;    ///< g [DN/e-]
+  std::optional<NumberWithError> offsetDn;
+  std::optional<NumberWithError> readNoiseDn;
+  std::optional<NumberWithError> readNoiseElectrons;
+  /** Full well: the level at which pixels saturate, else the white level, minus the offset, over the gain [e-]. */
+  std::optional<NumberWithError> fullWellElectrons;
+  /** Dynamic range: 20 log10 of the full well over the read noise [dB]. */
+  std::optional<NumberWithError> dynamicRangeDb;
+};
+
+/** A setting whose burst could not be measured. */
+struct UnmeasuredSetting
+{
+  std::string           name;    ///< of the burst, for people
+  std::optional<double> setting; ///< none: not known
+  std::string           reason;  ///< a sentence
+};
+
+/** A camera over its range of settings. */
+struct SweepSummary
+{
+  std::string                    camera; ///< maker and model; "": not known
+  bool                           isIso{ true };
+  std::vector<SweepRow>          rows; ///< by setting, then by channel
+  std::vector<UnmeasuredSetting> unmeasured;
+  std::vector<SettingNoise>      settings; ///< means over the channels, see MeanOverChannels()
+  std::optional<GainSwitch>      conversionSwitch;
+  GainLine                       line;
+};
+
+/** Returns gain and read noise of each setting. Of a mosaic they are the geometric means over those channels that have
+ * the number at every setting; channels have different gains where the camera scales them, by the same factors at every
+ * setting. */
+SensorNoise_EXPORT std::vector<SettingNoise>
+MeanOverChannels(const MeasuredRange & range);
+
+/** Returns the numbers, the line and the switch of the measured settings. */
+SensorNoise_EXPORT SweepSummary
+SummariseSweep(const MeasuredRange & range, const std::vector<UnmeasuredSetting> & unmeasured = {});
+
+/** Returns the table of all settings as plain text in UTF-8, and the sentences of FindingsOf(). */
+SensorNoise_EXPORT std::string
+MakeText(const SweepSummary & summary);
+
+/** Returns sentences about the line of the gains, the settings that leave it, and the switch of the conversion gain. */
+SensorNoise_EXPORT std::vector<std::string>
+FindingsOf(const SweepSummary & summary);
+
+/** Returns the sweep as one HTML page, without network access and scripts: the findings, gain and read noise against
+ * the setting on logarithmic axes, and the table. */
+SensorNoise_EXPORT std::string
+ToHtml(const SweepSummary & summary);
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/SweepSummary.h"
+
+#include "helpers/PageTestHelper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+namespace
+{
+using test::Contains;
+
+ChannelNoise
+ChannelOf(const std::string & name, double gain, double electrons)
+{
+  const auto   reported = [](double value, double error) { return ReportedNumber{ value, error, "identified" }; };
+  ChannelNoise channel;
+  channel.channel = name;
+  channel.gain = reported(gain, 0.003 * gain);
+  channel.offset = reported(64.0, 0.5);
+  channel.readNoise = reported(electrons * gain, 0.01 * electrons * gain);
+  channel.readNoiseElectronsError = 0.01 * electrons;
+  channel.clipHighDn = 4064.0;
+  return channel;
+}
+
+/** A mosaic at 8 ISO speeds, whose red is scaled by 2, and whose conversion gain switches between 400 and 800. */
+MeasuredRange
+MosaicRange()
+{
+  MeasuredRange range;
+  for (const double iso : { 100.0, 200.0, 400.0, 800.0, 1600.0, 3200.0, 6400.0, 12800.0 })
+  {
+    const double electrons = std::hypot(iso >= 800.0 ? 1.0 : 3.0, 500.0 / iso);
+    CameraNoise  noise;
+    noise.camera = "Camera & Co";
+    noise.channels = { ChannelOf("R", 0.004 * iso, electrons), ChannelOf("G1", 0.002 * iso, electrons) };
+    range.settings.push_back(iso);
+    range.noise.push_back(noise);
+  }
+  return range;
+}
+} // namespace
+
+// Closed form: full well (4064 - 64) / 0.2 e-, dynamic range 20 log10(full well / read noise).
+TEST(SweepSummary, HasTheNumbersOfEachChannel)
+{
+  const SweepSummary summary = SummariseSweep(MosaicRange());
+  ASSERT_EQ(summary.rows.size(), 16U);
+  const SweepRow & row = summary.rows[1];
+  EXPECT_EQ(row.channel, "G1");
+  EXPECT_EQ(row.setting, 100.0);
+  EXPECT_DOUBLE_EQ(row.gain->value, 0.2);
+  EXPECT_DOUBLE_EQ(row.readNoiseElectrons->value, std::hypot(3.0, 5.0));
+  EXPECT_DOUBLE_EQ(row.fullWellElectrons->value, 20000.0);
+  EXPECT_NEAR(row.fullWellElectrons->standardError, 20000.0 * std::hypot(0.5 / 4000.0, 0.003), 1e-9);
+  EXPECT_NEAR(row.dynamicRangeDb->value, 20.0 * std::log10(20000.0 / std::hypot(3.0, 5.0)), 1e-9);
+  EXPECT_NEAR(row.dynamicRangeDb->standardError, 8.685889638 * std::hypot(0.5 / 4000.0, 0.01), 1e-9);
+}
+
+TEST(SweepSummary, TakesTheWhiteLevelWherePixelsDoNotSaturate)
+{
+  MeasuredRange range = MosaicRange();
+  range.noise[0].channels[1].clipHighDn.reset();
+  EXPECT_FALSE(SummariseSweep(range).rows[1].fullWellElectrons);
+  range.noise[0].whiteLevelDn = 1064.0;
+  EXPECT_DOUBLE_EQ(SummariseSweep(range).rows[1].fullWellElectrons->value, 5000.0);
+}
+
+// The geometric mean of 0.4 and 0.2 DN/e- at ISO 100; a channel that is missing at one setting is left out of all.
+TEST(SweepSummary, AveragesTheChannelsThatAllSettingsHave)
+{
+  MeasuredRange range = MosaicRange();
+  EXPECT_NEAR(MeanOverChannels(range)[0].gain->value, std::sqrt(0.08), 1e-12);
+  EXPECT_NEAR(MeanOverChannels(range)[0].gain->standardError, std::sqrt(0.08) * 0.003 / std::sqrt(2.0), 1e-12);
+  range.noise[7].channels[0].gain = { {}, {}, "failed" };
+  EXPECT_NEAR(MeanOverChannels(range)[0].gain->value, 0.2, 1e-12);
+  EXPECT_NEAR(SummariseSweep(range).line.parts.at(0).scale.value, 0.002, 1e-12);
+  range.noise[3].channels.clear(); // a setting without any channel is no reason to leave others out
+  EXPECT_FALSE(MeanOverChannels(range)[3].gain);
+  EXPECT_NEAR(MeanOverChannels(range)[0].gain->value, 0.2, 1e-12);
+}
+
+TEST(SweepSummary, SaysWhatItFound)
+{
+  MeasuredRange range = MosaicRange();
+  range.noise[0].channels[0].gain.value = 0.8; // ISO 100 is an extended one
+  range.noise[0].channels[1].gain.value = 0.4;
+  const SweepSummary summary = SummariseSweep(range, { { "iso25600", 25600.0, "the frames <differ>" } });
+  const std::string  text = MakeText(summary);
+  EXPECT_TRUE(Contains(text, "Camera & Co: 8 of 9 settings measured")) << text;
+  EXPECT_TRUE(Contains(text, "ISO 100 leaves the line: its gain is 100 % above it")) << text;
+  EXPECT_TRUE(Contains(text, "switched between ISO 400 and ISO 800: the read noise in electrons falls to 0.")) << text;
+  EXPECT_TRUE(Contains(text, "not measured: ISO 25600 (iso25600): the frames <differ>")) << text;
+  const std::string page = ToHtml(summary);
+  EXPECT_TRUE(Contains(page, "the frames &lt;differ&gt;"));
+  EXPECT_TRUE(Contains(page, "gain is 100 % above it"));
+  EXPECT_TRUE(Contains(page, "gain [DN/e⁻] of every setting") && Contains(page, "read noise [e⁻] of every setting"));
+  test::ExpectSound(page);
+}
+
+TEST(SweepSummary, SaysWhyThereIsNoLine)
+{
+  MeasuredRange range = MosaicRange();
+  for (CameraNoise & noise : range.noise)
+  {
+    noise.channels = { ChannelOf("mono", 0.5, 3.0) };
+  }
+  EXPECT_TRUE(Contains(MakeText(SummariseSweep(range)), "The gains do not follow the settings"));
+  EXPECT_TRUE(Contains(MakeText(SummariseSweep({})), "0 of 0 settings measured"));
+  EXPECT_TRUE(Contains(MakeText(SummariseSweep({})), "there are 0"));
+  EXPECT_TRUE(Contains(ToHtml(SummariseSweep({})), "No setting has a value"));
+}
+
+} // namespace sensornoise
