@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/ExposureList.h"
 
+#include "tools/TextColumns.h"
+
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
 #include <fstream>
 #include <optional>
 #include <stdexcept>
@@ -13,35 +14,6 @@ namespace sensornoise::tools
 {
 namespace
 {
-std::string
-Trim(const std::string & text)
-{
-  const char * const space = " \r\n";
-  const std::size_t  first = text.find_first_not_of(space);
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(space) + 1 - first);
-}
-
-std::vector<std::string>
-Split(const std::string & text, const char * separators)
-{
-  std::vector<std::string> parts;
-  std::size_t              begin = 0;
-  for (std::size_t end = 0; end != std::string::npos; begin = end + 1)
-  {
-    end = text.find_first_of(separators, begin);
-    parts.push_back(Trim(text.substr(begin, end == std::string::npos ? end : end - begin)));
-  }
-  return parts;
-}
-
-std::optional<double>
-NumberOf(const std::string & word)
-{
-  char *       end = nullptr;
-  const double number = std::strtod(word.c_str(), &end);
-  return word.empty() || *end != '\0' ? std::nullopt : std::optional<double>(number);
-}
-
 /** Reader of the columns of an exposure file, line by line. */
 class ExposureFile
 {
