@@ -65,6 +65,23 @@ AddInputOptions(CLI::App & app, EstimateOptions & options, EstimateTexts & texts
 }
 
 void
+AddSweepOption(CLI::App & app, EstimateOptions & options)
+{
+  app
+    .add_option(
+      "--sweep",
+      options.sweep,
+      "a camera at all its settings, in place of FRAME: a folder with a folder for each of them (iso100, "
+      "iso200, gain2.5, gain6dB), whose dark frames are in its folder dark; or stacks, or frames that record "
+      "their ISO speed; or a table, file.csv, with the columns iso, gain or gain_db, then frames and dark. "
+      "--json writes the passport, from which export-noise-model makes every format. A setting that is in it, "
+      "with the same files and options, is not measured again")
+    ->expected(1, std::numeric_limits<int>::max())
+    ->type_name("NAME")
+    ->group("Input");
+}
+
+void
 AddSensorOptions(CLI::App & app, EstimateOptions & options, EstimateTexts & texts)
 {
   app
@@ -221,6 +238,7 @@ void
 AddEstimateOptions(CLI::App & app, EstimateOptions & options, EstimateTexts & texts)
 {
   AddInputOptions(app, options, texts);
+  AddSweepOption(app, options);
   AddSensorOptions(app, options, texts);
   AddOutputOptions(app, options);
   AddCheckOptions(app, options);

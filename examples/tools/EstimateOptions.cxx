@@ -225,11 +225,67 @@ RefuseMissingFrames(const EstimateOptions & options)
                               files + ". Or end the list with --: " + tool + option + " " + files + " -- FRAMES");
 }
 
+/** Throws if an option is given that a sweep has no use for. */
+void
+RequireSweepOptions(const CLI::App & app, const EstimateOptions & options)
+{
+  for (const char * const name : { "--exposures", "--check", "--check-profile", "--compare", "--maps", "--dark" })
+  {
+    if (app.count(name) > 0)
+    {
+      throw CLI::ValidationError("--sweep",
+                                 std::string("it measures many bursts, and ") + name +
+                                   (std::string(name) == "--dark"
+                                      ? " gives the dark frames of one setting; put those of each setting into the "
+                                        "folder dark of its folder, or into the column dark of a table"
+                                      : " is for one of them; leave it out, or measure the burst by itself"));
+    }
+  }
+  if (!options.files.empty())
+  {
+    throw CLI::ValidationError("--sweep", "it takes the place of FRAME; leave out " + options.files.front());
+  }
+  if (options.method != "refined")
+  {
+    throw CLI::ValidationError("--sweep", "the method is " + options.method + "; expected --method refined");
+  }
+  if (!options.plot.empty() && options.Plot() != PlotKind::Page)
+  {
+    throw CLI::ValidationError("--sweep", options.plot + " (--plot) is no page; expected for example sweep.html");
+  }
+}
+
+/** Returns the options of a sweep that change numbers, as they were given. */
+std::string
+NumericOptions(const CLI::App & app)
+{
+  const std::set<std::string> others{ "--sweep", "--json",    "--plot",         "--quiet",
+                                      "--hash",  "--threads", "--memory-limit", "FRAME" };
+  std::string                 text;
+  for (const CLI::Option * const option : app.get_options())
+  {
+    if (option->count() > 0 && others.count(option->get_name()) == 0)
+    {
+      text += (text.empty() ? "" : " ") + option->get_name();
+      for (const std::string & value : option->results())
+      {
+        text += " " + value;
+      }
+    }
+  }
+  return text;
+}
+
 /** Throws if there are no frames to be measured. With --compare it throws if an option for measurements is given, or
- * fewer than two reports. */
+ * fewer than two reports. With --sweep it throws as RequireSweepOptions(). */
 void
 RequireWork(const CLI::App & app, const EstimateOptions & options)
 {
+  if (!options.sweep.empty())
+  {
+    RequireSweepOptions(app, options);
+    return;
+  }
   if (app.count("--compare") == 0)
   {
     if (options.files.empty())
@@ -290,7 +346,8 @@ EstimateOptions::Parse(int argc, char ** argv)
     "FRAME...: images in time order, one frame a file; or stacks (.mha .mhd .nrrd .tif .ser .mraw .fits .npy), "
     "which together are one burst; or a folder, or a pattern in quotation marks ('frame_*.tif'), whose files "
     "are read in the order of their numbers.\n\n"
-    "Exit code: 0 done, 2 wrong use or unreadable input, 3 nothing could be estimated.",
+    "Exit code: 0 done, 2 wrong use or unreadable input, 3 nothing could be estimated, 4 only some settings of --sweep "
+    "could be measured.",
     "estimate-sensor-noise");
   app.formatter(std::make_shared<HelpFormatter>(TerminalWidth()));
   EstimateTexts texts;
@@ -309,6 +366,7 @@ EstimateOptions::Parse(int argc, char ** argv)
   }
   RequireValues(app);
   RequireWork(app, *this);
+  optionsText = NumericOptions(app);
   hasCheck = app.count("--check") > 0;
   check.erase(std::remove(check.begin(), check.end(), ""), check.end()); // CLI11 stores "" for --check without a name
   for (std::vector<std::string> * const names : { &files, &dark, &check })

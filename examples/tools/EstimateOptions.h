@@ -65,6 +65,8 @@ struct EstimateOptions
   bool                                               hash{ false }; ///< the report has the hash even without a page
   std::vector<std::string>                           compare;       ///< stored reports to be compared; empty: none
   bool                                               quiet{ false };
+  std::vector<std::string> sweep;       ///< folders, files or a table of a camera's settings; empty: one burst
+  std::string              optionsText; ///< the options that change numbers, as they were given, for --sweep
 
   /** Reads the command line. Returns the exit code if nothing is left to do (--help, --version). Throws
    * std::exception on wrong use. */

@@ -52,14 +52,20 @@ RequireFitting(const ExportOptions & options)
 std::optional<int>
 ExportOptions::Parse(int argc, char ** argv)
 {
-  CLI::App app("Writes the noise model of a report of estimate-sensor-noise for a program that asks for one.\n"
-               "REPORT is the JSON file of --json. Some formats take several, one for each ISO setting.\n"
-               "Exit code: 0 done, 2 wrong use or unreadable input, 3 the report cannot serve.",
-               "export-noise-model");
+  CLI::App app(
+    "Writes the noise model of a report of estimate-sensor-noise for a program that asks for one.\n"
+    "REPORT is the JSON file of --json. Some formats take several, one for each ISO setting. The passport of "
+    "--sweep holds them all.\n"
+    "Exit code: 0 done, 2 wrong use or unreadable input, 3 the report cannot serve.",
+    "export-noise-model");
   app.formatter(std::make_shared<HelpFormatter>(TerminalWidth()));
   bool isList = false;
   app.add_option("REPORT", reports, "JSON file of the camera at this setting");
   app.add_option("--format", format, "name of the format");
+  app.add_option("--setting",
+                 setting,
+                 "ISO speed or gain of a passport, for a format of one setting; between measured settings the noise is "
+                 "interpolated");
   app.add_flag("--list", isList, "show the formats, with program, input, exactness and what is written");
   app.add_option("--output", output, "file, or folder for a format of several files; else standard output");
   app.add_option("--black", settings.blackLevelDn, "black level [DN]; else the level in the report");

@@ -17,9 +17,10 @@ struct ExportOptions
 {
   std::vector<std::string> reports;
   std::string              format;
-  std::string              output; ///< file, or folder for several files; empty: standard output
-  std::string              into;   ///< DNG file whose copy gets the tag NoiseProfile; empty: none
-  std::string              maps;   ///< folder of the maps that --maps wrote; empty: none
+  std::string              output;  ///< file, or folder for several files; empty: standard output
+  std::string              into;    ///< DNG file whose copy gets the tag NoiseProfile; empty: none
+  std::string              maps;    ///< folder of the maps that --maps wrote; empty: none
+  std::optional<double>    setting; ///< setting of a passport that is exported; none: all, or the only one
   ExportSettings           settings;
 
   /** Reads the command line. Returns the exit code if nothing is left to do (--help, --version, --list). Throws

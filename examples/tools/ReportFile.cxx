@@ -16,9 +16,10 @@ namespace sensornoise::tools
 namespace
 {
 using nlohmann::json;
+} // namespace
 
 json
-ReadJson(const std::string & file)
+ReadJsonFile(const std::string & file)
 {
   const std::string expected = "; expected the JSON file that estimate-sensor-noise --json wrote";
   std::error_code   ignored;
@@ -41,6 +42,8 @@ ReadJson(const std::string & file)
   return record;
 }
 
+namespace
+{
 void
 RequireSchema(const json & record, const std::string & file)
 {
@@ -57,7 +60,7 @@ RequireSchema(const json & record, const std::string & file)
 json
 ReadReportRecord(const std::string & file)
 {
-  json record = ReadJson(file);
+  json record = ReadJsonFile(file);
   RequireSchema(record, file);
   return record;
 }

@@ -18,6 +18,11 @@ public:
   using std::runtime_error::runtime_error;
 };
 
+/** Reads a JSON file that estimate-sensor-noise wrote. Throws std::runtime_error if \a file cannot be read or is not
+ * JSON. */
+nlohmann::json
+ReadJsonFile(const std::string & file);
+
 /** Reads the JSON record that estimate-sensor-noise --json wrote. Throws std::runtime_error if \a file cannot be
  * read or is not JSON, and UnfitReport if it has another schema. */
 nlohmann::json

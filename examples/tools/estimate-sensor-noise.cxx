@@ -18,6 +18,7 @@
 #include "tools/ProfileFile.h"
 #include "tools/StackEstimate.h"
 #include "tools/SvgAsPng.h"
+#include "tools/SweepRun.h"
 #include "tools/TerminalText.h"
 #include "tools/ItkThreads.h"
 #include "itkSensorNoiseFrameFiles.h"
@@ -40,6 +41,7 @@ using namespace sensornoise::tools;
 constexpr int ExitDone = 0;
 constexpr int ExitWrongUse = 2;
 constexpr int ExitNothingEstimated = 3;
+constexpr int ExitSomeSettings = 4;
 
 /** Writes the report. A file is completed first, so that it exists even if standard output fails. The table follows,
  * then JSON on standard output. */
@@ -211,6 +213,16 @@ RunComparison(const EstimateOptions & options)
   return isUsable ? ExitDone : ExitNothingEstimated;
 }
 
+int
+MeasureSweep(const EstimateOptions & options)
+{
+  SetItkThreads(options.threads);
+  const SweepOutcome outcome = RunSweep(options);
+  return outcome == SweepOutcome::All    ? ExitDone
+         : outcome == SweepOutcome::Some ? ExitSomeSettings
+                                         : ExitNothingEstimated;
+}
+
 bool
 HasAny(const ModelChecks & checks)
 {
@@ -279,7 +291,9 @@ main(int argc, char * argv[])
     {
       return *finished;
     }
-    return options.compare.empty() ? Run(options) : RunComparison(options);
+    return !options.sweep.empty()    ? MeasureSweep(options)
+           : options.compare.empty() ? Run(options)
+                                     : RunComparison(options);
   }
   catch (const std::exception & error)
   {

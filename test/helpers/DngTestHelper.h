@@ -113,6 +113,7 @@ struct DngOf
   Codes    codes{};           // of the whole image
   TiffTags tags{};            // what it says beyond that or otherwise; without values: not
   int      jpegFrame{ 0xC3 }; // the marker
+  unsigned iso{ 400 };
 
   /** A noisy ramp. */
   static DngOf
@@ -191,7 +192,7 @@ struct DngOf
     pixels += "colour"; // of two pixels
     const std::size_t exif = 8 + pixels.size();
     pixels += tiff.Directory(
-      { { 33434, { 5, { isBigEndian ? (1ULL << 32) + 50 : 1 + (50ULL << 32) } } }, { 34855, { 3, { 400 } } } }, exif);
+      { { 33434, { 5, { isBigEndian ? (1ULL << 32) + 50 : 1 + (50ULL << 32) } } }, { 34855, { 3, { iso } } } }, exif);
     pixels.append(pixels.size() % 2, '\0');
     const TiffTags about{ { 271, Text(std::string("Maker\0", 6)) },
                           { 272, Text(std::string("Model 1\0", 8)) },

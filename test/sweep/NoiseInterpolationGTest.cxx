@@ -149,6 +149,9 @@ TEST(NoiseInterpolation, RefusesOutsideAndAcrossTheSwitch)
   MeasuredRange range = RangeOf({ 100, 200, 800, 1600 });
   IsRefused(range, 50, "outside of the measured settings, 100 to 1600");
   IsRefused(range, 3200, "nothing is extrapolated");
+  range.noise[3].channels[0].channel = "G1";
+  IsRefused(range, 400, "the channels of passport.json and passport.json differ");
+  range.noise[3].channels[0].channel = "mono";
   range.switchBetween = { 200, 800 };
   IsRefused(range, 400, "between 200 and 800, where the camera switches its conversion gain");
   // the curve before the switch is nothing for the settings behind it

@@ -73,6 +73,29 @@ TEST(SweepSummary, TakesTheWhiteLevelWherePixelsDoNotSaturate)
   EXPECT_DOUBLE_EQ(SummariseSweep(range).rows[1].fullWellElectrons->value, 5000.0);
 }
 
+TEST(SweepSummary, FitsAndroidsModelToIsoSpeeds)
+{
+  MeasuredRange range = MosaicRange();
+  EXPECT_TRUE(Contains(SummariseSweep(range).androidReason, "no ISO speed"));
+  for (std::size_t i = 0; i < range.noise.size(); ++i)
+  {
+    CameraNoise & noise = range.noise[i];
+    noise.isoSpeed = range.settings[i];
+    noise.blackLevelDn = 64.0;
+    noise.whiteLevelDn = 4064.0;
+    for (ChannelNoise & channel : noise.channels)
+    {
+      channel.varianceSlope = channel.gain;
+      channel.totalIntercept.value = std::pow(*channel.readNoise.value, 2.0) - *channel.gain.value * 64.0;
+    }
+  }
+  EXPECT_EQ(SummariseSweep(range).android->files[0].bytes, ExportNoise("android", range.noise).files[0].bytes);
+  EXPECT_TRUE(Contains(MakeText(SummariseSweep(range)), "Android's noise model: The fitted variance differs"));
+  range.isIso = false;
+  EXPECT_FALSE(SummariseSweep(range).android);
+  EXPECT_EQ(SummariseSweep(range).androidReason, "");
+}
+
 // The geometric mean of 0.4 and 0.2 DN/e- at ISO 100; a channel that is missing at one setting is left out of all.
 TEST(SweepSummary, AveragesTheChannelsThatAllSettingsHave)
 {

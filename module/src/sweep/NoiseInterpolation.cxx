@@ -120,6 +120,25 @@ public:
     return m_Settings[m_Above];
   }
 
+  /** Throws ExportError if the channels of the settings on this side differ. */
+  void
+  RequireSameChannels() const
+  {
+    for (const CameraNoise * const noise : m_Noise)
+    {
+      const auto & first = m_Noise.front()->channels;
+      const bool   isSame = std::equal(
+        first.begin(), first.end(), noise->channels.begin(), noise->channels.end(), [](const auto & a, const auto & b) {
+          return a.channel == b.channel;
+        });
+      if (!isSame)
+      {
+        throw ExportError("the channels of " + m_Noise.front()->name + " and " + noise->name +
+                          " differ; expected the settings of one camera. Measure them with the same --bayer.");
+      }
+    }
+  }
+
   /** Interpolates a number that is known at both neighbours. Other settings give the bend where they have it. */
   std::optional<NumberWithError>
   Number(const NumberOfSetting & of, bool isLogarithmic) const
@@ -285,8 +304,9 @@ InterpolateNoise(const MeasuredRange & range, double setting)
   }
   RequireInside(range, setting);
   const NoiseBetween between(range, setting);
-  InterpolatedNoise  made{ between.Below(), between.SettingBelow(), between.SettingAbove() };
-  const auto         level = [&](std::optional<double> CameraNoise::* member) {
+  between.RequireSameChannels();
+  InterpolatedNoise made{ between.Below(), between.SettingBelow(), between.SettingAbove() };
+  const auto        level = [&](std::optional<double> CameraNoise::* member) {
     const auto number = between.Number(
       [member](const CameraNoise & noise) {
         return noise.*member ? std::optional<NumberWithError>({ *(noise.*member), 0.0 }) : std::nullopt;

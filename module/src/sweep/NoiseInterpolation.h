@@ -56,8 +56,8 @@ struct InterpolatedNoise
  * offset and the levels linearly in ln(setting), each with InterpolateNumber(). The total intercept is the variance at
  * the offset minus slope times offset. Where the offset is not identified, the black level takes its place. Levels at
  * which pixels saturate, and the measured range of levels, are the narrower ones. A quantity that is not identified at
- * one of the neighbours is missing. Throws ExportError if the setting is outside of the measured ones, or the switch is
- * between its neighbours. */
+ * one of the neighbours is missing. Throws ExportError if the setting is outside of the measured ones, the switch is
+ * between its neighbours, or the channels of the settings differ. */
 SensorNoise_EXPORT InterpolatedNoise
 InterpolateNoise(const MeasuredRange & range, double setting);
 

@@ -125,6 +125,19 @@ MeanOf(const CameraNoise & noise, const std::set<std::string> & channels, const 
   const double mean = std::exp(sum / count);
   return NumberWithError{ mean, mean * std::sqrt(squares) / count };
 }
+
+void
+FitAndroid(const MeasuredRange & range, SweepSummary & summary)
+{
+  try
+  {
+    summary.android = ExportNoise("android", range.noise);
+  }
+  catch (const ExportError & error)
+  {
+    summary.androidReason = error.what();
+  }
+}
 } // namespace
 
 std::vector<SettingNoise>
@@ -162,6 +175,10 @@ SummariseSweep(const MeasuredRange & range, const std::vector<UnmeasuredSetting>
   summary.settings = MeanOverChannels(range);
   summary.conversionSwitch = FindGainSwitch(summary.settings);
   summary.line = FitGainLine(summary.settings, summary.conversionSwitch);
+  if (range.isIso && range.noise.size() > 1)
+  {
+    FitAndroid(range, summary);
+  }
   return summary;
 }
 

@@ -48,6 +48,8 @@ struct SweepSummary
   std::vector<SettingNoise>      settings; ///< means over the channels, see MeanOverChannels()
   std::optional<GainSwitch>      conversionSwitch;
   GainLine                       line;
+  std::optional<NoiseExport>     android;       ///< ExportAndroid(); none: androidReason says why
+  std::string                    androidReason; ///< "" for gains, and for fewer than two ISO speeds
 };
 
 /** Returns gain and read noise of each setting. Of a mosaic they are the geometric means over those channels that have
@@ -56,7 +58,8 @@ struct SweepSummary
 SensorNoise_EXPORT std::vector<SettingNoise>
 MeanOverChannels(const MeasuredRange & range);
 
-/** Returns the numbers, the line and the switch of the measured settings. */
+/** Returns the numbers, the line and the switch of the measured settings, and of two ISO speeds or more the fit of
+ * Android's noise model. */
 SensorNoise_EXPORT SweepSummary
 SummariseSweep(const MeasuredRange & range, const std::vector<UnmeasuredSetting> & unmeasured = {});
 
@@ -64,7 +67,8 @@ SummariseSweep(const MeasuredRange & range, const std::vector<UnmeasuredSetting>
 SensorNoise_EXPORT std::string
 MakeText(const SweepSummary & summary);
 
-/** Returns sentences about the line of the gains, the settings that leave it, and the switch of the conversion gain. */
+/** Returns sentences about the line of the gains, the settings that leave it, the switch of the conversion gain, and
+ * Android's noise model. */
 SensorNoise_EXPORT std::vector<std::string>
 FindingsOf(const SweepSummary & summary);
 

@@ -153,6 +153,15 @@ FindingsOf(const SweepSummary & summary)
   {
     findings.push_back(SwitchSentence(summary));
   }
+  if (summary.android)
+  {
+    findings.push_back("Android's noise model: " + summary.android->note);
+  }
+  else if (!summary.androidReason.empty())
+  {
+    findings.push_back("Android's noise model is not fitted: " + summary.androidReason +
+                       " The tool export-noise-model fits it with these options.");
+  }
   for (std::string & finding : findings)
   {
     finding = WithSigns(finding);

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/SweepTable.h"
+
+#include "tools/LowerCase.h"
+#include "tools/TextColumns.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+
+namespace sensornoise::tools
+{
+namespace
+{
+/** The places of the columns of a table. */
+struct SweepTableColumns
+{
+  std::size_t                setting{ 0 };
+  bool                       isIso{ false };
+  bool                       isDecibels{ false };
+  std::size_t                frames{ 0 };
+  std::optional<std::size_t> dark;
+};
+
+std::optional<std::size_t>
+PlaceOf(const std::vector<std::string> & header, const std::string & name)
+{
+  const auto found =
+    std::find_if(header.begin(), header.end(), [&name](const std::string & each) { return LowerCase(each) == name; });
+  return found == header.end() ? std::nullopt
+                               : std::optional<std::size_t>(static_cast<std::size_t>(found - header.begin()));
+}
+
+SweepTableColumns
+ColumnsOf(const std::vector<std::string> & header, const std::string & where)
+{
+  SweepTableColumns          columns;
+  std::optional<std::size_t> setting;
+  for (const char * const name : { "iso", "gain", "gain_db" })
+  {
+    if (const auto place = PlaceOf(header, name))
+    {
+      setting = place;
+      columns.isIso = name == std::string("iso");
+      columns.isDecibels = name == std::string("gain_db");
+      break;
+    }
+  }
+  const auto frames = PlaceOf(header, "frames");
+  if (!setting || !frames)
+  {
+    throw std::runtime_error(where + " has no column " + (setting ? "frames" : "iso, gain or gain_db") +
+                             "; expected a header such as iso,frames,dark");
+  }
+  columns.setting = *setting;
+  columns.frames = *frames;
+  columns.dark = PlaceOf(header, "dark");
+  return columns;
+}
+
+SweepTableRow
+RowOf(const std::vector<std::string> & cells,
+      const SweepTableColumns &        columns,
+      const std::filesystem::path &    folder,
+      const std::string &              where)
+{
+  const std::optional<double> number = NumberOf(cells[columns.setting]);
+  SweepTableRow               row;
+  row.setting.isIso = columns.isIso;
+  row.setting.value = columns.isDecibels ? GainOfDecibels(number.value_or(0.0)) : number.value_or(0.0);
+  if (!number || !(row.setting.value > 0.0) || !std::isfinite(row.setting.value))
+  {
+    throw std::runtime_error(where + " has the setting \"" + cells[columns.setting].substr(0, 40) +
+                             "\"; expected a finite number" + (columns.isDecibels ? "" : " above 0"));
+  }
+  const auto inFolder = [&folder](const std::string & name) { return name.empty() ? "" : (folder / name).string(); };
+  row.frames = inFolder(cells[columns.frames]);
+  row.dark = columns.dark ? inFolder(cells[*columns.dark]) : "";
+  if (row.frames.empty())
+  {
+    throw std::runtime_error(where + " has no frames; expected a file, a folder or a pattern");
+  }
+  return row;
+}
+} // namespace
+
+double
+GainOfDecibels(double decibels)
+{
+  return std::pow(10.0, decibels / 20.0);
+}
+
+std::vector<SweepTableRow>
+ReadSweepTable(const std::string & file)
+{
+  std::ifstream stream(file);
+  if (!stream || std::filesystem::is_directory(file))
+  {
+    throw std::runtime_error("--sweep: the table " + file +
+                             " cannot be read; expected a text file with a header such as iso,frames,dark");
+  }
+  const std::filesystem::path      folder = std::filesystem::path(file).parent_path();
+  std::optional<SweepTableColumns> columns;
+  std::size_t                      width = 0;
+  std::vector<SweepTableRow>       rows;
+  std::size_t                      number = 0;
+  for (std::string line; std::getline(stream, line);)
+  {
+    const bool hasMark = ++number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0; // byte order mark of UTF-8
+    line = Trim(hasMark ? line.substr(3) : line);
+    if (line.empty() || line.front() == '#')
+    {
+      continue;
+    }
+    const std::string              where = "--sweep: line " + std::to_string(number) + " of " + file;
+    const std::vector<std::string> cells = Split(line, ",;\t");
+    if (!columns)
+    {
+      columns = ColumnsOf(cells, where);
+      width = cells.size();
+      continue;
+    }
+    if (cells.size() != width)
+    {
+      throw std::runtime_error(where + " has " + std::to_string(cells.size()) + " columns; expected " +
+                               std::to_string(width) + ", as the header");
+    }
+    rows.push_back(RowOf(cells, *columns, folder, where));
+  }
+  if (rows.empty())
+  {
+    throw std::runtime_error("--sweep: " + file +
+                             " has no line with a setting; expected a header such as "
+                             "iso,frames,dark and a line for each setting");
+  }
+  return rows;
+}
+
+} // namespace sensornoise::tools
