@@ -126,6 +126,10 @@ TEST(SweepSummary, SaysWhatItFound)
   EXPECT_TRUE(Contains(page, "gain is 100 % above it"));
   EXPECT_TRUE(Contains(page, "gain [DN/e⁻] of every setting") && Contains(page, "read noise [e⁻] of every setting"));
   test::ExpectSound(page);
+  for (const char * const tick : { ">100<", ">500<", ">10000<", ">1.5<", ">4<" }) // ISO speeds; electrons
+  {
+    EXPECT_TRUE(Contains(page, tick)) << tick;
+  }
 }
 
 TEST(SweepSummary, SaysWhyThereIsNoLine)

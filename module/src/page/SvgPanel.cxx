@@ -137,10 +137,12 @@ MakeLogarithmicAxis(double low, double high)
 {
   constexpr std::size_t fewTicks = 8; // whose labels do not touch
   constexpr std::size_t mostTicks = 20;
-  PlotAxis              axis = MakeAxis(low, high, 1);
-  axis.isLogarithmic = true;
-  for (const std::vector<double> & factors :
-       { std::vector<double>{ 1.0, 2.0, 5.0 }, std::vector<double>{ 1.0, 3.0 }, std::vector<double>{ 1.0 } })
+  PlotAxis              axis = MakeAxis(low, high, 4);
+  const PlotAxis        even = axis;
+  for (const std::vector<double> & factors : { std::vector<double>{ 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0 },
+                                               std::vector<double>{ 1.0, 2.0, 5.0 },
+                                               std::vector<double>{ 1.0, 3.0 },
+                                               std::vector<double>{ 1.0 } })
   {
     axis.ticks.clear();
     for (double power = std::floor(axis.low); power <= axis.high && axis.ticks.size() < mostTicks; power += 1.0)
@@ -159,6 +161,8 @@ MakeLogarithmicAxis(double low, double high)
       break;
     }
   }
+  axis.ticks = axis.ticks.size() < 2 ? even.ticks : axis.ticks;
+  axis.isLogarithmic = true;
   return axis;
 }
 

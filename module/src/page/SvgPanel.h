@@ -35,8 +35,9 @@ PlotAxis
 MakeAxis(double low, double high, int mostTicks);
 
 /** Returns the logarithmic axis over [\a low, \a high], which are decimal logarithms, with a margin of 4 % on each
- * side. The ticks are 1, 2 and 5 times a power of ten; where these are more than 8, 1 and 3 times, then powers alone,
- * and at most 20. Ends are treated as by MakeAxis(). */
+ * side. The ticks are 1, 1.5, 2, 3, 4, 5 and 7 times a power of ten; where these are more than 8, they are 1, 2 and 5
+ * times, then 1 and 3 times, then powers alone, at most 20. Where fewer than two are in the range, the ticks are those
+ * of MakeAxis(), by which the ends are treated, too. */
 PlotAxis
 MakeLogarithmicAxis(double low, double high);
 

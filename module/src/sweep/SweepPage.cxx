@@ -134,8 +134,8 @@ TableOf(const SweepSummary & summary)
   {
     rows += RowOfCells(cells[i], "td");
   }
-  return "<div style=\"overflow-x:auto\"><table class=\"settings\"><thead>" + RowOfCells(cells.front(), "th") +
-         "</thead><tbody>\n" + rows + "</tbody></table></div>\n";
+  return "<div style=\"overflow-x:auto\"><table class=\"settings\" style=\"white-space:nowrap\"><thead>" +
+         RowOfCells(cells.front(), "th") + "</thead><tbody>\n" + rows + "</tbody></table></div>\n";
 }
 
 std::string
