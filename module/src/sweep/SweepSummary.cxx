@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <iterator>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -74,30 +74,31 @@ RowOf(double setting, const CameraNoise & noise, const ChannelNoise & channel)
 
 using NumberOfChannel = std::function<std::optional<NumberWithError>(const ChannelNoise &)>;
 
-/** The channels that have a number at each setting at which any channel has it. */
+/** The channel that has a number at the most settings, and all others that have it at these settings. */
 std::set<std::string>
 CommonChannels(const MeasuredRange & range, const NumberOfChannel & of)
 {
-  std::set<std::string> common;
-  bool                  isFirst = true;
-  for (const CameraNoise & noise : range.noise)
+  std::map<std::string, std::set<double>> settings; // of each channel
+  for (std::size_t i = 0; i < range.noise.size(); ++i)
   {
-    std::set<std::string> known;
-    for (const ChannelNoise & channel : noise.channels)
+    for (const ChannelNoise & channel : range.noise[i].channels)
     {
       if (of(channel))
       {
-        known.insert(channel.channel);
+        settings[channel.channel].insert(range.settings[i]);
       }
     }
-    if (known.empty())
+  }
+  const auto most = std::max_element(
+    settings.begin(), settings.end(), [](const auto & a, const auto & b) { return a.second.size() < b.second.size(); });
+  std::set<std::string> common;
+  for (const auto & [channel, known] : settings)
+  {
+    const std::set<double> & needed = most->second;
+    if (std::includes(known.begin(), known.end(), needed.begin(), needed.end()))
     {
-      continue;
+      common.insert(channel);
     }
-    std::set<std::string> both;
-    std::set_intersection(common.begin(), common.end(), known.begin(), known.end(), std::inserter(both, both.begin()));
-    common = isFirst ? known : both;
-    isFirst = false;
   }
   return common;
 }
@@ -118,7 +119,7 @@ MeanOf(const CameraNoise & noise, const std::set<std::string> & channels, const 
       count += 1.0;
     }
   }
-  if (count == 0.0)
+  if (count == 0.0 || count < static_cast<double>(channels.size()))
   {
     return std::nullopt;
   }

@@ -52,9 +52,9 @@ struct SweepSummary
   std::string                    androidReason; ///< "" for gains, and for fewer than two ISO speeds
 };
 
-/** Returns gain and read noise of each setting. Of a mosaic they are the geometric means over those channels that have
- * the number at every setting; channels have different gains where the camera scales them, by the same factors at every
- * setting. */
+/** Returns gain and read noise of each setting. Of a mosaic they are the geometric means over the same channels at
+ * every setting: over the channel that has the number at the most settings, and the others that have it there. Channels
+ * have different gains where the camera scales them, by the same factors at every setting. */
 SensorNoise_EXPORT std::vector<SettingNoise>
 MeanOverChannels(const MeasuredRange & range);
 
