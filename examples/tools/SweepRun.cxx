@@ -68,11 +68,19 @@ RequireOneIso(const FrameList & list)
   }
 }
 
+template <typename T>
+bool
+HasMember(const nlohmann::json & record, const char * name, const T & value)
+{
+  const auto found = record.find(name);
+  return found != record.end() && *found == value;
+}
+
 bool
 IsSameInput(const InputFiles & files, const nlohmann::json & stored)
 {
-  return stored.is_object() && stored.value("of", "") == "files" && stored["sha256"] == files.sha256 &&
-         stored["files"] == files.files && stored["bytes"] == files.bytes;
+  return HasMember(stored, "of", "files") && HasMember(stored, "sha256", files.sha256) &&
+         HasMember(stored, "files", files.files) && HasMember(stored, "bytes", files.bytes);
 }
 
 /** Returns whether a stored report was made of these files. Reads them once. */
@@ -81,7 +89,7 @@ IsOfFiles(const nlohmann::json & report, const EstimateOptions & one, const Fram
 {
   const auto input = report.find("input");
   if (input == report.end() || !input->is_object() || input->contains("dark") == one.dark.empty() ||
-      report.value("version", "") != GetModuleVersion())
+      !HasMember(report, "version", GetModuleVersion()))
   {
     return false;
   }
