@@ -21,7 +21,8 @@ from acceptance_programs import run
 ISO_SPEEDS = (100, 200, 400, 800, 1600, 3200, 6400, 12800)
 GAIN_PER_ISO = 0.002  # [DN/e-]
 FIRST_ISO = 800  # behind the switch
-BRIGHTEST = 3500  # signal [DN]
+OFFSET = 1000  # [DN]: above the read noise of every ISO speed, so that no dark frame is cut off
+BRIGHTEST = 14000  # signal [DN]
 LARGEST_ERROR = 0.01  # of a gain, relative
 LARGEST_Z = 3.0  # [standard errors]
 
@@ -38,8 +39,9 @@ def simulate(folder: Path, seed: int, has_switch: bool, options: argparse.Namesp
         burst = folder / f"iso{iso}"
         (burst / "dark").mkdir(parents=True)
         camera = [options.bin / "simulate-sensor-noise", "--size", options.size, "--frames", options.frames]
-        camera += ["--gain", gain, "--offset", 100, "--read-noise", gain * read_noise(iso, has_switch)]
-        light = ["--electrons", min(30000, BRIGHTEST / gain), "--flicker-sd", 0.02, "--seed", 100 * seed + number]
+        camera += ["--gain", gain, "--offset", OFFSET, "--bit-depth", 14]
+        camera += ["--read-noise", gain * read_noise(iso, has_switch)]
+        light = ["--electrons", min(60000, BRIGHTEST / gain), "--flicker-sd", 0.02, "--seed", 100 * seed + number]
         run([*camera, *light, "--output", burst / "light.mha"])
         run([*camera, "--dark", "--seed", 100 * seed + 50 + number, "--output", burst / "dark" / "dark.mha"])
 
