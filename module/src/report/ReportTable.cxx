@@ -91,19 +91,6 @@ End(const std::optional<double> & end, const RoundedQuantity & rounded)
            : Number(end);
 }
 
-/** Returns the row of a quantity; \a hasErrors: the table has a column for the standard error. */
-std::string
-Line(const QuantityEntry & entry, const Quantity & quantity, bool hasErrors)
-{
-  const std::optional<Interval> & range = RangeOf(quantity);
-  const RoundedQuantity           rounded = RoundToError(quantity);
-  std::string line = PaddedRight(WithSigns(entry.label), 24) + " " + PaddedLeft(rounded.value, 12) + " ";
-  line += hasErrors ? PaddedRight(rounded.error, 12) + " " : " ";
-  line += PaddedRight(WithSigns(entry.unit), 8) + " " + PaddedRight(NameOf(quantity.status), 17) + " ";
-  line += range ? "[" + End(range->low, rounded) + ", " + End(range->high, rounded) + "]" : "";
-  return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-}
-
 /** Returns bit depth, quantization step and clip levels, as far as they are known, each after a comma. */
 std::string
 DescribeCodes(const Report & report)
@@ -171,6 +158,18 @@ DescribeFrames(const char * what, const InputFiles & input)
          (input.sha256.empty() ? "not computed" : input.sha256) + "\n";
 }
 } // namespace
+
+std::string
+QuantityLine(const std::string & label, const std::string & unit, const Quantity & quantity, bool hasErrors)
+{
+  const std::optional<Interval> & range = RangeOf(quantity);
+  const RoundedQuantity           rounded = RoundToError(quantity);
+  std::string                     line = PaddedRight(WithSigns(label), 24) + " " + PaddedLeft(rounded.value, 12) + " ";
+  line += hasErrors ? PaddedRight(rounded.error, 12) + " " : " ";
+  line += PaddedRight(WithSigns(unit), 8) + " " + PaddedRight(NameOf(quantity.status), 17) + " ";
+  line += range ? "[" + End(range->low, rounded) + ", " + End(range->high, rounded) + "]" : "";
+  return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+}
 
 std::string
 DescribeInput(const std::optional<InputRecord> & input)
@@ -297,7 +296,7 @@ MakeTable(const Report & report)
   table += Format("%-8s %-17s %s\n", "unit", "status", hasErrors ? "95 % interval or limits" : "limits");
   for (const QuantityEntry & entry : rows)
   {
-    table += Line(entry, *entry.of(report), hasErrors);
+    table += QuantityLine(entry.label, entry.unit, *entry.of(report), hasErrors);
   }
   if (report.fit.line && !report.gain.value)
   {

@@ -14,6 +14,11 @@
 namespace sensornoise
 {
 
+/** Returns the row of a quantity in a table: label, value, error, unit, status, and interval or limits, with a line
+ * break. \a hasErrors: the table has a column for the standard error. */
+SensorNoise_EXPORT std::string
+QuantityLine(const std::string & label, const std::string & unit, const Quantity & quantity, bool hasErrors);
+
 /** Returns the identification of the measured frames, and of the dark frames if there are any: number of files, bytes
  * and SHA-256. Each is one line with its line break. "": \a input is null. */
 std::string
