@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_emva1288_EmvaText_h
+#define sensornoise_emva1288_EmvaText_h
+
+#include "sensornoise/Emva1288.h"
+
+#include <string>
+
+namespace sensornoise
+{
+
+/** Returns the unit of a quantity, with the unit of the exposure in place of "unit": photons for the line of the
+ * linearity where they are known, else the unit of the exposure times. */
+std::string
+UnitOf(const EmvaQuantityEntry & entry, const EmvaReport & report);
+
+/** Returns whether all points have photons, which are then the abscissa of the linearity. */
+bool
+HasPhotons(const EmvaReport & report);
+
+} // namespace sensornoise
+
+#endif
