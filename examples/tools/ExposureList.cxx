@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 
@@ -25,7 +24,7 @@ public:
   void
   AddLine(std::size_t number, const std::string & line)
   {
-    const std::vector<std::string> columns = Split(line, ",;\t");
+    const std::vector<std::string> columns = SplitColumns(line, ",;\t");
     const std::optional<double>    exposure = NumberOf(columns.back());
     if (m_Columns == 0)
     {
@@ -65,7 +64,7 @@ private:
 bool
 IsExposureList(const std::string & text)
 {
-  const std::vector<std::string> words = Split(text, ",");
+  const std::vector<std::string> words = SplitColumns(text, ",");
   return std::all_of(words.begin(), words.end(), [](const std::string & word) { return NumberOf(word).has_value(); });
 }
 
@@ -75,25 +74,22 @@ ReadExposures(const std::string & text)
   std::vector<double> exposures;
   if (IsExposureList(text))
   {
-    for (const std::string & word : Split(text, ","))
+    for (const std::string & word : SplitColumns(text, ","))
     {
       exposures.push_back(*NumberOf(word));
     }
     return exposures;
   }
-  std::ifstream file(text);
-  if (!file)
-  {
-    throw std::runtime_error("--exposures: \"" + text +
-                             "\" is neither a list of numbers with commas nor a file that can be read; expected one "
-                             "exposure for each frame, for instance 0,0,10,10,20,20, or a file with one frame a line");
-  }
+  const std::vector<std::string> read =
+    ReadLines(text,
+              "--exposures: \"" + text +
+                "\" is neither a list of numbers with commas nor a file that can be read; expected one "
+                "exposure for each frame, for instance 0,0,10,10,20,20, or a file with one frame a line");
   ExposureFile lines(text);
   std::size_t  number = 0;
-  for (std::string line; std::getline(file, line);)
+  for (const std::string & line : read)
   {
-    const bool hasMark = ++number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0; // byte order mark of UTF-8
-    line = Trim(hasMark ? line.substr(3) : line);
+    ++number;
     if (!line.empty() && line.front() != '#')
     {
       lines.AddLine(number, line);

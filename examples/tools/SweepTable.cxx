@@ -119,7 +119,7 @@ ReadSweepTable(const std::string & file)
       continue;
     }
     const std::string              where = "--sweep: line " + std::to_string(number) + " of " + file;
-    const std::vector<std::string> cells = Split(line, ",;\t");
+    const std::vector<std::string> cells = SplitColumns(line, ",;\t");
     if (!columns)
     {
       columns = ColumnsOf(cells, where);

@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <cstdlib>
+#include <fstream>
+#include <stdexcept>
 
 namespace sensornoise::tools
 {
@@ -17,7 +19,7 @@ Trim(const std::string & text)
 }
 
 std::vector<std::string>
-Split(const std::string & text, const char * separators)
+SplitColumns(const std::string & text, const char * separators)
 {
   std::vector<std::string> parts;
   std::size_t              begin = 0;
@@ -35,6 +37,23 @@ NumberOf(const std::string & word)
   char *       end = nullptr;
   const double number = std::strtod(word.c_str(), &end);
   return word.empty() || *end != '\0' ? std::nullopt : std::optional<double>(number);
+}
+
+std::vector<std::string>
+ReadLines(const std::string & file, const std::string & expected)
+{
+  std::ifstream stream(file);
+  if (!stream)
+  {
+    throw std::runtime_error(expected);
+  }
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);)
+  {
+    const bool hasMark = lines.empty() && line.rfind("\xEF\xBB\xBF", 0) == 0; // byte order mark of UTF-8
+    lines.push_back(Trim(hasMark ? line.substr(3) : line));
+  }
+  return lines;
 }
 
 } // namespace sensornoise::tools

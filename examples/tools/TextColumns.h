@@ -10,17 +10,22 @@
 namespace sensornoise::tools
 {
 
-/** Returns the text without blanks and line ends at its beginning and end. */
+/** Returns the text without blanks and line breaks at its ends. */
 std::string
 Trim(const std::string & text);
 
-/** Returns the trimmed parts of a line between any of the characters \a separators. There is one or more. */
+/** Returns the parts between any of the \a separators, trimmed. A part may be empty. */
 std::vector<std::string>
-Split(const std::string & text, const char * separators);
+SplitColumns(const std::string & text, const char * separators);
 
-/** Returns the number that a word is. It is empty if the word is no number. */
+/** Returns the number that the whole word is; empty: it is none. */
 std::optional<double>
 NumberOf(const std::string & word);
+
+/** Returns the lines of a text file, trimmed, without a byte order mark of UTF-8. Throws std::runtime_error, with \a
+ * expected, if the file cannot be read. */
+std::vector<std::string>
+ReadLines(const std::string & file, const std::string & expected);
 
 } // namespace sensornoise::tools
 
