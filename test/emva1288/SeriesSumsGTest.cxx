@@ -126,7 +126,8 @@ TEST(SensorNoiseEmvaSeries, TheStackVarianceIsThatOfTheFramesBeforeAndAfterTheFi
 TEST(SensorNoiseEmvaSeries, CountsTheValuesAtTheHighestNumber)
 {
   std::vector<std::vector<std::uint8_t>> frames(2, std::vector<std::uint8_t>(Width * Height, 7));
-  frames[0][3] = frames[1][3] = frames[1][500] = 255;
+  frames[0][9] = frames[0][11] = 200; // the highest number of the first frame alone
+  frames[1][2] = frames[1][3] = frames[1][500] = 255;
   const EmvaSeries series = SeriesOf(frames, Width, Height);
   EXPECT_EQ(series.highestDn, 255.0);
   EXPECT_DOUBLE_EQ(series.fractionAtHighest, 3.0 / (2.0 * Width * Height));

@@ -118,7 +118,7 @@ NoteNonUniformity(EmvaReport & report)
   if (frames < InEmva.framesOfStandard)
   {
     report.notes.push_back({ "few-frames",
-                             "DSNU and PRNU are measured of series of " + std::to_string(frames) +
+                             "DSNU and PRNU are measured from series of " + std::to_string(frames) +
                                " frames or more. The standard asks for " + std::to_string(InEmva.framesOfStandard) +
                                " at half of saturation and in the dark." });
   }

@@ -11,15 +11,15 @@ namespace sensornoise
 
 namespace
 {
-/** Weights of the values in slope and intercept: the line is the sum of weights times values. */
-struct LineWeights
+/** Shares of the values in slope and intercept: the line is the sum of shares times values. */
+struct LineShares
 {
   std::vector<double> ofSlope;
   std::vector<double> ofIntercept;
 };
 
-LineWeights
-WeightsOf(const std::vector<LevelValue> & values, const std::vector<double> & weights)
+LineShares
+SharesOf(const std::vector<LevelValue> & values, const std::vector<double> & weights)
 {
   double sum = 0.0;
   double mean = 0.0;
@@ -34,41 +34,55 @@ WeightsOf(const std::vector<LevelValue> & values, const std::vector<double> & we
   {
     squares += weights[i] * (values[i].x - mean) * (values[i].x - mean);
   }
-  LineWeights line;
+  LineShares shares;
   for (std::size_t i = 0; i < values.size(); ++i)
   {
-    line.ofSlope.push_back(weights[i] * (values[i].x - mean) / squares);
-    line.ofIntercept.push_back(weights[i] / sum - mean * line.ofSlope.back());
+    shares.ofSlope.push_back(weights[i] * (values[i].x - mean) / squares);
+    shares.ofIntercept.push_back(weights[i] / sum - mean * shares.ofSlope.back());
   }
-  return line;
+  return shares;
 }
 
-/** Returns the line with these weights, its errors and its reduced chi-square. */
+/** Returns slope and intercept. */
 LevelLine
-LineBy(const LineWeights & weights, const std::vector<LevelValue> & values)
+LineBy(const LineShares & shares, const std::vector<LevelValue> & values)
 {
   LevelLine line;
   for (std::size_t i = 0; i < values.size(); ++i)
   {
-    line.slope += weights.ofSlope[i] * values[i].y;
-    line.intercept += weights.ofIntercept[i] * values[i].y;
+    line.slope += shares.ofSlope[i] * values[i].y;
+    line.intercept += shares.ofIntercept[i] * values[i].y;
   }
-  const bool areKnown =
+  return line;
+}
+
+/** Returns the line with its errors and its reduced chi-square: the weighted sum of the squared residuals over its
+ * expectation. Of value i with the variance v and the leverage h, the weighted square w (1 - h) v is expected. This
+ * holds for equal weights and for w = 1 / v. */
+LevelLine
+LineWithErrors(const std::vector<LevelValue> & values, const std::vector<double> & weights)
+{
+  const LineShares shares = SharesOf(values, weights);
+  LevelLine        line = LineBy(shares, values);
+  const bool       areKnown =
     std::all_of(values.begin(), values.end(), [](const LevelValue & value) { return value.variance > 0.0; });
-  line.dof = static_cast<double>(values.size()) - 2.0;
-  double chi2 = 0.0;
+  double squares = 0.0;
+  double expected = 0.0;
   double slopeVariance = 0.0;
   double interceptVariance = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i)
   {
     const double variance = areKnown ? values[i].variance : 1.0;
     const double residual = values[i].y - line.intercept - line.slope * values[i].x;
-    chi2 += residual * residual / variance;
-    slopeVariance += weights.ofSlope[i] * weights.ofSlope[i] * variance;
-    interceptVariance += weights.ofIntercept[i] * weights.ofIntercept[i] * variance;
+    const double leverage = shares.ofIntercept[i] + shares.ofSlope[i] * values[i].x;
+    squares += weights[i] * residual * residual;
+    expected += weights[i] * (1.0 - leverage) * variance;
+    slopeVariance += shares.ofSlope[i] * shares.ofSlope[i] * variance;
+    interceptVariance += shares.ofIntercept[i] * shares.ofIntercept[i] * variance;
   }
-  const double scatter = line.dof > 0.0 ? chi2 / line.dof : 0.0;
+  const double scatter = expected > 0.0 ? squares / expected : 0.0;
   const double factor = areKnown ? std::max(1.0, scatter) : scatter;
+  line.dof = static_cast<double>(values.size()) - 2.0;
   line.reducedChi2 = areKnown ? scatter : 1.0;
   line.slopeStandardError = std::sqrt(slopeVariance * factor);
   line.interceptStandardError = std::sqrt(interceptVariance * factor);
@@ -79,7 +93,7 @@ LineBy(const LineWeights & weights, const std::vector<LevelValue> & values)
 LevelLine
 FitLevelLine(const std::vector<LevelValue> & values)
 {
-  return LineBy(WeightsOf(values, std::vector<double>(values.size(), 1.0)), values);
+  return LineWithErrors(values, std::vector<double>(values.size(), 1.0));
 }
 
 LevelLine
@@ -90,7 +104,7 @@ FitWeightedLine(const std::vector<LevelValue> & values)
   {
     weights.push_back(1.0 / value.variance);
   }
-  return LineBy(WeightsOf(values, weights), values);
+  return LineWithErrors(values, weights);
 }
 
 LevelLine
@@ -124,14 +138,7 @@ FitRelativeLine(const std::vector<LevelValue> & values)
   {
     weights.push_back(1.0 / (value.y * value.y));
   }
-  const LineWeights of = WeightsOf(values, weights);
-  LevelLine         line;
-  for (std::size_t i = 0; i < values.size(); ++i)
-  {
-    line.slope += of.ofSlope[i] * values[i].y;
-    line.intercept += of.ofIntercept[i] * values[i].y;
-  }
-  return line;
+  return LineBy(SharesOf(values, weights), values);
 }
 
 } // namespace sensornoise

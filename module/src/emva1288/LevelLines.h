@@ -25,7 +25,7 @@ struct LevelLine
   double intercept{ 0.0 };
   double slopeStandardError{ 0.0 };
   double interceptStandardError{ 0.0 };
-  double reducedChi2{ 0.0 }; ///< mean square of residuals over their standard deviations, per degree of freedom [1]
+  double reducedChi2{ 0.0 }; ///< sum of the weighted squared residuals over its expectation [1]; 1: without variances
   double dof{ 0.0 };         ///< degrees of freedom of the residuals
 };
 
