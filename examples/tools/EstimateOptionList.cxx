@@ -138,6 +138,12 @@ AddOutputOptions(CLI::App & app, EstimateOptions & options)
 {
   AddText(app, "--json", options.json, "FILE", "file for the report, or - for standard output")->group("Output");
   AddText(app,
+          "--xml",
+          options.xml,
+          "FILE",
+          "with --method emva1288: file for the results, as the package emva1288 writes them")
+    ->group("Output");
+  AddText(app,
           "--plot",
           options.plot,
           "FILE",
@@ -207,11 +213,14 @@ void
 AddOtherOptions(CLI::App & app, EstimateOptions & options)
 {
   app
-    .add_option("--method",
-                options.method,
-                "refined; or published: Figure 2 of Sur & Grediac 2015; or single-image: the even areas of one frame, "
-                "after Foi et al. 2008, which gives the gain, but neither offset nor read noise")
-    ->check(CLI::IsMember({ "refined", "published", "single-image" }))
+    .add_option(
+      "--method",
+      options.method,
+      "refined; or published: Figure 2 of Sur & Grediac 2015; or single-image: the even areas of one frame, "
+      "after Foi et al. 2008, which gives the gain, but neither offset nor read noise; or emva1288: flat fields and "
+      "dark frames at several exposures, after EMVA Standard 1288 Release 4. FRAME is then a list of exposures "
+      "(.csv, or a descriptor .txt of the package emva1288), or --exposures gives them")
+    ->check(CLI::IsMember({ "refined", "published", "single-image", "emva1288" }))
     ->type_name("NAME")
     ->capture_default_str()
     ->group("Other");

@@ -131,7 +131,7 @@ ReadExposuresOf(EstimateOptions & options)
   {
     return;
   }
-  if (options.method != "refined")
+  if (options.method != "refined" && options.method != "emva1288")
   {
     throw CLI::ValidationError("--exposures",
                                "the method " + options.method +
@@ -310,6 +310,37 @@ RequireWork(const CLI::App & app, const EstimateOptions & options)
   }
 }
 
+/** Throws if an option is given that the method emva1288 does not have, or --xml with another method. */
+void
+RequireOptionsOfEmva(const CLI::App & app, const EstimateOptions & options)
+{
+  if (options.method != "emva1288")
+  {
+    if (!options.xml.empty())
+    {
+      throw CLI::ValidationError(
+        "--xml", "the method " + options.method + " writes no XML; leave it out, or set --method emva1288");
+    }
+    return;
+  }
+  const std::set<std::string> known{ "FRAME",   "--method",  "--exposures", "--json",    "--xml",
+                                     "--quiet", "--raw",     "--step",      "--channel", "--plane",
+                                     "--bayer", "--threads", "--bit-depth" };
+  for (const CLI::Option * const option : app.get_options())
+  {
+    if (option->count() > 0 && known.count(option->get_name()) == 0)
+    {
+      throw CLI::ValidationError("--method",
+                                 "the method emva1288 does not use " + option->get_name() +
+                                   "; leave it out. The dark frames are in the list of exposures, or have exposure 0");
+    }
+  }
+  if (options.bayer != "auto" && options.bayer != "none")
+  {
+    throw CLI::ValidationError("--bayer", "the method emva1288 reads no mosaic; write the frames of one colour first");
+  }
+}
+
 void
 ReadRegion(EstimateOptions & options, const EstimateTexts & texts)
 {
@@ -366,6 +397,7 @@ EstimateOptions::Parse(int argc, char ** argv)
   }
   RequireValues(app);
   RequireWork(app, *this);
+  RequireOptionsOfEmva(app, *this);
   optionsText = NumericOptions(app);
   hasCheck = app.count("--check") > 0;
   check.erase(std::remove(check.begin(), check.end(), ""), check.end()); // CLI11 stores "" for --check without a name

@@ -60,6 +60,7 @@ struct EstimateOptions
   std::uint64_t                                      memoryLimit{ 0 }; ///< [bytes]; 0: no limit
   unsigned int                                       threads{ 0 };     ///< 0: all cores
   std::string                                        json;
+  std::string                                        xml; ///< of the method emva1288; empty: none
   std::string                                        maps;
   std::string                                        plot;          ///< .html: page; .svg, .png: its first figure
   bool                                               hash{ false }; ///< the report has the hash even without a page

@@ -8,6 +8,7 @@
 #include "tools/ErrorSentence.h"
 #include "tools/CompanionFiles.h"
 #include "tools/ComparedFiles.h"
+#include "tools/EmvaRun.h"
 #include "tools/EstimateOptions.h"
 #include "tools/FilesHash.h"
 #include "tools/ExposureList.h"
@@ -234,6 +235,10 @@ int
 Run(EstimateOptions & options)
 {
   SetItkThreads(options.threads);
+  if (options.method == "emva1288")
+  {
+    return RunEmva1288(options) ? ExitDone : ExitNothingEstimated;
+  }
   RequireAbilities(options);
   std::optional<sensornoise::NoiseProfile> profile;
   if (!options.checkProfile.empty())
