@@ -6,8 +6,8 @@
     generate.py [--check]
 
 A part stands between the comments `<!-- generated: NAME -->` and `<!-- end -->` of a page: the warnings, the
-quantities, the filters and the formats of exports. --check writes nothing, and has the exit code 1 if a page is not as
-it would be written. The test SensorNoiseDocuments compares the tables with the library.
+quantities, the filters, the formats of exports, and the quantities of EMVA 1288. --check writes nothing, and has the
+exit code 1 if a page is not as it would be written. The test SensorNoiseDocuments compares the tables with the library.
 """
 
 import argparse
@@ -92,6 +92,16 @@ def quantities() -> str:
     return "\n".join(rows)
 
 
+def emva1288() -> str:
+    """Returns the table of the quantities of the evaluation of EMVA 1288."""
+    entry = re.compile(r"\{\s*(\"\w+\",\s*\"\w+\",.*?)&Of::", re.DOTALL)
+    rows = ["| quantity | in the table | symbol | unit | equation |", "|---|---|---|---|---|"]
+    for strings in entry.findall(source_of("EmvaQuantities.cxx")):
+        section, name, symbol, label, unit, equation = re.findall(r'"([^"]*)"', strings)
+        rows.append(f"| `{section}.{name}` | {label} | {escaped(symbol)} | {unit} | {equation} |")
+    return "\n".join(rows)
+
+
 def exports() -> str:
     """Returns the table of the formats of `export-noise-model`."""
     entry = re.compile(r"\{\s*(\"[\w-]+\",.*?)ExportTakes::(\w+),\s*ExportExactness::(\w+),(.*?)\}", re.DOTALL)
@@ -155,7 +165,13 @@ def cell(text: str) -> str:
     return escaped(" ".join(text.split()))
 
 
-PARTS = {"warnings": warnings, "quantities": quantities, "filters": filters, "exports": exports}
+PARTS = {
+    "warnings": warnings,
+    "quantities": quantities,
+    "filters": filters,
+    "exports": exports,
+    "emva1288": emva1288,
+}
 
 
 def main() -> int:
