@@ -9,6 +9,7 @@
 #include "tools/CompanionFiles.h"
 #include "tools/ComparedFiles.h"
 #include "tools/EmvaRun.h"
+#include "tools/EmvaSources.h"
 #include "tools/EstimateOptions.h"
 #include "tools/FilesHash.h"
 #include "tools/ExposureList.h"
@@ -238,6 +239,11 @@ Run(EstimateOptions & options)
   if (options.method == "emva1288")
   {
     return RunEmva1288(options) ? ExitDone : ExitNothingEstimated;
+  }
+  if (options.raw.empty() && IsEmvaList(options.files.front()))
+  {
+    throw std::invalid_argument(options.files.front() +
+                                " is text, and no image; if it is a list of exposures, add --method emva1288");
   }
   RequireAbilities(options);
   std::optional<sensornoise::NoiseProfile> profile;

@@ -201,6 +201,18 @@ TEST(SensorNoiseEmva1288, RefusesSeriesThatAreNone)
                  series.end());
   });
   refuses([](auto & series) { series.resize(4); }); // two flat exposures
+  refuses([](auto & series) {
+    for (EmvaSeries & each : series)
+    {
+      each.temporalVarianceDn2 = 0.0;
+    }
+  });
+  refuses([](auto & series) {
+    for (EmvaSeries & each : series)
+    {
+      each.meanDn += each.isDark ? 5000.0 : 0.0;
+    }
+  });
   EmvaSettings settings;
   settings.quantizationStepDn = 0.0;
   EXPECT_THROW(EvaluateEmva1288(sound, settings), std::invalid_argument);

@@ -193,6 +193,7 @@ TEST_F(EstimateEmvaTool, RefusesOptionsOfOtherMethods)
   Refuses("stack.mha --exposures 0,1" + method, { "2 numbers", "28 frames" });
   Refuses("stack.mha --exposures exposures.txt --offset 3" + method, { "does not use --offset" });
   Refuses("stack.mha --exposures exposures.txt --bayer RGGB" + method, { "mosaic" });
+  Refuses(WriteTable("list.csv"), { "list.csv is text", "--method emva1288" });
   Refuses("stack.mha --xml results.xml", { "writes no XML" });
   Refuses(WriteTable("list.csv") + " --exposures exposures.txt" + method, { "both say exposures" });
   Refuses(WriteTable("list.csv") + " --json list.csv" + method, { "list.csv" });

@@ -205,8 +205,8 @@ EmvaQuantityList();
  * outside. Saturation is the point with the largest variance.
  *
  * Throws std::invalid_argument if series differ in the size of their frames, an exposure is below 0 or not finite, or
- * there is no dark series or fewer than three flat exposures. Quantities that the series do not determine have no
- * value. */
+ * there is no dark series or fewer than three flat exposures. It also throws if the flat series have no temporal noise,
+ * or are darker than the dark series. Quantities that the series do not determine have no value. */
 SensorNoise_EXPORT EmvaReport
 EvaluateEmva1288(const std::vector<EmvaSeries> & series, const EmvaSettings & settings = {});
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "emva1288/TransferCurve.h"
 
+#include "base/Text.h"
 #include "emva1288/Constants.h"
 #include "emva1288/DarkLevels.h"
 
@@ -49,6 +50,25 @@ IsSaturated(const EmvaSeries & series, unsigned int bitDepth)
   const double top = bitDepth > 0 ? std::ldexp(1.0, static_cast<int>(bitDepth)) - 1.0 : series.highestDn;
   return series.highestDn >= top && series.fractionAtHighest >= InEmva.leastSaturatedFraction;
 }
+
+/** Throws std::invalid_argument if the series have no temporal noise, or no light. */
+void
+RequireSignal(const TransferCurve & curve)
+{
+  const EmvaPoint & saturation = curve.points[curve.saturation];
+  if (!(saturation.varianceDn2 > 0.0))
+  {
+    throw std::invalid_argument("the frames of each flat exposure are equal, so that they have no temporal noise; "
+                                "expected separate frames. List each frame once, and no copies.");
+  }
+  if (!(saturation.signalDn > 0.0))
+  {
+    throw std::invalid_argument(
+      "the flat field with the largest variance, of the exposure " + Text(saturation.exposure) +
+      ", has the mean level " + Text(saturation.meanDn) + " DN, which is " + Text(-saturation.signalDn) +
+      " DN below the dark frames; expected brighter flat fields. Check which frames are dark.");
+  }
+}
 } // namespace
 
 TransferCurve
@@ -84,6 +104,7 @@ MakeTransferCurve(const std::vector<EmvaSeries> & series, const DarkLevels & dar
     return a.varianceDn2 < b.varianceDn2;
   });
   curve.saturation = static_cast<std::size_t>(largest - curve.points.begin());
+  RequireSignal(curve);
   curve.isSaturated =
     curve.saturation + 1 < curve.points.size() || IsSaturated(curve.series[curve.saturation], settings.bitDepth);
   for (EmvaPoint & point : curve.points)

@@ -36,7 +36,8 @@ struct TransferCurve
 };
 
 /** Makes the curve. Of an exposure with a pair of frames and a longer series, the pair counts. Throws
- * std::invalid_argument if fewer than three exposures differ. */
+ * std::invalid_argument if fewer than three exposures differ, if the frames have no temporal noise, or if the flat
+ * fields are darker than the dark frames. */
 TransferCurve
 MakeTransferCurve(const std::vector<EmvaSeries> & series, const DarkLevels & dark, const EmvaSettings & settings);
 
