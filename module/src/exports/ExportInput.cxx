@@ -3,7 +3,6 @@
 #include "exports/ExportInput.h"
 
 #include "base/Text.h"
-#include "report/JsonWriter.h"
 #include "sensornoise/ReportText.h"
 
 #include <algorithm>
@@ -297,14 +296,6 @@ WhiteLevelOf(const CameraNoise & noise)
                       ". Give the white level in DN (--white).");
   }
   return *noise.whiteLevelDn;
-}
-
-std::string
-ShortestText(double number)
-{
-  std::string text;
-  JsonWriter(text).Write(number);
-  return text;
 }
 
 NoiseExport

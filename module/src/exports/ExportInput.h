@@ -57,10 +57,6 @@ BlackLevelOf(const CameraNoise & noise);
 double
 WhiteLevelOf(const CameraNoise & noise);
 
-/** The shortest text that reads back as the same number. */
-std::string
-ShortestText(double number);
-
 /** A file of this name with this text, alone. */
 NoiseExport
 OneFile(const std::string & name, const std::string & bytes, const std::string & note = {});

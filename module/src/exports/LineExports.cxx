@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exports/LineExports.h"
 
+#include "base/NumberText.h"
 #include "base/Text.h"
 #include "exports/ExportInput.h"
 #include "files/ByteOrder.h"

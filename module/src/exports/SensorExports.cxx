@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exports/SensorExports.h"
 
+#include "base/NumberText.h"
 #include "exports/ExportInput.h"
 #include "report/JsonWriter.h"
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page/SvgPanel.h"
 
+#include "base/NumberText.h"
 #include "base/Text.h"
 #include "page/HtmlText.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -17,15 +17,6 @@ namespace sensornoise
 {
 namespace
 {
-std::string
-Fixed(double number, int decimals)
-{
-  char       buffer[400]; // a double has at most 309 digits before the point
-  const auto end =
-    std::to_chars(buffer, buffer + sizeof(buffer), number, std::chars_format::fixed, std::clamp(decimals, 0, 20)).ptr;
-  return std::string(buffer, end);
-}
-
 /** Returns the least of 1, 2 or 5 times a power of ten that is at least \a least, which is above 0. */
 double
 RoundStep(double least)
@@ -51,7 +42,7 @@ TextAt(double x, double y, const char * attributes, const std::string & text)
 std::string
 SvgNumber(double number)
 {
-  return Fixed(number, 1);
+  return FixedText(number, 1);
 }
 
 std::string
@@ -79,12 +70,10 @@ PlotAxis::LabelOf(double tick) const
     return Text(std::pow(10.0, tick));
   }
   const double largest = std::max(std::abs(low), std::abs(high));
-  std::string  text = Fixed(std::abs(tick), decimals);
+  std::string  text = FixedText(std::abs(tick), decimals);
   if (decimals > 5 || largest >= 1e7)
   {
-    char buffer[40];
-    text.assign(buffer,
-                std::to_chars(buffer, buffer + sizeof(buffer), std::abs(tick), std::chars_format::general, 3).ptr);
+    text = GeneralText(std::abs(tick), 3);
   }
   return tick < 0.0 ? "\u2212" + text : text;
 }

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/JsonWriter.h"
 
-#include <charconv>
+#include "base/NumberText.h"
+
 #include <cmath>
 #include <cstdio>
 
@@ -16,9 +17,7 @@ JsonWriter::Write(double number)
     m_Text += "null";
     return;
   }
-  char       buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof(buffer), number).ptr;
-  m_Text.append(buffer, end);
+  m_Text += ShortestText(number);
 }
 
 void

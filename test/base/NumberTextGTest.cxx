@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+// Numbers as text: the shortest that reads back, and a given number of decimals or digits.
+#include "base/NumberText.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <limits>
+
+using sensornoise::FixedText;
+using sensornoise::GeneralText;
+using sensornoise::ShortestText;
+
+TEST(NumberText, IsReadAsTheSameNumber)
+{
+  using Limits = std::numeric_limits<double>;
+  for (const double number :
+       { 0.0, 0.1, 1.0 / 3.0, -2.5e-308, std::nextafter(1.0, 2.0), Limits::max(), Limits::denorm_min() })
+  {
+    EXPECT_EQ(std::strtod(ShortestText(number).c_str(), nullptr), number);
+    EXPECT_EQ(std::strtod(GeneralText(number, 17).c_str(), nullptr), number);
+  }
+}
+
+TEST(NumberText, IsNoLongerThanItHasToBe)
+{
+  EXPECT_EQ(ShortestText(0.1), "0.1");
+  EXPECT_EQ(ShortestText(-2.0), "-2");
+  EXPECT_EQ(ShortestText(1e-7), "1e-07");
+}
+
+TEST(NumberText, HasTheDigitsThatWereAsked)
+{
+  EXPECT_EQ(FixedText(2.0 / 3.0, 3), "0.667");
+  EXPECT_EQ(FixedText(-0.25, 0), "-0");
+  EXPECT_EQ(FixedText(1e22, 1), "10000000000000000000000.0");
+  EXPECT_EQ(FixedText(1.0, 99), "1.00000000000000000000"); // 20 at most
+  EXPECT_EQ(GeneralText(1234567.0, 3), "1.23e+06");
+  EXPECT_EQ(GeneralText(0.25, 3), "0.25");
+}
