@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/ErrorSentence.h"
 
-#include "itkMacro.h"
+// The page in a browser is compiled without ITK.
+#if defined(__has_include) && __has_include("itkMacro.h")
+#  include "itkMacro.h"
+#  define SENSORNOISE_HAS_ITK
+#endif
 
 #include <algorithm>
 #include <array>
@@ -21,20 +25,21 @@ namespace
 std::string
 TextOf(const std::exception & error)
 {
-  const auto * const itkError = dynamic_cast<const itk::ExceptionObject *>(&error);
-  if (itkError == nullptr)
+#ifdef SENSORNOISE_HAS_ITK
+  if (const auto * const itkError = dynamic_cast<const itk::ExceptionObject *>(&error))
   {
-    return error.what();
+    // what() also names the line of the source
+    std::string       text = itkError->GetDescription();
+    const std::size_t address = text.find("): ");
+    if ((text.rfind("itk::ERROR: ", 0) == 0 || text.rfind("ITK ERROR: ", 0) == 0) && address != std::string::npos)
+    {
+      text.erase(0, address + 3);
+    }
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
   }
-  // what() also names the line of the source
-  std::string       text = itkError->GetDescription();
-  const std::size_t address = text.find("): ");
-  if ((text.rfind("itk::ERROR: ", 0) == 0 || text.rfind("ITK ERROR: ", 0) == 0) && address != std::string::npos)
-  {
-    text.erase(0, address + 3);
-  }
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
+#endif
+  return error.what();
 }
 
 /** Returns whether an allocation failed in ITK or in the C++ library, which report it in different words. */
