@@ -118,13 +118,13 @@ class Browser:
         self._log.seek(0)
         return self._log.read()[-500:]
 
-    def open(self, file: Path, width: int, scheme: str, height: int = 800) -> float:
-        """Shows a file in a window `width` CSS pixels wide, "light" or "dark". Returns the seconds of loading."""
+    def open(self, file: Path | str, width: int, scheme: str, height: int = 800) -> float:
+        """Shows a file or an address in a window `width` CSS pixels wide, "light" or "dark". Returns the seconds."""
         self.events.clear()
         self.send("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
         self.send("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
         begin = time.monotonic()
-        self.send("Page.navigate", url=file.resolve().as_uri())
+        self.send("Page.navigate", url=file if isinstance(file, str) else file.resolve().as_uri())
         while not any(method == "Page.loadEventFired" for method, _ in self.events):
             self._next("load")
         return time.monotonic() - begin

@@ -10,6 +10,7 @@ from pathlib import Path
 import itk
 import numpy as np
 import pytest
+from browser import BrowserError, chromium, started
 from many_bursts import NAMES
 
 PIXEL_TYPES = ["uint8", "uint16", "int16", "float32", "float64"]
@@ -124,3 +125,16 @@ def fresh():
         return result.stdout
 
     return run
+
+
+@pytest.fixture(scope="session")
+def chrome(tmp_path_factory):
+    """Yields a browser for pages, without a window."""
+    program = chromium()
+    if program is None:
+        pytest.skip("no Chromium on this system (Debian: apt-get install chromium): pages were not looked at")
+    try:
+        with started(program, tmp_path_factory.mktemp("browser") / "profile") as browser:
+            yield browser
+    except BrowserError as error:
+        pytest.fail(str(error))

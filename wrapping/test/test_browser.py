@@ -14,7 +14,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-from browser import Browser, BrowserError, chromium, started
+from browser import Browser
 
 CHECKS = (Path(__file__).parent / "page_checks.js").read_text()
 WIDTHS = {"telephone": 390, "desk": 1280}
@@ -40,18 +40,6 @@ COMPARED = {
     "compared-failed": [f"{SMALL} --seed 1", SITUATIONS["failed"][0], f"{SMALL} --seed 2"],
 }
 NAME = "camera_0123456789abcdef_exposure_000010_ms_at_" * 4  # name of a report that cannot be broken into lines
-
-
-@pytest.fixture(scope="session")
-def chrome(tmp_path_factory):
-    program = chromium()
-    if program is None:
-        pytest.skip("no Chromium on this system (Debian: apt-get install chromium): pages were not looked at")
-    try:
-        with started(program, tmp_path_factory.mktemp("browser") / "profile") as browser:
-            yield browser
-    except BrowserError as error:
-        pytest.fail(str(error))
 
 
 def code_of(tool, *arguments) -> int:
