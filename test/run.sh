@@ -11,7 +11,8 @@
 # so, and what was tested counts. SENSORNOISE_PYTHON=1: that is a failure, too; SENSORNOISE_PYTHON=0: Python is left out.
 # SENSORNOISE_STYLE in the same way: 1, or CI=true: it is a failure that a program which checks the style is not to be had;
 # 0: the style is left out. SENSORNOISE_SITE in the same way, for the site of the documentation. SENSORNOISE_SANITIZE=0: the
-# sanitizers are left out; SENSORNOISE_FUZZ=0: libFuzzer is. examples/setup.sh has the variables of the caches.
+# sanitizers are left out; SENSORNOISE_FUZZ=0: libFuzzer is; SENSORNOISE_BROWSER=0: the page that measures bursts in a browser
+# is, which is skipped where Emscripten cannot be had. examples/setup.sh has the variables of the caches.
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 source "$here/examples/setup.sh"
@@ -58,6 +59,21 @@ sensornoise_build "$here/build" -DBUILD_TESTING=ON -DSensorNoise_BUILD_STUDIES=O
 took "build"
 run_cpp_tests "$here/build" "$@" || failed+=(C++)
 took "C++ tests"
+
+# The page in a browser, which Python's tests look at.
+unbuilt=
+if [ "${SENSORNOISE_BROWSER:-}" != 0 ]; then
+  set +e
+  bash "$here/examples/browser/build.sh" 2>&1 | tee "$here/build/browser.log"
+  status="${PIPESTATUS[0]}"
+  set -e
+  if [ "$status" = 69 ]; then
+    unbuilt="$(sed -n '$s/^build.sh: //p' "$here/build/browser.log")"
+  elif [ "$status" != 0 ]; then
+    failed+=("page in a browser")
+  fi
+  took "build of the page"
+fi
 
 unchecked=
 if [ "${SENSORNOISE_STYLE:-}" != 0 ]; then
@@ -171,5 +187,6 @@ printf '%s\n' "${times[@]}" | sort -rn
 [ -z "$untested" ] || echo "Python: not tested, $untested" >&2
 [ -z "$unchecked" ] || echo "style: not checked, $unchecked" >&2
 [ -z "$unfuzzed" ] || echo "coverage-guided search for damaged files: skipped, $unfuzzed" >&2
+[ -z "$unbuilt" ] || echo "page in a browser: not built, $unbuilt" >&2
 [ -z "$unsited" ] || echo "site of the documentation: not built, $unsited" >&2
 [ ${#failed[@]} = 0 ] || { echo "failed: ${failed[*]}" >&2; exit 1; }

@@ -7,6 +7,7 @@ _STUDY = "takes minutes or hours: the tables of the documents come from it"
 
 NOT_RUN = {
     "bash test/run.sh": _BUILDS,
+    "bash examples/browser/build.sh": _BUILDS,
     "python3 test/fuzz/fuzz_files.py --bin build/bin --count 20000": _STUDY,
     "python examples/python/measure_speed.py --bin build/bin --opencv ENV/bin/python "
     "--anscombe-transform ENV/bin/python --nanoimagingpack ENV/bin/python": _STUDY,

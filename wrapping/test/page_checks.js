@@ -12,7 +12,8 @@
   while (walker.nextNode()) {
     const node = walker.currentNode;
     const owner = node.parentElement;
-    if (!node.data.trim() || ["STYLE", "TITLE", "style", "title"].includes(owner.tagName)) continue;
+    if (!node.data.trim() || ["SCRIPT", "STYLE", "TITLE", "style", "title"].includes(owner.tagName)) continue;
+    if (owner.closest("[hidden], select")) continue; // a browser draws the choices of a list itself
     const range = document.createRange();
     range.selectNodeContents(node);
     const lines = [...range.getClientRects()].filter((line) => line.width > 0 && line.height > 0);
@@ -60,7 +61,7 @@
   // 3: text lies inside the box that it belongs to, a pixel of rounding aside.
   const inside = (line, box) =>
     line.left >= box.left - 1 && line.right <= box.right + 1 && line.top >= box.top - 1 && line.bottom <= box.bottom + 1;
-  const boxes = "li, td, th, dt, dd, p, figcaption, summary, h1, h2, h3";
+  const boxes = "li, td, th, dt, dd, p, figcaption, summary, h1, h2, h3, label, button";
   for (const { node, owner, lines, inSvg } of pieces) {
     let box = inSvg ? owner.ownerSVGElement : owner.closest(boxes);
     while (box && getComputedStyle(box).display === "contents") box = box.parentElement;

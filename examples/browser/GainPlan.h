@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef GainPlan_h
+#define GainPlan_h
+
+namespace sensornoise::browser
+{
+
+/** A burst that is to be recorded. Its grey values are spread evenly between a dark and a bright level. */
+struct PlannedBurst
+{
+  double megapixels{ 1.0 };        ///< pixels of a frame [10^6], above 0
+  double frames{ 50.0 };           ///< number of frames, at least 2
+  double electrons{ 3000.0 };      ///< electrons of the brightest pixels [e-], above 0
+  double contrast{ 10.0 };         ///< electrons of the brightest over those of the darkest pixels [1], above 1
+  double flickerSd{ 0.02 };        ///< standard deviation of the illumination factor [1], 0 or more
+  double gainDnPerElectron{ 1.0 }; ///< system gain [DN/e-], above 0
+  double readNoiseDn{ 3.0 };       ///< read noise [DN], 0 or more
+};
+
+/** Smallest errors that an unbiased estimate of the planned burst can have, and the frames that reach the goals. */
+struct GainPlan
+{
+  double gainPercent;     ///< standard error of the gain, relative to the gain [%]
+  double offsetDn;        ///< standard error of the dark offset [DN]; infinity: it is not identifiable
+  double framesForGain;   ///< frames with which the gain has a standard error of 1 %
+  double framesForOffset; ///< frames with which the offset has a standard error of 1 DN; infinity: none
+};
+
+/** Computes the plan from ComputePrecisionLimit(), the Cramér-Rao bound in closed form, in which the variances of gain
+ * and offset fall with the number of frames less one and with the number of pixels. Throws std::invalid_argument for
+ * values out of their range. */
+GainPlan
+PlanBurst(const PlannedBurst & burst);
+
+} // namespace sensornoise::browser
+
+#endif
