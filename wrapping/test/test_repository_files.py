@@ -1,0 +1,77 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Tests the files that hosts, archives and indexes read: workflows, templates, citations, recipes."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+import yaml
+
+ROOT = Path(__file__).resolve().parents[2]
+WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
+YAML_FILES = [*WORKFLOWS, *sorted((ROOT / ".github" / "ISSUE_TEMPLATE").glob("*.yml"))]
+YAML_FILES += [ROOT / "recipe" / "recipe.yaml", ROOT / "CITATION.cff", ROOT / ".readthedocs.yaml"]
+
+# The inputs that the reusable workflows of ITKRemoteModuleBuildTestPackageAction declare at the tag v5.4.4.
+INPUTS = {
+    "build-test-cxx.yml": {
+        *("cmake-options", "ctest-options", "warnings-to-ignore"),
+        *("itk-cmake-options", "itk-git-tag", "itk-module-deps"),
+    },
+    "build-test-package-python.yml": {
+        *("cmake-options", "itk-wheel-tag", "itk-python-package-tag", "itk-python-package-org", "itk-module-deps"),
+        *("python3-minor-versions", "manylinux-platforms", "macosx-deployment-target", "test-notebooks"),
+    },
+}
+ACTION = "InsightSoftwareConsortium/ITKRemoteModuleBuildTestPackageAction"
+
+
+def version_of_project() -> str:
+    """Returns the version in CMakeLists.txt."""
+    return re.search(r"project\(SensorNoise VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
+
+
+@pytest.mark.parametrize("file", YAML_FILES, ids=lambda file: file.name)
+def test_file_is_yaml_with_members(file):
+    assert isinstance(yaml.safe_load(file.read_text()), dict)
+
+
+@pytest.mark.parametrize("file", WORKFLOWS, ids=lambda file: file.name)
+def test_workflow_says_that_it_was_not_run_and_calls_what_exists(file):
+    text = file.read_text()
+    assert "# Not run yet" in text
+    workflow = yaml.safe_load(text)
+    # YAML 1.1, which PyYAML reads, takes the key "on" for a truth value.
+    assert workflow[True]["push"]["branches"] == ["main"]
+    for job in workflow["jobs"].values():
+        if "uses" in job:
+            called = re.fullmatch(rf"{ACTION}/\.github/workflows/(.+)@v5\.4\.4", job["uses"])[1]
+            assert set(job["with"]) <= INPUTS[called]
+            assert all(isinstance(value, str) for value in job["with"].values())
+            continue
+        for step in job["steps"]:
+            assert ("run" in step) != ("uses" in step)
+            for script in re.findall(r"bash (\S+)", step.get("run", "")):
+                assert (ROOT / script).is_file()
+
+
+def test_workflow_builds_the_modules_that_the_tests_need():
+    workflow = yaml.safe_load((ROOT / ".github" / "workflows" / "build-test-package.yml").read_text())
+    options = workflow["jobs"]["cxx"]["with"]["itk-cmake-options"]
+    module = (ROOT / "itk-module.cmake").read_text()
+    for needed in re.search(r"TEST_DEPENDS([\w\s]+?)\n  FACTORY_NAMES", module)[1].split():
+        assert f"-DModule_{needed}:BOOL=ON" in options
+
+
+def test_citations_have_the_version_and_the_paper():
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text())
+    codemeta = json.loads((ROOT / "codemeta.json").read_text())
+    recipe = yaml.safe_load((ROOT / "recipe" / "recipe.yaml").read_text())
+    versions = {citation["version"], codemeta["version"], recipe["context"]["version"]}
+    assert versions == {version_of_project()}
+    paper = citation["references"][0]
+    assert codemeta["referencePublication"]["identifier"] == f"https://doi.org/{paper['doi']}"
+    assert codemeta["referencePublication"]["name"] == " ".join(paper["title"].split())
+    assert codemeta["license"].endswith(f"/{citation['license']}")
