@@ -1,5 +1,5 @@
 #-- # Grading Level Criteria Report
-#-- EVALUATION DATE: 2026-11-21
+#-- EVALUATION DATE: 2026-11-27
 #-- EVALUATORS: [The ITKSensorNoise contributors]
 #--
 #-- ## Compliance level 3 star (Quality beta code)
@@ -7,6 +7,15 @@
 #--   - [X] 10% C0-code coverage demonstrated for testing suite
 #--   - [X] Some tests exist and pass on at least some platform
 #--   - [X] All requirements of Levels 2,1
+#--
+#-- Level 4 demands tests on all platforms that ITK supports. Windows and macOS were never tried.
+# A link to this file in Modules/Remote of ITK, or its repository there, fetches the module from that repository. A copy of the
+# file needs SensorNoise_GIT_REPOSITORY.
+get_filename_component(_sensornoise_repository "${CMAKE_CURRENT_LIST_FILE}" REALPATH)
+get_filename_component(_sensornoise_repository "${_sensornoise_repository}" DIRECTORY)
+if(NOT SensorNoise_GIT_REPOSITORY AND EXISTS "${_sensornoise_repository}/itk-module.cmake")
+  set(SensorNoise_GIT_REPOSITORY "${_sensornoise_repository}")
+endif()
 if(Module_SensorNoise AND NOT SensorNoise_GIT_REPOSITORY)
   message(FATAL_ERROR "Set SensorNoise_GIT_REPOSITORY to the URL or folder of the ITKSensorNoise repository.")
 endif()
@@ -17,5 +26,5 @@ also under flickering illumination and vibrations. After F. Sur and M. Grediac, 
 https://doi.org/10.1137/140977035"
   MODULE_COMPLIANCE_LEVEL 3
   GIT_REPOSITORY ${SensorNoise_GIT_REPOSITORY}
-  GIT_TAG main
+  GIT_TAG fa70121cc2cd68e1e1b5436d2b10bc228749f49e
   )
