@@ -147,6 +147,9 @@ private:
   std::vector<double> m_Sums;
 };
 
+template <typename TSource>
+BoxRows(TSource, std::size_t, std::size_t, std::size_t, std::size_t, std::size_t) -> BoxRows<TSource>;
+
 /** Calls function(first, last) for the bands of rows whose box sums are computed together, compiled for SIMD (AVX2). */
 template <typename TFunction>
 void

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdarg>
 #include <cstdio>
 #include <cstring>
 #include <iterator>
@@ -22,13 +23,16 @@ namespace sensornoise
 
 namespace
 {
-/** Returns the arguments formatted as by std::printf, at most 255 bytes. */
-template <typename... TArguments>
-std::string
-Format(const char * format, TArguments... arguments)
+/** Returns the arguments formatted as by std::printf, at most 255 bytes. GCC and Clang compare the types with the
+ * format. */
+[[gnu::format(printf, 1, 2)]] std::string
+Format(const char * format, ...)
 {
-  char buffer[256];
-  std::snprintf(buffer, sizeof(buffer), format, arguments...);
+  char    buffer[256];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(buffer, sizeof(buffer), format, arguments);
+  va_end(arguments);
   return buffer;
 }
 

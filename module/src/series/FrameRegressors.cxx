@@ -105,6 +105,9 @@ private:
   BoxRows<TSource>    m_Sums;
   std::vector<double> m_Rows;
 };
+
+template <typename TSource>
+BoxedRows(TSource, const FrameGeometry &, std::size_t, std::size_t, std::size_t) -> BoxedRows<TSource>;
 } // namespace
 
 std::vector<double>
