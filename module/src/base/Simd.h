@@ -7,6 +7,12 @@
 #include <array>
 #include <cstddef>
 
+// Defined where the compiler can make AVX2 code of single functions. The other compilers, and with
+// SENSORNOISE_PLAIN_LOOPS every compiler, get loops without it, which return the same bits.
+#if defined(__GNUC__) && defined(__x86_64__) && !defined(SENSORNOISE_PLAIN_LOOPS)
+#  define SENSORNOISE_AVX2
+#endif
+
 namespace sensornoise
 {
 
@@ -14,7 +20,7 @@ namespace sensornoise
 inline bool
 HasAvx2()
 {
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(SENSORNOISE_AVX2)
   return __builtin_cpu_supports("avx2");
 #else
   return false;
@@ -23,7 +29,7 @@ HasAvx2()
 
 namespace detail
 {
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(SENSORNOISE_AVX2)
 /** Calls function() and all functions that it calls, compiled for AVX2. The target has no fused multiplication and
  * addition, which would round differently: sums and products are the same, in the same order, and so are the bits. */
 template <typename TFunction>
@@ -41,7 +47,7 @@ template <typename TFunction>
 void
 CallWithAvx2(const TFunction & function)
 {
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(SENSORNOISE_AVX2)
   if (HasAvx2())
   {
     detail::CallWithWideVectors(function);

@@ -13,7 +13,7 @@
 #include <type_traits>
 #include <vector>
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(SENSORNOISE_AVX2)
 #  include <immintrin.h>
 #endif
 
@@ -38,7 +38,7 @@ AddTo(double * sums, const PairSums & products, double more, std::size_t pixels)
   }
 }
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(SENSORNOISE_AVX2)
 /** A single instruction multiplies sixteen values and adds the products of each pixel; compilers do not generate it. */
 __attribute__((target("avx2"))) void
 AddPairProductsAvx2(const FramePairs &               frames,
@@ -78,7 +78,7 @@ AddPairProductsAvx2(const FramePairs &               frames,
 auto
 FindAddPairProducts()
 {
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(SENSORNOISE_AVX2)
   return HasAvx2() ? AddPairProductsAvx2 : AddPairProductsOneByOne;
 #else
   return AddPairProductsOneByOne;

@@ -54,7 +54,7 @@ MultiplyGroupAnywhere(const RegressorBand::Group & group, const GroupFactors & o
   }
 }
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(SENSORNOISE_AVX2)
 /** Does the same with AVX2 vectors of four: the products and sums are the same, in the same order, and so are the bits.
  * The target has no fused multiplication and addition, which would round differently. */
 __attribute__((target("avx2"))) void
@@ -89,7 +89,7 @@ MultiplyGroupAvx2(const RegressorBand::Group & group, const GroupFactors & of, R
 auto
 FindMultiplyGroup()
 {
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(SENSORNOISE_AVX2)
   return HasAvx2() ? MultiplyGroupAvx2 : MultiplyGroupAnywhere;
 #else
   return MultiplyGroupAnywhere;
