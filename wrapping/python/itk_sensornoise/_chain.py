@@ -13,6 +13,7 @@ from ._frames import frame_image, open_frames
 from ._like import picture_like, stack_like
 from ._progress import at_work
 from ._types import Frame, Frames
+from ._update import update
 
 
 def vibration_mask_image_filter(
@@ -66,7 +67,7 @@ def vibration_mask_image_filter(
         found.SetValidMask(view(mask_array))
     set_parameters(found, parameters, "vibration_mask_image_filter")
     with itk_errors():
-        found.Update()
+        update(found)
     return picture_like(mean, found.GetOutput(), "mask")
 
 
@@ -121,5 +122,5 @@ def flicker_correction_image_filter(
     corrected.SetMask(frame_image(arrays["mask"], opened.image))
     set_parameters(corrected, parameters, "flicker_correction_image_filter")
     with at_work(corrected, False, opened), itk_errors():
-        corrected.Update()
+        update(corrected)
     return stack_like(stack, corrected.GetOutput(), "corrected")

@@ -16,6 +16,7 @@ from ._progress import at_work
 from ._record import Record
 from ._rounding import with_signs
 from ._stabilise import noise_model, open_report
+from ._update import update
 
 
 class NoiseModelCheck(Record):
@@ -126,7 +127,7 @@ def check_noise_model(frames: Any, report: Any, *, mask: Any = None, **parameter
         mask_array = mask_of_frames(mask, opened)
         estimator.SetMask(frame_image(mask_array, opened.image))
     with at_work(estimator, False, opened), itk_errors():
-        estimator.Update()
+        update(estimator)
     model = (
         slope,
         intercept,

@@ -19,6 +19,7 @@ from ._progress import at_work
 from ._record import Record
 from ._rounding import measured, with_signs
 from ._types import Frame, Frames
+from ._update import update
 
 
 class NoiseCorrelation(Record):
@@ -190,7 +191,7 @@ def noise_correlation_estimator(
         expected = "a number above 0 [DN]"
         estimator.SetQuantisationStep(_options.number("quantisation_step", quantisation_step, expected, above=0.0))
     with at_work(estimator, False, opened), itk_errors():
-        estimator.Update()
+        update(estimator)
     found = NoiseCorrelation(estimator.GetResultAsJson())
     if found.kind == "not-measured":
         warn_of_nan_frames(opened, "stack")

@@ -18,6 +18,7 @@ from ._report import Report
 from ._settings import Settings, open_dark, prepare
 from ._single_image import as_frames
 from ._types import FileName, Frame, Frames, ItkObject, Progress, Roi
+from ._update import update
 
 
 class Options(TypedDict, total=False):
@@ -269,7 +270,7 @@ def estimate_sensor_noise(
     if dark_stack is not None:
         warn_of_nan_frames(dark_stack, "dark")
     with at_work(estimator, progress, *filter(None, (prepared.stack, prepared.dark))), itk_errors():
-        estimator.Update()
+        update(estimator)
     for each in hashes:
         each.require_unchanged()
     if folder is not None:

@@ -17,6 +17,7 @@ from ._nan_frames import warn_of_nan_frames
 from ._progress import at_work
 from ._report import Report
 from ._types import Frame, Frames, ItkObject
+from ._update import update
 
 
 def set_parameters(instance: ItkObject, parameters: dict[str, Any], function: str) -> None:
@@ -115,7 +116,7 @@ def sensor_noise_estimator(
             raise InvalidTypeError(f"dark has pixels of type {dark_stack.pixel}; expected {opened.pixel}, as the stack")
         estimator.SetDark(dark_stack.image)
     with at_work(estimator, False, *stacks), itk_errors():
-        estimator.Update()
+        update(estimator)
     return report_of(estimator)
 
 
@@ -156,7 +157,7 @@ def temporal_statistics_image_filter(stack: Frames, **parameters: Any) -> tuple[
     statistics = opened.estimator(itk.TemporalStatisticsImageFilter)
     set_parameters(statistics, parameters, "temporal_statistics_image_filter")
     with at_work(statistics, False, opened), itk_errors():
-        statistics.Update()
+        update(statistics)
     if statistics.GetNumberOfNotFinitePixels() == opened.size[0] * opened.size[1]:
         warn_of_nan_frames(opened, "stack")
     return (
@@ -217,7 +218,7 @@ def noise_regression_estimator(
     if offset is not None and not np.isnan(offset):
         estimator.SetOffset(_options.number("offset", offset))
     with itk_errors():
-        estimator.Update()
+        update(estimator)
     return Report.of(estimator)
 
 
@@ -271,7 +272,7 @@ def vibration_covariance_estimator(
     if flicker_sd is not None:
         estimator.SetFlickerSd(_options.number("flicker_sd", flicker_sd))
     with itk_errors():
-        estimator.Update()
+        update(estimator)
     return {
         "variance_x": estimator.GetVarianceX(),
         "variance_y": estimator.GetVarianceY(),

@@ -13,6 +13,7 @@ from . import _options
 from ._arrays import PIXEL_NAMES, PIXEL_TYPES, as_frame, view
 from ._errors import itk_errors
 from ._types import Frame, ItkObject
+from ._update import update
 
 _CHUNK_BYTES = 64 * 2**20
 _SHAPES = ["straight", "quadratic", "wave", "shoulder", "gamma", "s-curve"]
@@ -306,7 +307,7 @@ def _draw(source: ItkObject, dtype: np.dtype[Any]) -> np.ndarray:
         region.SetIndex([0, 0, first])
         region.SetSize([width, height, min(step, frames - first)])
         output.SetRequestedRegion(region)
-        output.Update()
+        update(source)
         stack[first : first + step] = itk.array_view_from_image(output, update=False)
     return stack
 
@@ -341,5 +342,5 @@ def _scene(reference: Frame, size: tuple[int, int] | None) -> tuple[ItkObject, o
     source.SetWidth(width)
     source.SetHeight(height)
     with itk_errors(kind=ValueError):
-        source.Update()
+        update(source)
     return source.GetOutput(), source

@@ -11,6 +11,7 @@ from ._frames import frame_image, open_frames
 from ._progress import at_work
 from ._report import Report
 from ._types import Frame, Frames
+from ._update import update
 
 
 def as_frames(frames: Frames | Frame) -> Frames:
@@ -70,5 +71,5 @@ def single_image_noise_estimator(
         mask_array = mask_of_frames(mask, opened)
         estimator.SetMask(frame_image(mask_array, opened.image))
     with at_work(estimator, False, opened), itk_errors():
-        estimator.Update()
+        update(estimator)
     return report_of(estimator)

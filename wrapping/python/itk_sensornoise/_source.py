@@ -13,6 +13,7 @@ from ._arrays import PIXEL_TYPES
 from ._errors import itk_errors
 from ._names import expand
 from ._types import FileName, ItkObject
+from ._update import update
 
 # Of a file with several channels or planes: an option of the tool, and the way of Python.
 _CHOICE = ": choose --"
@@ -90,7 +91,7 @@ def read_image(file_name: FileName, what: str) -> np.ndarray:
     except ValueError as error:
         raise ValueError(f"{what} {error}") from None
     with itk_errors(f"{what} "):
-        source.Update()
+        update(source)
     image: np.ndarray = itk.array_from_image(source.GetOutput())[0]
     return image
 
@@ -142,5 +143,5 @@ def sensor_noise_frame_list_source(
         with _file_errors():
             source.UpdateOutputInformation()
     with itk_errors():
-        source.Update()
+        update(source)
     return source.GetOutput()

@@ -15,6 +15,7 @@ from ._arrays import PIXEL_NAMES, PIXEL_TYPES, as_array, as_itk_order, image_wor
 from ._errors import InvalidTypeError, itk_errors
 from ._like import is_image, is_labelled, output_of
 from ._names import is_name
+from ._update import update
 
 _SCHEMA = "itk-sensornoise-report/1"
 _REPORT = "a report of estimate_sensor_noise(), a mapping like it, or the name of its JSON file"
@@ -80,7 +81,7 @@ def generalized_anscombe_image_filter(
     stabiliser.SetVarianceSlope(slope)
     stabiliser.SetTotalIntercept(intercept)
     with itk_errors():
-        stabiliser.Update()
+        update(stabiliser)
     negative = stabiliser.GetNumberOfNegativeArguments()
     if negative > 0:
         level = -intercept / slope - 0.375 * slope
@@ -152,7 +153,7 @@ def inverse_generalized_anscombe_image_filter(
     inverter.SetTotalIntercept(intercept)
     inverter.SetInverse(inverse)
     with itk_errors():
-        inverter.Update()
+        update(inverter)
     return picture.like(inverter.GetOutput())
 
 

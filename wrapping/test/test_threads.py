@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Tests that other threads of Python run while ITK works, and that frames which Python reads are still measured."""
+
+import threading
+import time
+
+import itk
+import numpy as np
+import pytest
+
+
+def ticks_during(work) -> tuple[float, list[float], float]:
+    """Returns the start of work() in this thread, the times at which another thread ran meanwhile, and the end [s]."""
+    ticks, is_done = [], threading.Event()
+
+    def tick():
+        while not is_done.is_set():
+            ticks.append(time.perf_counter())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    start = time.perf_counter()
+    work()
+    end = time.perf_counter()
+    is_done.set()
+    thread.join()
+    return start, [at for at in ticks if start < at < end], end
+
+
+def test_threads_run_during_a_call_that_has_no_observer():
+    """The frames are drawn in one call of ITK, which shows no progress: with the lock held, the thread stands still for
+    nearly all of the time. Half of it leaves room for a machine with other work."""
+    itk.simulate_sensor_noise(frames=8, size=(64, 48))  # loads the library
+    start, ticks, end = ticks_during(lambda: itk.simulate_sensor_noise(frames=30, size=(512, 512)))
+    assert np.diff([start, *ticks, end]).max() < 0.5 * (end - start)
+
+
+def test_result_does_not_depend_on_other_threads(burst):
+    expected = itk.estimate_sensor_noise(burst)
+    found = []
+    ticks_during(lambda: found.append(itk.estimate_sensor_noise(burst)))
+    assert found == [expected]
+
+
+def test_two_threads_measure_at_once(bursts, reports):
+    found = {}
+    threads = [
+        threading.Thread(target=lambda name=name: found.update({name: itk.estimate_sensor_noise(bursts[name])}))
+        for name in bursts
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert found == reports
+
+
+class Lazy:
+    """Frames that Python reads, a few at a time."""
+
+    def __init__(self, frames: np.ndarray) -> None:
+        self.shape, self.dtype, self._frames = frames.shape, frames.dtype, frames
+
+    def __getitem__(self, times):
+        return self._frames[times]
+
+
+def test_frames_that_python_reads_are_measured_beside_a_busy_thread(burst, dark):
+    """The lock must be kept where ITK calls functions of Python without taking it: of frames and of dark frames."""
+    expected = itk.estimate_sensor_noise(burst, dark=dark)
+    for frames, of_dark in ((Lazy(burst), dark), (burst, Lazy(dark)), (list(burst), list(dark))):
+        found = []
+        ticks_during(
+            lambda frames=frames, of_dark=of_dark, found=found: found.append(
+                itk.estimate_sensor_noise(frames, dark=of_dark)
+            )
+        )
+        assert found == [expected]
+
+
+def test_error_in_a_call_without_the_lock_is_raised(burst):
+    with pytest.raises(ValueError, match="exposures"):
+        itk.estimate_sensor_noise(burst, exposures=[1.0, 2.0])
+    assert itk.estimate_sensor_noise(burst)["gain"]["status"] == "identified"
