@@ -57,7 +57,8 @@ def denoise_with_noise_model(
     denoiser : {"nlm", "itk"} or callable, default "nlm"
         What removes white Gaussian noise of variance 1: a function that takes an array (y, x) of float32 and returns
         one of the same shape; "nlm", OpenCV's non-local means, which needs cv2 (pip install
-        itk-sensornoise[denoise]); or "itk", ITK's bilateral filter.
+        itk-sensornoise[denoise]); or "itk", ITK's bilateral filter, which needs itk-filtering (pip install
+        itk-sensornoise[itk]).
     variance_slope, total_intercept : float, optional
         The model by its numbers [DN/e-], above 0, and [DN^2], in place of a report. Nothing then tells on which scale
         the levels are.
@@ -232,6 +233,12 @@ def _non_local_means(strength: float) -> Denoiser:
 
 def _bilateral(strength: float) -> Denoiser:
     import itk
+
+    if not hasattr(itk, "BilateralImageFilter"):
+        raise ImportError(
+            'denoiser "itk" is a filter of itk-filtering, which is not installed; expected '
+            '`pip install itk-sensornoise[itk]`, or denoiser="nlm"'
+        )
 
     def remove(frame: np.ndarray) -> np.ndarray:
         domain, value = _BILATERAL_SIGMAS

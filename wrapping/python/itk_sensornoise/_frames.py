@@ -223,9 +223,7 @@ def _from_lazy(frames: LazyFrames, name: str) -> Stack:
 
 
 def _from_arrays(frames: Sequence[Any], name: str) -> Stack:
-    """Frames that stay where they are: ITK joins the ones of a chunk when it comes to them."""
-    import itk
-
+    """Frames that stay where they are: the frames of a chunk are joined when ITK asks for it."""
     arrays = []
     for number, frame in enumerate(frames):
         this = f"{name}[{number}]"
@@ -238,8 +236,4 @@ def _from_arrays(frames: Sequence[Any], name: str) -> Stack:
                 f"{this} has shape {array.shape} and dtype {pixel}, but {name}[0] has {arrays[0].shape} and "
                 f"{arrays[0].dtype.name}; expected one shape and dtype for all"
             )
-    component = getattr(itk, PIXEL_TYPES[arrays[0].dtype.name][0])
-    join = itk.JoinSeriesImageFilter[itk.Image[component, 2], itk.Image[component, 3]].New()
-    for number, array in enumerate(arrays):
-        join.SetInput(number, view(array))
-    return Stack(_with_information(join), arrays[0].dtype.name, [join, arrays])
+    return _from_lazy(ListOfFrames(arrays, name), name)
