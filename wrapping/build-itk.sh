@@ -32,6 +32,8 @@ flags=(-DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF -DCMAKE_POSITION_INDEP
   -DITK_BUILD_DEFAULT_MODULES=OFF -DITKGroup_Core=OFF -DModule_ITKMesh=ON -DModule_ITKImageFilterBase=ON
   -DModule_ITKStatistics=ON -DModule_ITKImageCompose=ON -DModule_ITKBridgeNumPy=ON -DModule_ITKEigen3=ON
   -DModule_ITKIOImageBase=ON -DModule_ITKZLIB=ON
+  # The formats that the command-line tools of the wheel write.
+  -DModule_ITKIOMeta=ON -DModule_ITKIONRRD=ON -DModule_ITKIOTIFF=ON
   # As the wheel: once a filter of the wheel has run, TBB threads everyone, and without it every filter of ours throws.
   -DModule_ITKTBB=ON
   # The wheel's pixel types.
@@ -163,7 +165,9 @@ if [ ! -e "$tree/ready" ] || [ ! -d "$(configured_source)" ]; then
   {
     "$venv/bin/cmake" -G Ninja -S "$source_folder" -B "$tree" "${flags[@]}" -DSWIG_EXECUTABLE="$swig" \
       -DPython3_EXECUTABLE="$python" -DCMAKE_MAKE_PROGRAM="$venv/bin/ninja"
-    targets="$("$venv/bin/ninja" -C "$tree" -t targets all | sed -nE 's/^(lib\/lib[^:]*\.a|[A-Za-z0-9]+Swig):.*/\1/p')"
+    # The tools need no interface files of the formats.
+    targets="$("$venv/bin/ninja" -C "$tree" -t targets all |
+      sed -nE '/^ITKIO(Meta|NRRD|TIFF)Swig:/d; s/^(lib\/lib[^:]*\.a|[A-Za-z0-9]+Swig):.*/\1/p')"
     # shellcheck disable=SC2086 # a list of words
     "$venv/bin/ninja" -C "$tree" $targets
   } >&2

