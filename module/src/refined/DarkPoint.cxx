@@ -84,15 +84,28 @@ MoveToPoint(GainEstimate & estimate, const DarkPoint & dark)
 struct LevelGains
 {
   double mean{ 0.0 };
-  double variance{ 0.0 }; ///< statistical variance of the mean
-  double scatter{ 0.0 };  ///< standard deviation between levels, without statistical scatter
+  double variance{ 0.0 };        ///< statistical variance of the mean
+  double scatter{ 0.0 };         ///< standard deviation between levels, without statistical scatter
+  double inverseSignalDn{ 0.0 }; ///< weighted mean of 1 / (mean - mu) [1/DN]: the gain falls by it with sigma^2
+
+  /** Returns the covariance of the line through \a dark with the mean gain, of gain and intercept. */
+  Eigen::Matrix2d
+  CovarianceOfLine(const DarkPoint & dark) const
+  {
+    // Derivatives of gain and intercept, sigma^2 - gain mu, by sigma^2, mu, and the variance of the levels.
+    Eigen::Matrix<double, 2, 3> slopes;
+    slopes.row(0) << -inverseSignalDn, mean * inverseSignalDn, 1.0;
+    slopes.row(1) = -dark.offsetDn * slopes.row(0) + Eigen::RowVector3d(1.0, -mean, 0.0);
+    const Eigen::Vector3d errors(dark.varianceErrorDn2, dark.offsetErrorDn, std::sqrt(variance));
+    return slopes * errors.cwiseAbs2().asDiagonal() * slopes.transpose();
+  }
 };
 
 LevelGains
 GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
 {
   const double brightestDn = curve.bins.empty() ? 0.0 : curve.LevelOf(curve.bins.back());
-  double       weight = 0.0, sum = 0.0, squares = 0.0, levels = 0.0;
+  double       weight = 0.0, sum = 0.0, squares = 0.0, levels = 0.0, inverse = 0.0;
   for (const CurveBin & bin : curve.bins)
   {
     const double level = curve.LevelOf(bin);
@@ -105,6 +118,7 @@ GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
       weight += w;
       sum += w * gain;
       squares += w * gain * gain;
+      inverse += w / light;
       levels += 1.0;
     }
   }
@@ -113,6 +127,7 @@ GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
   {
     gains.mean = sum / weight;
     gains.variance = 1.0 / weight;
+    gains.inverseSignalDn = inverse / weight;
     // The scatter is significant if chi-square exceeds its expectation by two standard deviations.
     const double dof = std::max(1.0, levels - 1.0);
     const double chi2 = squares - sum * gains.mean;
@@ -143,21 +158,16 @@ CombineWithDarkPoint(GainEstimate & estimate, const RefinedResults & found)
     estimate.isDarkRejected = true;
     return;
   }
-  const LevelGains   gains = GainsOfLevels(estimate.curve, dark);
-  const VarianceLine line = estimate.line;
+  const LevelGains gains = GainsOfLevels(estimate.curve, dark);
   if (isNonlinear || isFar)
   {
     estimate.atOffset.reset(); // a non-linear response may explain the difference
   }
   if ((isNonlinear || contradiction > Significance.hint) && gains.mean > 0.0)
   {
-    const double light = std::max(1e-9, line.pivotDn - dark.offsetDn);
-    const double error = std::hypot(dark.varianceErrorDn2 / light, gains.mean * dark.offsetErrorDn / light);
-    const double square = gains.variance + error * error;
     estimate.line.gain = gains.mean;
     estimate.line.intercept = dark.varianceDn2 - gains.mean * dark.offsetDn;
-    estimate.covariance << square, -square * dark.offsetDn, -square * dark.offsetDn,
-      square * dark.offsetDn * dark.offsetDn + dark.varianceErrorDn2 * dark.varianceErrorDn2;
+    estimate.covariance = gains.CovarianceOfLine(dark);
     estimate.below = estimate.above = gains.scatter;
   }
 }
