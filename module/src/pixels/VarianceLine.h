@@ -49,12 +49,12 @@ struct PixelVariance
 /** Maps for a regression of the variance on the mean. */
 struct VarianceData
 {
-  const double *       mean;          ///< temporal mean [DN]
-  const double *       neighbourMean; ///< mean of the 8 neighbours [DN]
-  PixelVariance        variance;      ///< unbiased variance [DN^2]
-  const float *        dof;           ///< degrees of freedom of the variance
-  const std::uint8_t * mask;          ///< nonzero at the pixels that count
-  std::size_t          pixels;        ///< number of pixels
+  const double *       mean{ nullptr };          ///< temporal mean [DN]
+  const double *       neighbourMean{ nullptr }; ///< mean of the 8 neighbours [DN]
+  PixelVariance        variance;                 ///< unbiased variance [DN^2]
+  const float *        dof{ nullptr };           ///< degrees of freedom of the variance
+  const std::uint8_t * mask{ nullptr };          ///< nonzero at the pixels that count
+  std::size_t          pixels{ 0 };              ///< number of pixels
 };
 
 /** Line variance = intercept + gain mean, with its errors. */

@@ -277,6 +277,47 @@ AllowForLines(NoiseResiduals &     residuals,
   }
   return allowed;
 }
+
+ProjectedSquares
+ProjectSquares(ResidualSquares         squares,
+               const StaticScene &     scene,
+               const SceneSeries &     series,
+               const ReplacedSquares & replaced,
+               const CodeNoise &       codeNoise,
+               const ParallelFor &     parallelFor)
+{
+  // If the levels do not identify the offset, no line of the pixels determines the fraction of shot noise.
+  const FrameIllumination illumination{ series.line.gamma,
+                                        series.offset + scene.model.centreDn,
+                                        !scene.changesStrongly || series.isOffsetIdentifiable };
+  return { scene.frame,        series.basis, series.motion, std::move(squares), scene.model,
+           scene.frame.usable, parallelFor,  illumination,  replaced,           codeNoise };
+}
+
+/** Compares the noise of the frames and, if it does not differ, of their parts. Frames of several scenes are not
+ * comparable: nothing is left of what was found between them. */
+void
+MeasureFrames(PixelNoise &            noise,
+              const FrameComparison & by,
+              double                  blackDn,
+              bool                    isOneScene,
+              const ParallelFor &     parallelFor)
+{
+  const double shared = std::max(1.0, VarianceInflation(noise.correlation.space));
+  noise.variance.fromFrames = LineOfFrames(noise.variance, by, parallelFor);
+  noise.frames = CompareFrames(noise.variance, by, shared, parallelFor);
+  if (!noise.frames.HasSeveralGroups() && !by.isIlluminationLocal && MovesLittle(by))
+  {
+    const FrameEnergies energies(by.residuals, MaskOfUsed(noise.variance.pixelUse), parallelFor);
+    noise.variance.parts.frames =
+      CompareFrameParts(MakeFrameParts(energies, by.levels, { BetterLine(noise.variance), blackDn, shared }));
+  }
+  if (!isOneScene)
+  {
+    noise.variance.fromFrames = {};
+    noise.frames = {};
+  }
+}
 } // namespace
 
 PixelNoise
@@ -309,21 +350,9 @@ MeasurePixelNoise(ResidualSquares                          squares,
                             series->local.beyond > 1.0,
                             parallelFor);
   }
-  // If the levels do not identify the offset, no line of the pixels determines the fraction of shot noise.
-  const FrameIllumination illumination{ series->line.gamma,
-                                        offsetDn,
-                                        !scene.changesStrongly || series->isOffsetIdentifiable };
-  ProjectedSquares        projected(scene.frame,
-                             series->basis,
-                             series->motion,
-                             std::move(squares),
-                             scene.model,
-                             scene.frame.usable,
-                             parallelFor,
-                             illumination,
-                             allowed.replaced,
-                             codeNoise);
-  const auto              fit = [&](double varianceInflation) {
+  ProjectedSquares projected =
+    ProjectSquares(std::move(squares), scene, *series, allowed.replaced, codeNoise, parallelFor);
+  const auto fit = [&](double varianceInflation) {
     StaticVariance variance = FitStaticVariance(
       projected, chosen, pixelUse, scene.model.slopeDn, offsetDn, blackDn, parallelFor, varianceInflation);
     variance.codeNoise = codeNoise;
@@ -340,9 +369,8 @@ MeasurePixelNoise(ResidualSquares                          squares,
                                     scene,
                                     { series->line.gamma, offsetDn, zeroDn },
                                     series->local.series.cols() > 0 || allowed.lines.isTakenOff };
-  const auto compare = [&] { noise.variance.fromFrames = LineOfFrames(noise.variance, comparison, parallelFor); };
-  const auto allowForFrames = [&] {
-    compare();
+  const auto            allowForFrames = [&] {
+    noise.variance.fromFrames = LineOfFrames(noise.variance, comparison, parallelFor);
     if (comparison.AreUnequal())
     {
       residuals.SetUnequalFrames({ series->line.gamma, BetterLine(noise.variance).gain, offsetDn - zeroDn });
@@ -361,26 +389,13 @@ MeasurePixelNoise(ResidualSquares                          squares,
     LeaveOutEdges(scene.frame, noise.variance.line, chosen, pixelUse);
     noise.variance = fit(varianceInflation);
   }
-  const double shared = std::max(1.0, VarianceInflation(noise.correlation.space));
-  compare();
-  noise.frames = CompareFrames(noise.variance, comparison, shared, parallelFor);
-  if (!noise.frames.HasSeveralGroups() && !comparison.isIlluminationLocal && MovesLittle(comparison))
-  {
-    const FrameEnergies energies(residuals, MaskOfUsed(noise.variance.pixelUse), parallelFor);
-    noise.variance.parts.frames =
-      CompareFrameParts(MakeFrameParts(energies, comparison.levels, { BetterLine(noise.variance), blackDn, shared }));
-  }
+  MeasureFrames(noise, comparison, blackDn, isOneScene, parallelFor);
   MeasureSettledFrames(noise.correlation, residuals, codesDn2, parallelFor);
   if (noise.correlation.kind != NoiseKind::NotMeasured)
   {
     noise.lines.left = EstimateLineIlluminationChange(residuals, allowed.lines.axis, parallelFor);
   }
   FindOtherCauses(noise.correlation, residuals, repeated, MovesLittle(comparison), parallelFor);
-  if (!isOneScene) // frames of several scenes are not comparable
-  {
-    noise.variance.fromFrames = {};
-    noise.frames = {};
-  }
   noise.correctedVariance = std::move(projected).TakeVarianceAt(noise.variance.correctingGain);
   return noise;
 }
