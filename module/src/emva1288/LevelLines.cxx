@@ -100,6 +100,7 @@ LevelLine
 FitWeightedLine(const std::vector<LevelValue> & values)
 {
   std::vector<double> weights;
+  weights.reserve(values.size());
   for (const LevelValue & value : values)
   {
     weights.push_back(1.0 / value.variance);
@@ -134,6 +135,7 @@ LevelLine
 FitRelativeLine(const std::vector<LevelValue> & values)
 {
   std::vector<double> weights;
+  weights.reserve(values.size());
   for (const LevelValue & value : values)
   {
     weights.push_back(1.0 / (value.y * value.y));

@@ -71,6 +71,7 @@ MeasureLinearity(const TransferCurve & curve, EmvaReport & report)
 {
   const std::vector<std::size_t> inRange = PointsInRange(curve);
   std::vector<LevelValue>        values;
+  values.reserve(inRange.size());
   for (const std::size_t i : inRange)
   {
     values.push_back({ curve.AbscissaOf(curve.points[i]), curve.points[i].signalDn, 0.0 });

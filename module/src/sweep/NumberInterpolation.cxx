@@ -54,6 +54,7 @@ InterpolateNumber(const std::vector<SettingNumber> & points, double setting, boo
                                 "; expected a setting between two measured ones, where nothing is extrapolated");
   }
   std::vector<LinePoint> line;
+  line.reserve(points.size());
   for (const SettingNumber & each : points)
   {
     line.push_back(PointOf(each, isLogarithmic));
