@@ -96,7 +96,7 @@ public:
   Add(const ListLine & line)
   {
     const std::vector<std::string> words = WordsOf(line.text);
-    const std::string & kind = words.front();
+    const std::string &            kind = words.front();
     if (kind == "n" && words.size() == 4)
     {
       m_List.bitDepth = static_cast<unsigned int>(line.Number(words[1], "the bit depth"));

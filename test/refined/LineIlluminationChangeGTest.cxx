@@ -28,10 +28,10 @@ ReportOfInterlaced(double sd, bool areColumns = false)
   settings.seed = 3;
   auto                       stack = Simulate<unsigned short>(settings, Size, Size);
   std::mt19937               random(7);
-  std::normal_distribution<> normal(0.0, sd);
+  std::normal_distribution<> normal;
   for (std::size_t t = 0; t < Frames; ++t)
   {
-    const double factor = 1.0 + normal(random);
+    const double factor = 1.0 + sd * normal(random);
     for (std::size_t p = 0; p < Size * Size; ++p)
     {
       if ((areColumns ? p : p / Size) % 2 != 0 && sd > 0.0)
