@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 
@@ -99,21 +98,20 @@ GainOfDecibels(double decibels)
 std::vector<SweepTableRow>
 ReadSweepTable(const std::string & file)
 {
-  std::ifstream stream(file);
-  if (!stream || std::filesystem::is_directory(file))
+  const std::string expected =
+    "--sweep: the table " + file + " cannot be read; expected a text file with a header such as iso,frames,dark";
+  if (std::filesystem::is_directory(file))
   {
-    throw std::runtime_error("--sweep: the table " + file +
-                             " cannot be read; expected a text file with a header such as iso,frames,dark");
+    throw std::runtime_error(expected);
   }
   const std::filesystem::path      folder = std::filesystem::path(file).parent_path();
   std::optional<SweepTableColumns> columns;
   std::size_t                      width = 0;
   std::vector<SweepTableRow>       rows;
   std::size_t                      number = 0;
-  for (std::string line; std::getline(stream, line);)
+  for (const std::string & line : ReadLines(file, expected))
   {
-    const bool hasMark = ++number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0; // byte order mark of UTF-8
-    line = Trim(hasMark ? line.substr(3) : line);
+    ++number;
     if (line.empty() || line.front() == '#')
     {
       continue;
