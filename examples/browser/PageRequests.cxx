@@ -26,7 +26,7 @@
 #include <variant>
 #include <vector>
 
-// Tells the page how far the work is: the pass, from 0, and the fraction of it that is done.
+// Reports the progress to the page: the number of the pass, from 0, and the fraction of it that is done.
 EM_JS(void, TellProgress, (unsigned int pass, double fraction), { Module["onProgress"](pass, fraction); });
 
 namespace

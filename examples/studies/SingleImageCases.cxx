@@ -33,7 +33,7 @@ constexpr double TwoPi = 6.283185307179586;
 constexpr double WavePeriodX = 128.0; // [pixels]
 constexpr double WavePeriodY = 192.0; // [pixels]
 
-/** What one case simulates. */
+/** Scene, camera and clipping of the frames of a case. */
 struct ImageCase
 {
   std::string scene;

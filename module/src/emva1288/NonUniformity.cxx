@@ -19,8 +19,8 @@ namespace
 struct SpatialPart
 {
   double EmvaSpatialVariance::* variance;  ///< the part [DN^2]
-  bool                          ofColumns; ///< its error is that of the means of the columns
-  bool                          ofRows;    ///< its error is that of the means of the rows
+  bool                          ofColumns; ///< the means of the columns determine its error
+  bool                          ofRows;    ///< the means of the rows determine its error
 };
 
 constexpr SpatialPart Total{ &EmvaSpatialVariance::totalDn2, false, false };

@@ -78,7 +78,7 @@ struct StaticScene
   std::optional<NothingToMeasure> failureReason;
 };
 
-/** What the scene needs beside the maps if the illumination changes strongly (LevelProjection). */
+/** Results of LevelProjection that the scene needs beside the maps, if the illumination changes strongly. */
 struct StrongChange
 {
   double              darkestNoiseDn2{ 0.0 }; ///< upper bound of the noise variance in the darkest frame [DN^2]
