@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "browser/BurstEstimate.h"
 
+#include "files/PixelTypes.h"
 #include "browser/BurstChunks.h"
 #include "browser/BurstMemory.h"
 #include "browser/DarkOffset.h"
@@ -240,19 +241,8 @@ EstimateBurst(const Burst & burst, const Burst * dark, const BurstOptions & opti
 {
   RequireMethod(options, dark != nullptr);
   RequirePageMemory(burst, options);
-  switch (burst.pixel)
-  {
-    case FramePixel::UnsignedChar:
-      return Estimate<unsigned char>(burst, dark, options, progress);
-    case FramePixel::UnsignedShort:
-      return Estimate<unsigned short>(burst, dark, options, progress);
-    case FramePixel::Short:
-      return Estimate<short>(burst, dark, options, progress);
-    case FramePixel::Float:
-      return Estimate<float>(burst, dark, options, progress);
-    default:
-      return Estimate<double>(burst, dark, options, progress);
-  }
+  return CallWithPixelType(burst.pixel,
+                           [&](auto pixel) { return Estimate<decltype(pixel)>(burst, dark, options, progress); });
 }
 
 } // namespace sensornoise::browser

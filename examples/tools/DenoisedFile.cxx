@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/DenoisedFile.h"
 
+#include "files/PixelTypes.h"
 #include "base/FreeMemory.h"
 #include "sensornoise/NoiseModel.h"
 #include "tools/ImageScale.h"
@@ -157,19 +158,8 @@ WriteDenoised(const std::string &    input,
   FrameChoice all;
   all.all = true;
   const FrameList list = OpenFrames({ input }, {}, rawLayout, all);
-  switch (list.pixel)
-  {
-    case FramePixel::UnsignedChar:
-      return WriteOf<unsigned char>(list, report, denoise, output, asFloat);
-    case FramePixel::UnsignedShort:
-      return WriteOf<unsigned short>(list, report, denoise, output, asFloat);
-    case FramePixel::Short:
-      return WriteOf<short>(list, report, denoise, output, asFloat);
-    case FramePixel::Float:
-      return WriteOf<float>(list, report, denoise, output, asFloat);
-    default:
-      return WriteOf<double>(list, report, denoise, output, asFloat);
-  }
+  return CallWithPixelType(
+    list.pixel, [&](auto pixel) { return WriteOf<decltype(pixel)>(list, report, denoise, output, asFloat); });
 }
 
 } // namespace sensornoise::tools

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/EmvaRun.h"
 
+#include "files/PixelTypes.h"
 #include "sensornoise/Emva1288.h"
 #include "tools/EmvaSources.h"
 #include "tools/EstimateOptions.h"
@@ -109,19 +110,7 @@ AddUp(const FrameList & list, const EmvaSource & source)
     frames.resize(list.frames);
     std::iota(frames.begin(), frames.end(), std::size_t{ 0 });
   }
-  switch (list.pixel)
-  {
-    case FramePixel::UnsignedChar:
-      return AddUp<unsigned char>(list, frames);
-    case FramePixel::UnsignedShort:
-      return AddUp<unsigned short>(list, frames);
-    case FramePixel::Short:
-      return AddUp<short>(list, frames);
-    case FramePixel::Float:
-      return AddUp<float>(list, frames);
-    default:
-      return AddUp<double>(list, frames);
-  }
+  return CallWithPixelType(list.pixel, [&](auto pixel) { return AddUp<decltype(pixel)>(list, frames); });
 }
 
 EmvaReport

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/ImageOnFile.h"
 
+#include "files/PixelTypes.h"
+
 #include <algorithm>
 #include <vector>
 
@@ -28,23 +30,7 @@ ReadImage(const FrameList & list)
   image->SetRegions(ImageType::SizeType{ { list.width, list.height } });
   image->Allocate();
   double * const values = image->GetBufferPointer();
-  switch (list.pixel)
-  {
-    case FramePixel::UnsignedChar:
-      ReadAs<unsigned char>(list, values);
-      break;
-    case FramePixel::UnsignedShort:
-      ReadAs<unsigned short>(list, values);
-      break;
-    case FramePixel::Short:
-      ReadAs<short>(list, values);
-      break;
-    case FramePixel::Float:
-      ReadAs<float>(list, values);
-      break;
-    default:
-      ReadAs<double>(list, values);
-  }
+  CallWithPixelType(list.pixel, [&](auto pixel) { return ReadAs<decltype(pixel)>(list, values); });
   return image;
 }
 

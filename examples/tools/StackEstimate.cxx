@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/StackEstimate.h"
 
+#include "files/PixelTypes.h"
 #include "tools/CompanionFiles.h"
 #include "tools/EstimateOptions.h"
 #include "tools/FilesHash.h"
@@ -325,19 +326,8 @@ PatternOf(const EstimateOptions & options, const MeasuredStack & measured)
 MeasuredStack
 EstimateStack(const EstimateOptions & options, const FrameList & list, MapFiles * maps, std::string * plot)
 {
-  switch (list.pixel)
-  {
-    case FramePixel::UnsignedChar:
-      return Estimate<unsigned char>(options, list, maps, plot);
-    case FramePixel::UnsignedShort:
-      return Estimate<unsigned short>(options, list, maps, plot);
-    case FramePixel::Short:
-      return Estimate<short>(options, list, maps, plot);
-    case FramePixel::Float:
-      return Estimate<float>(options, list, maps, plot);
-    default:
-      return Estimate<double>(options, list, maps, plot);
-  }
+  return CallWithPixelType(list.pixel,
+                           [&](auto pixel) { return Estimate<decltype(pixel)>(options, list, maps, plot); });
 }
 
 } // namespace sensornoise::tools
