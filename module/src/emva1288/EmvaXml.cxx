@@ -21,7 +21,7 @@ using Value = std::optional<double>;
 struct XmlEntry
 {
   const char * section;
-  const char * name;
+  std::string  name;
   const char * unit;
   Value        value;
 };
@@ -88,19 +88,19 @@ AddSensitivity(const EmvaReport & report, std::vector<XmlEntry> & entries)
 
 /** Adds the variances of the series of the PRNU, or with \a suffix "_dark" of the DSNU. */
 void
-AddVariances(const EmvaSpatialVariance & of, bool isDark, std::vector<XmlEntry> & entries)
+AddVariances(const EmvaSpatialVariance & of, const char * suffix, std::vector<XmlEntry> & entries)
 {
-  const auto add = [&](const char * bright, const char * dark, double value) {
-    entries.push_back({ "spatial", isDark ? dark : bright, "DN2", value });
+  const auto add = [&](const std::string & name, double value) {
+    entries.push_back({ "spatial", name + suffix, "DN2", value });
   };
-  add("s_2_y", "s_2_y_dark", of.totalDn2);
-  add("s_2_y_cav", "s_2_y_cav_dark", of.columnMeanDn2);
-  add("s_2_y_col", "s_2_y_col_dark", of.columnDn2);
-  add("s_2_y_measured", "s_2_y_measured_dark", of.measuredDn2);
-  add("s_2_y_pixel", "s_2_y_pixel_dark", of.pixelDn2);
-  add("s_2_y_rav", "s_2_y_rav_dark", of.rowMeanDn2);
-  add("s_2_y_row", "s_2_y_row_dark", of.rowDn2);
-  add("sigma_2_y_stack", "sigma_2_y_stack_dark", of.stackDn2);
+  add("s_2_y", of.totalDn2);
+  add("s_2_y_cav", of.columnMeanDn2);
+  add("s_2_y_col", of.columnDn2);
+  add("s_2_y_measured", of.measuredDn2);
+  add("s_2_y_pixel", of.pixelDn2);
+  add("s_2_y_rav", of.rowMeanDn2);
+  add("s_2_y_row", of.rowDn2);
+  add("sigma_2_y_stack", of.stackDn2);
 }
 
 void
@@ -121,8 +121,8 @@ AddSpatial(const EmvaReport & report, std::vector<XmlEntry> & entries)
   add("PRNU1288_col", "\\%", report.prnuColumn);
   add("PRNU1288_pixel", "\\%", report.prnuPixel);
   add("PRNU1288_row", "\\%", report.prnuRow);
-  AddVariances(VariancesOf(report, report.brightStack), false, entries);
-  AddVariances(VariancesOf(report, report.darkStack), true, entries);
+  AddVariances(VariancesOf(report, report.brightStack), "", entries);
+  AddVariances(VariancesOf(report, report.darkStack), "_dark", entries);
 }
 
 std::vector<XmlEntry>
@@ -189,7 +189,7 @@ ToXml(const EmvaReport & report)
       section = entry.section;
       text += "  <" + section + ">\n" + (section == "linearity" ? LinearityAsXml(report) : "");
     }
-    text += std::string("    <") + entry.name + ">\n      <section>" + entry.section + "</section>\n" +
+    text += "    <" + entry.name + ">\n      <section>" + entry.section + "</section>\n" +
             (*entry.unit != '\0' ? std::string("      <unit>") + entry.unit + "</unit>\n" : "") + "      <value>" +
             NumberAsText(entry.value) + "</value>\n    </" + entry.name + ">\n";
   }
