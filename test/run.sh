@@ -19,6 +19,7 @@ source "$here/examples/setup.sh"
 export SENSORNOISE_WARNINGS_AS_ERRORS="${SENSORNOISE_WARNINGS_AS_ERRORS:-ON}"
 
 failed=()
+skipped=()
 times=()
 export CCACHE_STATSLOG="$here/build/ccache.log" # what ccache did since a part began
 # took PART: notes the time since the last part ended, and how many of its objects ccache had.
@@ -43,11 +44,34 @@ run_cpp_tests() {
   return "$status"
 }
 
+# is_required VALUE: whether a part must not be skipped, by the value of its variable.
+is_required() {
+  if [ "$1" = 1 ] || [ "${CI:-}" = true ]; then echo yes; else echo no; fi
+}
+
+# run_part NAME TIMED SKIPPED REQUIRED SCRIPT [arguments]: runs a part with a log of its own, and notes its time. A script that
+# cannot run exits with 69, and its last line, "script: reason", says why: unless REQUIRED is yes, that is noted with the
+# words SKIPPED. Any other exit code is a failure of NAME.
+run_part() {
+  local log="$here/build/${1// /-}.log" status
+  # Not `bash … || …`: the exit code of tee would be the one looked at.
+  set +e
+  bash "${@:5}" 2>&1 | tee "$log"
+  status="${PIPESTATUS[0]}"
+  set -e
+  if [ "$status" = 69 ] && [ "$4" != yes ]; then
+    skipped+=("$3, $(sed -n '$s/^[^ ]*\.sh: //p' "$log")")
+  elif [ "$status" != 0 ]; then
+    failed+=("$1")
+  fi
+  took "$2"
+}
+
 # OpenCV that reads images and videos, for examples/opencv: 60 MB to download, 230 MB on the disk.
 sensornoise_packages+=(libopencv-imgcodecs-dev libopencv-videoio-dev)
 
 mkdir -p "$here/build"
-rm -f "$here"/build/{pytest,fuzz,coverage-guided,ccache}.log
+rm -f "$here"/build/{pytest,fuzz,coverage-guided-search,ccache}.log
 SECONDS=0
 sensornoise_install
 # A browser for the pages of --plot: 115 MB to download, 360 MB on the disk. Without it their tests are skipped.
@@ -61,47 +85,17 @@ run_cpp_tests "$here/build" "$@" || failed+=(C++)
 took "C++ tests"
 
 # The page in a browser, which Python's tests look at.
-unbuilt=
 if [ "${SENSORNOISE_BROWSER:-}" != 0 ]; then
-  set +e
-  bash "$here/examples/browser/build.sh" 2>&1 | tee "$here/build/browser.log"
-  status="${PIPESTATUS[0]}"
-  set -e
-  if [ "$status" = 69 ]; then
-    unbuilt="$(sed -n '$s/^build.sh: //p' "$here/build/browser.log")"
-  elif [ "$status" != 0 ]; then
-    failed+=("page in a browser")
-  fi
-  took "build of the page"
+  run_part "page in a browser" "build of the page" "page in a browser: not built" no "$here/examples/browser/build.sh"
 fi
 
-unchecked=
 if [ "${SENSORNOISE_STYLE:-}" != 0 ]; then
-  # Not `check-style.sh || …`: the exit code of tee would be the one looked at.
-  set +e
-  bash "$here/test/check-style.sh" 2>&1 | tee "$here/build/style.log"
-  status="${PIPESTATUS[0]}"
-  set -e
-  if [ "$status" = 69 ] && [ "${SENSORNOISE_STYLE:-}" != 1 ] && [ "${CI:-}" != true ]; then
-    unchecked="$(sed -n '$s/^check-style.sh: //p' "$here/build/style.log")"
-  elif [ "$status" != 0 ]; then
-    failed+=(style)
-  fi
-  took "style"
+  run_part style style "style: not checked" "$(is_required "${SENSORNOISE_STYLE:-}")" "$here/test/check-style.sh"
 fi
 
-unsited=
 if [ "${SENSORNOISE_SITE:-}" != 0 ]; then
-  set +e
-  bash "$here/documentation/build.sh" "$here/build/site" 2>&1 | tee "$here/build/site.log"
-  status="${PIPESTATUS[0]}"
-  set -e
-  if [ "$status" = 69 ] && [ "${SENSORNOISE_SITE:-}" != 1 ] && [ "${CI:-}" != true ]; then
-    unsited="$(sed -n '$s/^build.sh: //p' "$here/build/site.log")"
-  elif [ "$status" != 0 ]; then
-    failed+=(documentation)
-  fi
-  took "site of the documentation"
+  run_part documentation "site of the documentation" "site of the documentation: not built" \
+    "$(is_required "${SENSORNOISE_SITE:-}")" "$here/documentation/build.sh" "$here/build/site"
 fi
 
 # test_wheel WHEEL: the wheel as a user installs it. Run from build/, so that nothing of the checkout is imported.
@@ -130,7 +124,6 @@ test_wheel() (
   "$venv/bin/python" "$here/test/fuzz/fuzz_files.py" --bin "$SENSORNOISE_BIN" --python "$venv/bin/python" --count 1000 \
     --seconds 120 2>&1 | tee fuzz.log
 )
-untested=
 if [ "${SENSORNOISE_PYTHON:-}" != 0 ]; then
   log="$here/build/wheel.log"
   # Not `test_wheel || …`: there bash would ignore set -e inside it.
@@ -140,14 +133,15 @@ if [ "${SENSORNOISE_PYTHON:-}" != 0 ]; then
   status="${PIPESTATUS[0]}"
   took "wheel"
   if [ "$status" = 69 ] && [ "${SENSORNOISE_PYTHON:-}" != 1 ]; then
-    untested="$(sed -n '$s/^build-itk.sh: //p' "$log")"
+    skipped+=("Python: not tested, $(sed -n '$s/^build-itk.sh: //p' "$log")")
+    status=0
   elif [ "$status" = 0 ]; then
     test_wheel "$(cat "$here/build/wheel.path")"
     status=$?
     took "Python tests"
   fi
   set -e
-  [ "$status" = 0 ] || [ -n "$untested" ] || failed+=(Python)
+  [ "$status" = 0 ] || failed+=(Python)
 fi
 
 if [ "${SENSORNOISE_SANITIZE:-}" != 0 ]; then
@@ -161,32 +155,19 @@ if [ "${SENSORNOISE_SANITIZE:-}" != 0 ]; then
   took "C++ tests with sanitizers"
 fi
 
-unfuzzed=
 if [ "${SENSORNOISE_FUZZ:-}" != 0 ]; then
-  set +e
-  bash "$here/test/fuzz/coverage_guided.sh" --runs 30000 2>&1 | tee "$here/build/coverage-guided.log"
-  status="${PIPESTATUS[0]}"
-  set -e
-  if [ "$status" = 69 ]; then
-    unfuzzed="$(sed -n '$s/^coverage_guided.sh: //p' "$here/build/coverage-guided.log")"
-  elif [ "$status" != 0 ]; then
-    failed+=("coverage-guided search")
-  fi
-  took "coverage-guided search"
+  run_part "coverage-guided search" "coverage-guided search" "coverage-guided search for damaged files: skipped" no \
+    "$here/test/fuzz/coverage_guided.sh" --runs 30000
 fi
 
 # What failed once more, where it is seen: hundreds of lines may stand between.
 grep -hE '^(FAILED|ERROR) ' "$here/build/pytest.log" 2>/dev/null || true
 grep -hE '^(CRASH|HANG|[A-Z ]+): number ' "$here/build/fuzz.log" 2>/dev/null || true
-grep -hE '^(FINDING|  file: )' "$here/build/coverage-guided.log" 2>/dev/null || true
+grep -hE '^(FINDING|  file: )' "$here/build/coverage-guided-search.log" 2>/dev/null || true
 cat "$here"/build/Testing/Temporary/LastTestsFailed*.log "$here"/build/sanitized/Testing/Temporary/LastTestsFailed*.log \
   2>/dev/null || true
 echo "what each part took:"
 printf '%s\n' "${times[@]}" | sort -rn
 [ ! -d "$sensornoise_cache" ] || echo "caches: $(du -sh "$sensornoise_cache" | cut -f1) in $sensornoise_cache"
-[ -z "$untested" ] || echo "Python: not tested, $untested" >&2
-[ -z "$unchecked" ] || echo "style: not checked, $unchecked" >&2
-[ -z "$unfuzzed" ] || echo "coverage-guided search for damaged files: skipped, $unfuzzed" >&2
-[ -z "$unbuilt" ] || echo "page in a browser: not built, $unbuilt" >&2
-[ -z "$unsited" ] || echo "site of the documentation: not built, $unsited" >&2
+[ ${#skipped[@]} = 0 ] || printf '%s\n' "${skipped[@]}" >&2
 [ ${#failed[@]} = 0 ] || { echo "failed: ${failed[*]}" >&2; exit 1; }
