@@ -118,6 +118,30 @@ TEST(SensorNoiseUnlikeFrames, VibrationIsAlike)
   EXPECT_EQ(UnlikeOf(ThumbnailsOf(Expose(frames, shaken))), "");
 }
 
+TEST(SensorNoiseUnlikeFrames, AVibrationThatFewCellsSeeIsAlike)
+{
+  constexpr std::size_t frames = 100;
+  CounterSeededRandom   random(5);
+  std::vector<double>   shifts; // [pixel]
+  for (std::size_t t = 0; t < frames; ++t)
+  {
+    shifts.push_back(0.06 * random.Normal());
+  }
+  // The edges are at the borders of cells: only a shift to one side moves light from one cell to another.
+  const auto barsOf = [&](std::size_t t, double x, double shift) {
+    const double reached = std::max(0.0, shift + (t == 50 ? 0.3 : 0.0));
+    const auto   column = static_cast<std::size_t>(x);
+    const bool   isBright = column / 8 % 2 == 0;
+    return 200.0 + (isBright ? 3000.0 : 0.0) + (column % 8 == 0 ? (isBright ? -3000.0 : 3000.0) * reached : 0.0);
+  };
+  const auto shaken = [&](std::size_t t, double x, double) { return barsOf(t, x, shifts[t]); };
+  EXPECT_EQ(UnlikeOf(ThumbnailsOf(Expose(frames, shaken))), "");
+  const auto withAThing = [&](std::size_t t, double x, double y) {
+    return barsOf(t, x, shifts[t]) * (t == 30 && y > 10.0 && y < 30.0 ? 0.8 : 1.0);
+  };
+  EXPECT_EQ(UnlikeOf(ThumbnailsOf(Expose(frames, withAThing))), "30 other-shape; ");
+}
+
 TEST(SensorNoiseUnlikeFrames, EachKindIsNamedWhereverItStands)
 {
   const Light light = [](std::size_t t, double x, double y) {

@@ -166,6 +166,9 @@ struct MomentsConstants
    * Chosen empirically: a vibration along two axes makes exponentially distributed squares, one in 5 10^12 of them so
    * large. */
   double unlikeZ{ 40.0 };
+  /** Number of patterns in which vibration changes the cells of the frames: the first and second derivatives of the
+   * scene [1]. */
+  int modesOfVibration{ 5 };
   /** Least effect of an unlike frame: the variance that it adds to a pixel, relative to the variance of the pixel [1].
    * Chosen for its effect: it changes the gain by a thousandth. */
   double leastUnlikeEffect{ 1e-3 };

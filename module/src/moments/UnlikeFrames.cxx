@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "moments/UnlikeFrames.h"
 
+#include "base/Eigen.h"
 #include "base/Quantiles.h"
 #include "moments/Constants.h"
 #include "moments/FrameFit.h"
@@ -14,6 +15,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <utility>
 
 namespace sensornoise
 {
@@ -159,15 +161,21 @@ FindMisfits(const FrameThumbnails &     thumbnails,
   return misfits;
 }
 
-/** Returns the distance of each of \a values above their median, in units of their standard deviation [1]. The standard
- * deviation is estimated from the median deviation, and is at least the statistical error of a mean square over the
- * number of \a cells. */
+/** Returns the median of \a values and their standard deviation, which is estimated from the median deviation, and is
+ * at least the statistical error of a mean square over the number of \a cells. */
+std::pair<double, double>
+SpreadOf(const std::vector<double> & values, std::size_t cells)
+{
+  const auto [median, sd] = CentreOf(values);
+  return { median,
+           std::max({ sd, median * std::sqrt(2.0 / static_cast<double>(cells)), std::numeric_limits<double>::min() }) };
+}
+
+/** Returns the distance of each of \a values above their median, in units of their standard deviation [1]. */
 std::vector<double>
 HowFar(const std::vector<double> & values, std::size_t cells)
 {
-  const auto [median, sd] = CentreOf(values);
-  const double spread =
-    std::max({ sd, median * std::sqrt(2.0 / static_cast<double>(cells)), std::numeric_limits<double>::min() });
+  const auto [median, spread] = SpreadOf(values, cells);
   std::vector<double> far;
   far.reserve(values.size());
   for (const double value : values)
@@ -186,6 +194,66 @@ HowUnlike(const Misfits & misfits, std::size_t cells)
   std::transform(
     far.begin(), far.end(), ofBoth.begin(), far.begin(), [](double a, double b) { return std::min(a, b); });
   return far;
+}
+
+/** Returns the deviations of the frames \a kept from \a mean as rows, of one illumination [DN]. */
+Eigen::MatrixXd
+DeviationsOf(const FrameThumbnails &     thumbnails,
+             const Indices &             cells,
+             const Indices &             kept,
+             const std::vector<double> & mean)
+{
+  Eigen::MatrixXd deviations(kept.size(), cells.size());
+  for (std::size_t k = 0; k < kept.size(); ++k)
+  {
+    const std::vector<double> frame = thumbnails.MeansOf(kept[k], cells);
+    const FrameFit            fit = FitMostCells(mean, frame);
+    const double              factor = std::max(1.0, std::abs(fit.factor));
+    for (std::size_t i = 0; i < cells.size(); ++i)
+    {
+      deviations(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) =
+        fit.DifferenceOf(mean[i], frame[i]) / factor;
+    }
+  }
+  return deviations;
+}
+
+/** Returns the frames among \a kept with \a deviations from the mean that the frames not \a found do not explain.
+ *
+ * A frame that vibration moves further than the others deviates along the same directions, which are the leading
+ * principal components of the others: those of a Taylor series of second order in two shifts. \a largest is the largest
+ * mean square of the rest [DN^2]. */
+Indices
+WithoutLargerVibration(const Eigen::MatrixXd & deviations, const Indices & kept, const Indices & found, double largest)
+{
+  const auto         isFound = [&found](std::size_t t) { return std::binary_search(found.begin(), found.end(), t); };
+  const Eigen::Index cells = deviations.cols();
+  std::vector<Eigen::Index> others;
+  for (std::size_t k = 0; k < kept.size(); ++k)
+  {
+    if (!isFound(kept[k]))
+    {
+      others.push_back(static_cast<Eigen::Index>(k));
+    }
+  }
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(cells, cells);
+  for (const Eigen::Index k : others)
+  {
+    gram.selfadjointView<Eigen::Lower>().rankUpdate(deviations.row(k).transpose());
+  }
+  const auto modes = std::min<Eigen::Index>(InMoments.modesOfVibration, static_cast<Eigen::Index>(others.size()) / 4);
+  const Eigen::MatrixXd vectors = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram).eigenvectors().rightCols(modes);
+  Indices               rest;
+  for (std::size_t k = 0; k < kept.size(); ++k)
+  {
+    const Eigen::RowVectorXd own = deviations.row(static_cast<Eigen::Index>(k));
+    const Eigen::RowVectorXd left = own - own * vectors * vectors.transpose();
+    if (isFound(kept[k]) && left.squaredNorm() > largest * static_cast<double>(cells))
+    {
+      rest.push_back(kept[k]);
+    }
+  }
+  return rest;
 }
 
 /** Finds the frames among \a kept whose shape differs from the mean of the others. */
@@ -228,7 +296,13 @@ FindOtherShapes(const FrameThumbnails & thumbnails, const Indices & cells, const
       found.push_back(kept[k]);
     }
   }
-  return found;
+  if (found.empty())
+  {
+    return found;
+  }
+  const auto [median, spread] = SpreadOf(misfits.ofBoth, cells.size());
+  return WithoutLargerVibration(
+    DeviationsOf(thumbnails, cells, kept, mean), kept, found, std::max(least, median + InMoments.unlikeZ * spread));
 }
 
 Indices
