@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/UsablePixels.h"
+#include "scene/InitialNoiseModel.h"
+#include "scene/ReferenceFrame.h"
 #include "sensornoise/Parallel.h"
 #include "helpers/FrameTestHelper.h"
 
@@ -62,4 +64,30 @@ TEST(SensorNoiseUnexplainedPixels, AreThoseFarAboveTheModel)
   }
   EXPECT_EQ(moving[33 * Width + 50], 0);
   EXPECT_EQ(moving[lonely], 1);
+}
+
+TEST(SensorNoiseUnexplainedPixels, AreNotThoseOfEdgesSharperThanAPixel)
+{
+  // Vertical edges, each within one pixel, which changes by the whole step; its neighbours do not change.
+  constexpr double shiftVariance = 0.01; // [pixel^2]
+  constexpr double noiseDn2 = 50.0;
+  constexpr double stepDn = 1000.0;
+  SyntheticFrames  frames(Width, Height, std::vector<FrameChange>(20));
+  auto &           frame = frames.reference;
+  for (std::size_t p = 0; p < frame.mean.size(); ++p)
+  {
+    const std::size_t inPeriod = p % Width % 14;
+    const double      light = inPeriod < 6 ? 0.0 : inPeriod == 6 || inPeriod == 13 ? 0.4 : 1.0;
+    const bool        isEdge = inPeriod == 6 || inPeriod == 13;
+    frame.mean[p] = 500.0 + stepDn * light;
+    frame.variance[p] = noiseDn2 + (isEdge ? shiftVariance * stepDn * stepDn : 0.0);
+  }
+  frame.neighbourMean = ComputeNeighbourMean(frame, SerialFor);
+  const InitialNoiseModel model = FitInitialNoiseModel(frame);
+  EXPECT_TRUE(model.isSharp);
+  EXPECT_GT(model.vibrationXPixels2, shiftVariance);
+  EXPECT_LT(model.vibrationXPixels2, 4.0 * shiftVariance); // the difference is half of the step, and twice as wide
+  EXPECT_EQ(Count(FindOutlierPixels(frame, model, SerialFor)), 0u);
+  frame.variance[20 * Width + 24] = 100.0 * noiseDn2; // in a bright bar
+  EXPECT_EQ(Count(FindOutlierPixels(frame, model, SerialFor)), 1u);
 }

@@ -25,6 +25,15 @@ struct SceneConstants
    * Chosen empirically. */
   double startRatioSmooth{ 2.5 };
   double startRatioRough{ 30.0 };
+  /** Ratio of the squared derivatives along both axes from which the variance of a pixel shows the motion along one of
+   * them [1]. Chosen empirically. */
+  double energyAlongAxis{ 4.0 };
+  /** Largest fraction of the squared derivatives of the mean that a model may leave out, and largest fraction of the
+   * smoother half of the pixels, from which objects move and not the edges [1]. Chosen empirically: scenes with edges
+   * sharper than a pixel leave out 0.3 to 0.75 of the derivatives and up to 0.035 of the smooth pixels, others 0.02 and
+   * 0.003. */
+  double largestRejectedEnergy{ 0.1 };
+  double largestRejectedSmooth{ 0.05 };
   /** Lower bound of the predicted variance, as a fraction of the variance of the darkest levels [1]. Chosen
    * empirically: a fit may become negative. */
   double leastFractionOfDarkest{ 0.2 };

@@ -302,6 +302,14 @@ MarkOutlierPixels(const ReferenceFrame & frame,
     const bool   isAbove = variance[p] > model.largestRatio * expected;
     unexplained[p] = usable[p] != 0 && isAbove ? 1 : 0;
   }
+  for (std::size_t p = begin; p < end && model.isSharp; ++p) // apart from the first loop, which is vectorized
+  {
+    if (unexplained[p] != 0)
+    {
+      const double largest = model.LargestVariance(level[p], SquaredStepsNear(mean, width, p));
+      unexplained[p] = variance[p] > largest ? 1 : 0;
+    }
+  }
 }
 } // namespace
 
