@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mosaic/MosaicPasses.h"
 #include "refined/RefinedPasses.h"
+#include "sensornoise/MosaicMethod.h"
 #include "sensornoise/RefinedMethod.h"
 #include "sensornoise/ChannelReports.h"
 #include "sensornoise/Simulator.h"
@@ -57,6 +58,35 @@ TEST(MosaicMotion, OfAllPlanesIsThatOfTheSensor)
       EXPECT_NEAR(
         *channel.vibrationSdX.value, 0.5 * truth.realisedVibrationSdXPixels, 3.0 * *channel.vibrationSdX.standardError)
         << channel.channel;
+    }
+  }
+}
+
+TEST(MosaicMotion, OfPlanesIsFoundWhereEdgesAreSharperThanTheirPixels)
+{
+  const std::size_t  side = 256;
+  SimulationSettings settings = FlickeringSettings(60);
+  settings.conditions = { 0.0088, 0.094, 0.38 };
+  settings.flaws.filters.pattern = BayerPattern::RGGB;
+  for (const std::uint64_t seed : { 1U, 2U, 3U })
+  {
+    settings.seed = seed;
+    const StackSimulator simulator(MakeTargetScene(side, side), side, side, settings);
+    const auto           stack = Simulate<std::uint16_t>(settings, side, side);
+    using Method = MosaicMethod<std::uint16_t, RefinedMethod<std::uint16_t>>;
+    Method method(RefinedSettings(), { side, side, 1 }, BayerPattern::RGGB, stack.frames);
+    while (!method.IsDone())
+    {
+      method.AddFrames(stack.pixels.data(), stack.frames);
+      method.EndPass();
+    }
+    const auto & truth = simulator.GetTruth();
+    for (const Report & channel : method.GetReports())
+    {
+      // In pixels of a plane; 3 standard errors, which are at most a fifth.
+      const Quantity & sdY = channel.vibrationSdY;
+      EXPECT_NEAR(*sdY.value, 0.5 * truth.realisedVibrationSdYPixels, 3.0 * *sdY.standardError) << seed;
+      EXPECT_LT(*sdY.standardError, 0.2 * *sdY.value) << seed;
     }
   }
 }

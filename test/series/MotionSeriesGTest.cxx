@@ -224,11 +224,61 @@ TEST(SensorNoiseMotionSeries, NoiseThatInstrumentsShareWithTheRegressorsIsTakenO
   EXPECT_LT((shifts->coefficients * gradient.transpose() - expected).norm(), 1e-9 * expected.norm());
 }
 
-TEST(SensorNoiseMotionSeries, BothFirstDerivativesAreNeeded)
+namespace
+{
+/** Returns \a equations without column 2 + StencilY, and without all columns of higher order. */
+FrameEquations
+AlongX(FrameEquations equations)
+{
+  equations.active.resize(3);
+  equations.rawGram = equations.rawGram.topLeftCorner<3, 3>().eval();
+  equations.gram = equations.gram.topLeftCorner<3, 3>().eval();
+  equations.right = equations.right.leftCols<3>().eval();
+  return equations;
+}
+} // namespace
+
+TEST(SensorNoiseMotionSeries, AlongOneAxisTheInstrumentsFindTheShiftsAlone)
+{
+  std::vector<FrameChange> changes = Changes();
+  for (FrameChange & change : changes)
+  {
+    std::fill(change.motion.begin() + 1, change.motion.end(), 0.0); // a shift along x alone
+  }
+  const Fit            fit(0.0, changes);
+  const FrameEquations equations = AlongX(fit.equations);
+  const MotionSeries   motion = SolveMotion(equations, Flicker(), fit.offset);
+  const auto           shifts = SolveShifts(fit.sums, equations, motion, {}, Flicker(), fit.offset);
+  ASSERT_TRUE(shifts);
+  for (std::size_t t = 0; t < Frames; ++t)
+  {
+    const auto row = static_cast<Eigen::Index>(t);
+    EXPECT_NEAR(shifts->coefficients(row, 0), changes[t].motion[StencilX], 1e-8) << t;
+    EXPECT_EQ(shifts->coefficients(row, 1), 0.0) << t;
+  }
+  EXPECT_EQ(shifts->covariance(1, 1), 0.0);
+  // Each gradient class has the same shifts.
+  EXPECT_NEAR(ScaleErrorsOf(fit.sums, {}, motion, Flicker(), fit.offset)(0), 0.0, 1e-8);
+}
+
+TEST(SensorNoiseMotionSeries, WithoutDerivativesNoShiftsAreFound)
 {
   Fit fit(0.0);
-  fit.equations.active.erase(fit.equations.active.begin() + 3);
+  fit.equations.active.resize(2);
   EXPECT_FALSE(SolveShifts(fit.sums, fit.equations, fit.motion, {}, Flicker(), fit.offset));
+}
+
+TEST(SensorNoiseMotionSeries, TheScaleErrorIsTheDeviationOfTheGradientClasses)
+{
+  std::vector<FrameChange> changes = Changes();
+  for (FrameChange & change : changes)
+  {
+    std::fill(change.motion.begin() + 1, change.motion.end(), 0.0);
+  }
+  const Fit    fit(0.0, changes);
+  MotionSeries motion = SolveMotion(AlongX(fit.equations), Flicker(), fit.offset);
+  motion.coefficients *= 0.8; // each class has shifts that are 1 / 0.8 times as large
+  EXPECT_NEAR(ScaleErrorsOf(fit.sums, {}, motion, Flicker(), fit.offset)(0), 0.25, 1e-8);
 }
 
 TEST(SensorNoiseMotionSeries, SmoothedDerivativeOfARampIsItsSlope)

@@ -195,7 +195,7 @@ SpreadAbout(const AxisShifts &           shifts,
             const FrameWeights &         weights,
             double &                     errorSquare)
 {
-  const double white = shifts.noise * weights.MeanNoise();
+  const double white = std::max(0.0, shifts.noise) * weights.MeanNoise(); // a difference of sums may be below 0
   const double noise = white * (1.0 + Slack(light.phi));
   const auto   spreadAt = [&](const OffsetLine & line) {
     return SpreadOf(shifts.About(light.solved, line).coefficients, line.gamma, weights, noise);
@@ -212,12 +212,27 @@ SpreadAbout(const AxisShifts &           shifts,
   return spread;
 }
 
+/** Returns the relative errors of the motion along x and y by the approximation of derivatives [1]. Instruments average
+ * over the edges, which helps less where \a isSharp edges lie within pixels. */
+Eigen::Vector2d
+ScaleErrors(const ReestimatedComponents & reestimated, bool isSharp)
+{
+  if (!reestimated.shifts)
+  {
+    return reestimated.scaleErrors;
+  }
+  const double ofEdges = isSharp ? InRefined.errorOfSharpEdges : 0.0;
+  return (reestimated.shifts->scaleErrors.cwiseAbs2() + (ofEdges * reestimated.scaleErrors).cwiseAbs2()).cwiseSqrt();
+}
+
 /** Returns the motion along \a axis, whose derivative is \a stencil: by instruments where they are available, else by
- * least squares. A part of the difference between both is taken as a systematic error. */
+ * least squares. The systematic error is then that of ScaleErrorsOf(). With instruments it is a part of the difference
+ * between both, and the rest of that error at edges sharper than a pixel. */
 AxisMotion
 MotionAlong(Eigen::Index                  axis,
             std::size_t                   stencil,
             const ReestimatedComponents & reestimated,
+            const Eigen::Vector2d &       scaleErrors,
             const IlluminationOfShifts &  light,
             const FrameWeights &          weights)
 {
@@ -231,15 +246,14 @@ MotionAlong(Eigen::Index                  axis,
   result.place = static_cast<Eigen::Index>(place - stencils.begin());
   double        errorSquare = 0.0;
   ShiftVariance spread = SpreadAbout(ByLeastSquares(reestimated, result.place), light, weights, errorSquare);
-  double        systematic = 0.0;
+  double        systematic = 2.0 * std::max(0.0, spread.square) * scaleErrors(axis);
   result.leastSquares = spread.series;
   if (reestimated.shifts)
   {
     const double leastSquares = std::sqrt(std::max(0.0, spread.square));
     spread = SpreadAbout(ByInstruments(reestimated, axis), light, weights, errorSquare);
     const double sd = std::sqrt(std::max(0.0, spread.square));
-    systematic =
-      2.0 * sd * std::hypot(InRefined.errorOfMotion * (sd - leastSquares), sd * reestimated.shifts->scaleErrors(axis));
+    systematic = 2.0 * sd * std::hypot(InRefined.errorOfMotion * (sd - leastSquares), sd * scaleErrors(axis));
   }
   if (!(std::abs(reestimated.motion.ofOtherAxis) > InRefined.largestFractionOfOtherAxis))
   {
@@ -262,13 +276,13 @@ ProductOf(const std::vector<double> & a, const std::vector<double> & b, const Fr
 }
 
 /** Returns the covariance of the shifts along both axes without the covariance of their noise. Its error is the error
- * of a mean product of shifts with Gaussian noise, whose covariance in one frame is known. If the shifts are by
- * instruments, a part of the difference from least squares is added as a systematic error, as for the standard
- * deviations. */
+ * of a mean product of shifts with Gaussian noise, whose covariance in one frame is known. The systematic error is that
+ * of MotionAlong(). */
 Quantity
 CovarianceOf(const AxisMotion &            x,
              const AxisMotion &            y,
              const ReestimatedComponents & reestimated,
+             const Eigen::Vector2d &       scaleErrors,
              const FrameWeights &          weights)
 {
   const Eigen::MatrixXd & ofAll = reestimated.motion.covariance;
@@ -278,14 +292,13 @@ CovarianceOf(const AxisMotion &            x,
   const double scale = weights.MeanNoise() * (1.0 + slack);
   noise *= scale;
   double value = ProductOf(x.leastSquares, y.leastSquares, weights) - noise(0, 1);
-  double systematic = 0.0;
+  double systematic = scaleErrors.norm() * value;
   if (reestimated.shifts)
   {
     const double leastSquares = value;
     noise = reestimated.shifts->covariance * scale;
     value = ProductOf(x.series, y.series, weights) - noise(0, 1);
-    const double scaleError = reestimated.shifts->scaleErrors.norm();
-    systematic = std::hypot(2.0 * InRefined.errorOfMotion * (value - leastSquares), scaleError * value);
+    systematic = std::hypot(2.0 * InRefined.errorOfMotion * (value - leastSquares), scaleErrors.norm() * value);
   }
   const double squareX = std::max(0.0, ProductOf(x.series, x.series, weights) - noise(0, 0));
   const double squareY = std::max(0.0, ProductOf(y.series, y.series, weights) - noise(1, 1));
@@ -375,8 +388,9 @@ EstimateMotion(const RefinedResults & found, const std::vector<double> & gamma, 
     light.inUse.offset = offsetFromCentre;
     light.inUse.UseOffset(offsetFromCentre);
   }
-  const AxisMotion x = MotionAlong(0, StencilX, reestimated, light, weights);
-  const AxisMotion y = MotionAlong(1, StencilY, reestimated, light, weights);
+  const Eigen::Vector2d scaleErrors = ScaleErrors(reestimated, found.scene.model.isSharp);
+  const AxisMotion      x = MotionAlong(0, StencilX, reestimated, scaleErrors, light, weights);
+  const AxisMotion      y = MotionAlong(1, StencilY, reestimated, scaleErrors, light, weights);
   motion.sdX = x.sd;
   motion.sdY = y.sd;
   if (x.series.empty() || y.series.empty())
@@ -389,7 +403,7 @@ EstimateMotion(const RefinedResults & found, const std::vector<double> & gamma, 
     const bool       isKnown = weights.ofFrames[t] > 0.0;
     motion.shifts.push_back({ isKnown ? x.series[t] : unknown, isKnown ? y.series[t] : unknown });
   }
-  const Quantity covariance = CovarianceOf(x, y, reestimated, weights);
+  const Quantity covariance = CovarianceOf(x, y, reestimated, scaleErrors, weights);
   if (std::isfinite(covariance.value.value_or(0.0))) // NaN: the illumination is not known
   {
     motion.covariance = covariance;

@@ -77,6 +77,8 @@ ReestimateComponents(const FrameSums &        sums,
   const std::optional<OffsetLine> everywhere = FitOffsetLine(equations);
   reestimated.motionPhi = everywhere ? everywhere->Widening() : 1.0;
   reestimated.motion = SolveMotion(equations, reestimated.line.gamma, reestimated.line.offset);
+  reestimated.scaleErrors =
+    ScaleErrorsOf(sums, noise, reestimated.motion, reestimated.line.gamma, reestimated.line.offset);
   reestimated.shifts = SolveShifts(sums,
                                    equations,
                                    reestimated.motion,

@@ -36,9 +36,11 @@ namespace sensornoise
  */
 struct ReestimatedComponents
 {
-  OffsetLine                      line; ///< offset and flicker
-  MotionSeries                    motion;
-  double                          motionPhi{ 1.0 }; ///< dispersion of the frames over all gradient classes [1]
+  OffsetLine   line; ///< offset and flicker
+  MotionSeries motion;
+  double       motionPhi{ 1.0 }; ///< dispersion of the frames over all gradient classes [1]
+  /** Relative errors of the shifts by least squares along x and y, see ScaleErrorsOf() [1]. */
+  Eigen::Vector2d                 scaleErrors{ Eigen::Vector2d::Zero() };
   std::optional<InstrumentShifts> shifts;
   bool                            isOffsetDrift{ false }; ///< whether the local illumination is a drifting offset
   std::optional<LocalOffset>      localOffset;            ///< only under local illumination

@@ -196,63 +196,88 @@ SolveMotion(const FrameEquations & equations, const std::vector<double> & gamma,
   return series;
 }
 
-std::optional<InstrumentShifts>
-SolveShifts(const FrameSums &           sums,
-            const FrameEquations &      equations,
-            const MotionSeries &        motion,
-            const InstrumentNoise &     noise,
-            const std::vector<double> & gamma,
-            double                      offset)
+namespace
 {
-  if (!equations.Find(2 + StencilX) || !equations.Find(2 + StencilY))
+/** Returns the error of the shifts along one axis, relative to least squares in all derivatives [1]: see
+ * ScaleErrorsOf(). \a series are the shifts by least squares, \a column the column of the first derivative. */
+double
+ScaleError(const FrameSums &       sums,
+           const RegressorNoise &  noise,
+           const Eigen::VectorXd & series,
+           const Eigen::VectorXd & flicker,
+           double                  offset,
+           Eigen::Index            column)
+{
+  const Stencil & stencil = MotionStencils()[static_cast<std::size_t>(column - 2)];
+  const double    ofNoise = InnerProduct(stencil, stencil) / static_cast<double>(series.size());
+  double          weights = 0.0;
+  double          squares = 0.0;
+  for (std::size_t c = 0; c < GradientClasses; ++c)
   {
-    return std::nullopt;
-  }
-  const auto           frames = sums.GetFrame().frames;
-  const InstrumentGram gram = GramWithoutNoise(sums, noise);
-  const Bounded        alongX = ThirdDifference(equations, gamma, offset, StencilX, StencilXXX);
-  const Bounded        alongY = ThirdDifference(equations, gamma, offset, StencilY, StencilYYY);
-  Eigen::Matrix2d      gradient;
-  gradient << gram.col(2 + StencilX) + alongX.mean * gram.col(2 + StencilXXX),
-    gram.col(2 + StencilY) + alongY.mean * gram.col(2 + StencilYYY);
-  if (!(gradient.diagonal().prod() > 0.0 &&
-        gradient.determinant() > InSeries.leastDeterminant * gradient.diagonal().prod()))
-  {
-    return std::nullopt; // too little of the scene is free of missing pixels
-  }
-  const Eigen::Matrix2d inverse = gradient.inverse();
-  const Eigen::Vector2d direction(-offset, 1.0); // direction of the flicker in the columns 0 and 1
-  InstrumentShifts      shifts;
-  shifts.ofLight = inverse * gram.leftCols<2>();
-  shifts.scaleErrors << alongX.sd * std::abs(gram(0, 2 + StencilXXX) / gradient(0, 0)),
-    alongY.sd * std::abs(gram(1, 2 + StencilYYY) / gradient(1, 1));
-  shifts.coefficients.resize(static_cast<Eigen::Index>(frames), 2);
-  for (std::size_t t = 0; t < frames; ++t)
-  {
-    const auto &    sum = sums.GetInstrumentSums(t);
-    Eigen::Vector2d rest = Eigen::Vector2d(sum[0], sum[1]) - gamma[t] * gram.leftCols<2>() * direction;
-    for (std::size_t i = 0; i < motion.stencils.size(); ++i)
+    const auto & gram = sums.GetClassGram(c);
+    const double energy = gram(column, column) - noise.variance[c] * ofNoise;
+    if (energy > InSeries.leastSignalFraction * gram(column, column))
     {
-      const std::size_t k = motion.stencils[i];
-      if (MotionStencils()[k].order == 2)
+      const double light = gram(column, 1) - offset * gram(column, 0);
+      double       product = -light * flicker.dot(series);
+      for (Eigen::Index t = 0; t < series.size(); ++t)
       {
-        rest -= motion.coefficients(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(i)) *
-                gram.col(static_cast<Eigen::Index>(2 + k));
+        product += sums.GetClassSums(static_cast<std::size_t>(t), c)(column) * series(t);
       }
+      weights += energy;
+      squares += energy * std::pow(product / (energy * series.squaredNorm()) - 1.0, 2);
     }
-    shifts.coefficients.row(static_cast<Eigen::Index>(t)) = inverse * rest;
   }
-  // The shifts are linear in the sums of the frame. So is the flicker that is subtracted, v' r / v' G v from the sums
-  // of the illumination without motion, and so are the coefficients of second order.
-  const Eigen::MatrixXd ofSums = NoiseOfSums(equations, sums.GetInstrumentGram(), noise);
-  const auto            columns = static_cast<Eigen::Index>(equations.active.size());
-  const auto            size = static_cast<Eigen::Index>(motion.stencils.size());
-  Eigen::RowVectorXd    flicker = Eigen::RowVectorXd::Zero(columns + 2);
+  return weights > 0.0 ? std::sqrt(squares / weights) : 0.0;
+}
+} // namespace
+
+Eigen::Vector2d
+ScaleErrorsOf(const FrameSums &           sums,
+              const RegressorNoise &      noise,
+              const MotionSeries &        motion,
+              const std::vector<double> & gamma,
+              double                      offset)
+{
+  const Eigen::VectorXd flicker =
+    Eigen::Map<const Eigen::VectorXd>(gamma.data(), static_cast<Eigen::Index>(gamma.size()));
+  Eigen::Vector2d errors = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < motion.stencils.size(); ++i)
+  {
+    const auto axis = static_cast<Eigen::Index>(motion.stencils[i]);
+    if (MotionStencils()[motion.stencils[i]].order == 1)
+    {
+      errors(axis) =
+        ScaleError(sums, noise, motion.coefficients.col(static_cast<Eigen::Index>(i)), flicker, offset, 2 + axis);
+    }
+  }
+  return errors;
+}
+
+namespace
+{
+/** Returns the shifts along \a axes as a linear function of the sums over a frame, ordered as in NoiseOfSums(): axes x
+ * (active columns + 2) [pixel]. The flicker that is subtracted, v' r / v' G v from the sums of the illumination without
+ * motion, is linear in the sums, and so are the coefficients of second order.
+ * \param gram of the instruments
+ * \param inverse inverse of their products with the derivatives, axes x axes
+ * \param direction of the flicker in the columns 0 and 1 */
+Eigen::MatrixXd
+ShiftsOfSums(const FrameEquations &  equations,
+             const MotionSeries &    motion,
+             const Eigen::MatrixXd & gram,
+             const Eigen::MatrixXd & inverse,
+             const Eigen::Vector2d & direction,
+             const Eigen::MatrixXd & instruments)
+{
+  const auto         columns = static_cast<Eigen::Index>(equations.active.size());
+  const auto         size = static_cast<Eigen::Index>(motion.stencils.size());
+  Eigen::RowVectorXd flicker = Eigen::RowVectorXd::Zero(columns + 2);
   flicker.head(2) = direction.transpose();
   flicker.segment(2, size) = -(motion.ofLight * direction).transpose();
   flicker /= direction.dot(equations.light * direction);
-  Eigen::MatrixXd solution = Eigen::MatrixXd::Zero(2, columns + 2);
-  solution.rightCols<2>().setIdentity();
+  Eigen::MatrixXd solution = Eigen::MatrixXd::Zero(gram.rows(), columns + 2);
+  solution.rightCols<2>() = instruments;
   solution -= gram.leftCols<2>() * direction * flicker;
   for (Eigen::Index i = 0; i < size; ++i)
   {
@@ -264,7 +289,82 @@ SolveShifts(const FrameSums &           sums,
       solution -= gram.col(static_cast<Eigen::Index>(2 + k)) * coefficient;
     }
   }
-  solution = inverse * solution;
+  return inverse * solution;
+}
+
+/** Returns the axes whose first derivative is active: rows of the identity, axes x 2. */
+Eigen::MatrixXd
+ActiveAxes(const FrameEquations & equations)
+{
+  std::vector<Eigen::Index> axes;
+  for (const Eigen::Index axis : { Eigen::Index{ 0 }, Eigen::Index{ 1 } })
+  {
+    if (equations.Find(static_cast<std::size_t>(2 + axis)))
+    {
+      axes.push_back(axis);
+    }
+  }
+  Eigen::MatrixXd active = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(axes.size()), 2);
+  for (std::size_t i = 0; i < axes.size(); ++i)
+  {
+    active(static_cast<Eigen::Index>(i), axes[i]) = 1.0;
+  }
+  return active;
+}
+} // namespace
+
+std::optional<InstrumentShifts>
+SolveShifts(const FrameSums &           sums,
+            const FrameEquations &      equations,
+            const MotionSeries &        motion,
+            const InstrumentNoise &     noise,
+            const std::vector<double> & gamma,
+            double                      offset)
+{
+  static_assert(StencilX == 0 && StencilY == 1, "the columns of the first derivatives are 2 and 3");
+  const Eigen::MatrixXd axes = ActiveAxes(equations);
+  if (axes.rows() == 0)
+  {
+    return std::nullopt;
+  }
+  const auto           frames = sums.GetFrame().frames;
+  const InstrumentGram ofBoth = GramWithoutNoise(sums, noise);
+  const Bounded        alongX = ThirdDifference(equations, gamma, offset, StencilX, StencilXXX);
+  const Bounded        alongY = ThirdDifference(equations, gamma, offset, StencilY, StencilYYY);
+  Eigen::Matrix2d      derivatives;
+  derivatives << ofBoth.col(2 + StencilX) + alongX.mean * ofBoth.col(2 + StencilXXX),
+    ofBoth.col(2 + StencilY) + alongY.mean * ofBoth.col(2 + StencilYYY);
+  const Eigen::MatrixXd gradient = axes * derivatives * axes.transpose();
+  if (!(gradient.diagonal().minCoeff() > 0.0 &&
+        gradient.determinant() > InSeries.leastDeterminant * gradient.diagonal().prod()))
+  {
+    return std::nullopt; // too little of the scene is free of missing pixels
+  }
+  const Eigen::MatrixXd inverse = gradient.inverse();
+  const Eigen::MatrixXd gram = axes * ofBoth;
+  const Eigen::Vector2d direction(-offset, 1.0); // direction of the flicker in the columns 0 and 1
+  InstrumentShifts      shifts;
+  shifts.ofLight = axes.transpose() * inverse * gram.leftCols<2>();
+  shifts.scaleErrors << alongX.sd * std::abs(ofBoth(0, 2 + StencilXXX) / derivatives(0, 0)),
+    alongY.sd * std::abs(ofBoth(1, 2 + StencilYYY) / derivatives(1, 1));
+  shifts.coefficients.resize(static_cast<Eigen::Index>(frames), 2);
+  for (std::size_t t = 0; t < frames; ++t)
+  {
+    const auto &    sum = sums.GetInstrumentSums(t);
+    Eigen::VectorXd rest = axes * Eigen::Vector2d(sum[0], sum[1]) - gamma[t] * gram.leftCols<2>() * direction;
+    for (std::size_t i = 0; i < motion.stencils.size(); ++i)
+    {
+      const std::size_t k = motion.stencils[i];
+      if (MotionStencils()[k].order == 2)
+      {
+        rest -= motion.coefficients(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(i)) *
+                gram.col(static_cast<Eigen::Index>(2 + k));
+      }
+    }
+    shifts.coefficients.row(static_cast<Eigen::Index>(t)) = (axes.transpose() * inverse * rest).transpose();
+  }
+  const Eigen::MatrixXd ofSums = NoiseOfSums(equations, sums.GetInstrumentGram(), noise);
+  const Eigen::MatrixXd solution = axes.transpose() * ShiftsOfSums(equations, motion, gram, inverse, direction, axes);
   shifts.covariance = solution * ofSums * solution.transpose();
   return shifts;
 }

@@ -39,6 +39,17 @@ struct SensorNoise_EXPORT MotionSeries
 SensorNoise_EXPORT MotionSeries
 SolveMotion(const FrameEquations & equations, const std::vector<double> & gamma, double offset);
 
+/** Returns the relative errors of the shifts of \a motion along x and y by the approximation of derivatives by
+ * differences of pixels [1]; 0 where a first derivative is not active. They are the rms deviation of the shifts that
+ * each gradient class gives with the first derivative alone, weighted by its squared derivatives: small where the scene
+ * is smooth, and large where edges are sharper than a pixel. */
+SensorNoise_EXPORT Eigen::Vector2d
+ScaleErrorsOf(const FrameSums &           sums,
+              const RegressorNoise &      noise,
+              const MotionSeries &        motion,
+              const std::vector<double> & gamma,
+              double                      offset);
+
 /** Shifts of every frame times (1 + gamma_t), estimated by instrumental variables. */
 struct InstrumentShifts
 {
@@ -57,8 +68,9 @@ struct InstrumentShifts
  *
  * Least squares underestimates strong vibrations by 2 to 15 %, because they blur the mean, most where the scene is
  * sharp. Instruments of long wavelengths are hardly affected. For the third order they use the difference between a
- * central difference and a derivative, not the result of least squares, which depends on the sharp edges.
- * Estimator.md, 3.3. Null unless both first derivatives are active and the instruments determine both shifts. */
+ * central difference and a derivative, not the result of least squares, which depends on the sharp edges. The shift
+ * along an axis whose first derivative is not active is 0. Estimator.md, 3.3. Null if neither is active, or if the
+ * instruments do not determine the shifts. */
 SensorNoise_EXPORT std::optional<InstrumentShifts>
 SolveShifts(const FrameSums &           sums,
             const FrameEquations &      equations,
