@@ -130,7 +130,7 @@ TEST(SensorNoiseSensorLines, AFilterScalesTheVarianceWithoutTheCodesNoise)
 TEST(SensorNoiseSensorLines, FramesThatAreMixedScaleItToo)
 {
   auto correlation = Sharing(CovarianceShape::Variance, 0.5);
-  correlation.timeFactor = { 3.0, 0.0 };
+  correlation.timeShapes = Sharing(CovarianceShape::Variance, 2.0).shapes;
   EXPECT_DOUBLE_EQ(FilterFactor(correlation), 4.5);
   const SensorLines sensor = AddCovariances(StraightLines(), correlation, BlackDn, CodesDn2);
   EXPECT_NEAR(sensor.all.gain, 4.5 * Gain, 1e-12);
@@ -230,9 +230,12 @@ TEST(SensorNoiseSensorLines, WhatIsNotKnownOfTheSharingIsAnErrorOfGainAndInterce
   EXPECT_NEAR(StandardDeviationOfShapes(darkDn2 + CodesDn2, part, CodesDn2), 0.25 * darkDn2, 1e-9);
 
   NoiseCorrelation mixed;
-  mixed.timeFactor = { 3.0, 0.06 };
+  mixed.timeShapes = Sharing(CovarianceShape::Variance, 2.0, 0.06).shapes;
   EXPECT_NEAR(
-    std::sqrt(AddCovariances(lines, mixed, BlackDn, CodesDn2).covarianceOfCorrelation(0, 0)), 0.02 * 3.0 * Gain, 1e-12);
+    std::sqrt(AddCovariances(lines, mixed, BlackDn, CodesDn2).covarianceOfCorrelation(0, 0)), 0.06 * Gain, 1e-12);
+  mixed.beyondTimeLags = 0.08; // fraction of the variance
+  EXPECT_NEAR(
+    std::sqrt(AddCovariances(lines, mixed, BlackDn, CodesDn2).covarianceOfCorrelation(0, 0)), 0.1 * Gain, 1e-12);
   NoiseCorrelation wide;
   wide.beyondReach = 0.01; // fraction of the variance, not of the total covariance
   EXPECT_NEAR(

@@ -297,13 +297,16 @@ CorrelationSums::StandardErrorsInBins(const Lags & lags) const
 }
 
 Eigen::VectorXd
-CorrelationSums::Autocovariance(const TileSums & sums, const Eigen::MatrixXd & mixing) const
+CorrelationSums::Autocovariance(const TileSums &           sums,
+                                const Eigen::MatrixXd &    mixing,
+                                std::optional<std::size_t> bin) const
 {
+  const auto sumsOf = [&](std::size_t lag) { return bin ? sums.lags[lag].bins.at(*bin) : sums.lags[lag].Total(); };
   Eigen::VectorXd found(mixing.rows());
   const Lags      lags = this->TimeLags();
   for (Eigen::Index j = 0; j < found.size(); ++j)
   {
-    const PairSums total = sums.lags[j == 0 ? 0 : lags[static_cast<std::size_t>(j) - 1]].Total();
+    const PairSums total = sumsOf(j == 0 ? 0 : lags[static_cast<std::size_t>(j) - 1]);
     const PairSums own = this->WithoutUnequalFrames(total, static_cast<int>(j));
     found(j) = Ratio(own.covariance, own.pairs);
   }
@@ -311,7 +314,7 @@ CorrelationSums::Autocovariance(const TileSums & sums, const Eigen::MatrixXd & m
   {
     // The typical variance is the variance of the residuals, which depends differently on bright frames and on dark
     // ones.
-    const PairSums same = sums.lags[0].Total();
+    const PairSums same = sumsOf(0);
     const PairSums own = this->WithoutUnequalFrames(same, 0);
     found /= 1.0 - Ratio(same.covariance - own.covariance, same.pairs);
   }

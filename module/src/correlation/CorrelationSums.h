@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace sensornoise
@@ -158,9 +159,11 @@ public:
   Eigen::VectorXd
   StandardErrorsInBins(const Lags & lags) const;
   /** Returns the temporal autocovariances at the zero lag and at the temporal lags, relative to the typical variance
-   * [1]. \a mixing is the matrix of TemporalMixing(). */
+   * [1], of all pixels or of the pixels of intensity bin \a bin. \a mixing is the matrix of TemporalMixing(). */
   Eigen::VectorXd
-  Autocovariance(const TileSums & sums, const Eigen::MatrixXd & mixing) const;
+  Autocovariance(const TileSums &           sums,
+                 const Eigen::MatrixXd &    mixing,
+                 std::optional<std::size_t> bin = std::nullopt) const;
 
 private:
   void

@@ -251,7 +251,7 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   NoiseCorrelation found;
   found.kind = NoiseKind::White;
   FindCoefficients(sums, found);
-  const bool inTime = IsCorrelatedInTime(found.time);
+  const bool inTime = IsCorrelatedInTime(sums, found.time);
   const bool inSpace = IsCorrelatedInSpace(sums, found.space);
   if (inTime)
   {

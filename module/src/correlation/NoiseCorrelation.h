@@ -70,8 +70,8 @@ enum class CovarianceShape : std::uint8_t
 inline constexpr std::size_t PartsAfterFilter = 16;
 inline constexpr std::size_t NumberOfShapes = static_cast<std::size_t>(CovarianceShape::FirstPart) + PartsAfterFilter;
 
-/** Noise covariance as a function of the signal z, summed over all neighbours: coefficient times ofVariance (V - q) +
- * ofLight z + ofSquare z^2 + constantDn2. V is the variance and q the variance of the quantization noise [DN^2]. A
+/** Noise covariance as a function of the signal z, summed over all neighbours, or over all other frames: coefficient
+ * times ofVariance (V - q) + ofLight z + ofSquare z^2 + constantDn2. V is the variance and q the variance of the quantization noise [DN^2]. A
  * constant covariance does not change the variance before the filter; all four factors are 0 for it. */
 struct WeightedShape
 {
@@ -102,8 +102,12 @@ struct SensorNoise_EXPORT NoiseCorrelation
 
   /** Possible dependences of the spatial covariance on the signal, by CovarianceShape. */
   std::array<WeightedShape, NumberOfShapes> shapes;
-  /** Sum of the covariances over all temporal lags, relative to the variance [1]. */
+  /** Possible dependences of the temporal covariance on the signal, by CovarianceShape. */
+  std::array<WeightedShape, NumberOfShapes> timeShapes;
+  /** Sum of the covariances over all temporal lags, relative to the variance, of all pixels [1]. */
   MeasuredNumber timeFactor{ 1.0, 0.0 };
+  /** Largest total covariance of the temporal lags that are not summed, relative to the variance [1]. */
+  double beyondTimeLags{ 0.0 };
   /** Largest total covariance of the lags beyond reach, relative to the variance [1]. */
   double beyondReach{ 0.0 };
   /** Fraction of values that repeat the value in the frame before, beyond statistical scatter, if this makes the class

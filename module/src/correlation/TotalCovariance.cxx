@@ -97,15 +97,19 @@ Chi2OfTotalVariance(const CorrelationSums & sums, const TileSums & all, const Ei
   return chi2.cwiseMin(chi2.minCoeff() + InCorrelation.mostEvidenceOfCurvature);
 }
 
-/** Returns the coefficients of all shapes, and then their chi-squares. \a unfilteredDn2 is the variance of quantization
- * and line noise [DN^2]. */
+/** Returns the coefficients of all shapes, and then their chi-squares. \a covarianceInBins(tiles) is the covariance in
+ * the bins, relative to the variance, with its standard \a errors. \a unfilteredDn2 is the variance of quantization and
+ * line noise [DN^2]. */
+template <typename TFunction>
 JackknifeEstimate
-FitAllShapes(const CorrelationSums & sums, const CorrelationSums::Lags & lags, double unfilteredDn2)
+FitAllShapes(const CorrelationSums & sums,
+             TFunction               covarianceInBins,
+             const Eigen::VectorXd & errors,
+             double                  unfilteredDn2)
 {
-  const Eigen::VectorXd errors = sums.StandardErrorsInBins(lags);
   return Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
     const CovarianceShapes predicted = sums.ShapesOf(tiles, unfilteredDn2);
-    const auto             shapes = FitShapes(predicted.InBins(), sums.CovarianceInBins(tiles, lags), errors);
+    const auto             shapes = FitShapes(predicted.InBins(), covarianceInBins(tiles), errors);
     Eigen::VectorXd        figures(2 * NumberOfShapes);
     for (std::size_t k = 0; k < NumberOfShapes; ++k)
     {
@@ -155,6 +159,22 @@ ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge)
     probability /= std::max(1e-300, sum);
   }
   return probabilities;
+}
+
+/** Returns the shapes with the coefficients of \a fits and their probabilities. */
+std::array<WeightedShape, NumberOfShapes>
+WeighShapes(const JackknifeEstimate &                  fits,
+            const std::array<double, NumberOfShapes> & probabilities,
+            const CovarianceShapes &                   predicted)
+{
+  std::array<WeightedShape, NumberOfShapes> shapes;
+  for (std::size_t k = 0; k < NumberOfShapes; ++k)
+  {
+    shapes[k] = predicted.UnitOf(k);
+    shapes[k].coefficient = NumberAt(fits, k);
+    shapes[k].probability = probabilities[k];
+  }
+  return shapes;
 }
 
 /** Returns whether the squared signal describes the spatial covariance better than all other shapes, by
@@ -241,17 +261,16 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
     found.beyondReach = std::max(std::abs(far.value), InCorrelation.unseenErrorsOfCharge * far.standardError);
   }
   const CorrelationSums::Lags lags = sums.Ring(1, found.reach);
-  const JackknifeEstimate     fits = FitAllShapes(sums, lags, sums.GetCodesDn2() + found.LineNoise().value);
+  const double                unfilteredDn2 = sums.GetCodesDn2() + found.LineNoise().value;
+  const JackknifeEstimate     fits =
+    FitAllShapes(sums,
+                 [&](const TileSums & tiles) { return sums.CovarianceInBins(tiles, lags); },
+                 sums.StandardErrorsInBins(lags),
+                 unfilteredDn2);
   const Eigen::VectorXd       chi2 = fits.value.tail(NumberOfShapes);
   const Eigen::VectorXd       withBend = chi2 + Chi2OfTotalVariance(sums, all, fits.value.head(NumberOfShapes));
   const auto                  probabilities = ProbabilitiesOf(withBend, mayBeCharge);
-  const CovarianceShapes      predicted = sums.ShapesOf(all, sums.GetCodesDn2() + found.LineNoise().value);
-  for (std::size_t k = 0; k < NumberOfShapes; ++k)
-  {
-    found.shapes[k] = predicted.UnitOf(k);
-    found.shapes[k].coefficient = NumberAt(fits, k);
-    found.shapes[k].probability = probabilities[k];
-  }
+  found.shapes = WeighShapes(fits, probabilities, sums.ShapesOf(all, unfilteredDn2));
   // The negative covariance of a sharpening filter is proportional to the variance, and the same everywhere. The
   // covariance by rounding of blocks is neither.
   const double constant = probabilities[static_cast<std::size_t>(CovarianceShape::Constant)];
@@ -278,9 +297,58 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
   }
 }
 
-bool
-IsCorrelatedInTime(const std::vector<LagCoefficient> & coefficients)
+namespace
 {
+/** Returns the coefficient of neighbouring frames in the brightest bin [1]. */
+MeasuredNumber
+CoefficientOfBrightPixels(const CorrelationSums & sums)
+{
+  const Eigen::MatrixXd mixing = TemporalMixing(sums.GetResiduals().GetBasis(), sums.TimeLags().size());
+  return NumberAt(Jackknife(sums.GetTiles(),
+                            [&](const TileSums & tiles) {
+                              const Eigen::VectorXd covariance =
+                                sums.Autocovariance(tiles, mixing, NoiseResiduals::IntensityBins - 1);
+                              return Eigen::VectorXd(Eigen::VectorXd::Constant(1, covariance(1) / covariance(0)));
+                            }),
+                  0);
+}
+
+/** Returns the covariance of a frame with all other frames, relative to the variance, in each intensity bin [1]. */
+Eigen::VectorXd
+TimeCovarianceInBins(const CorrelationSums & sums, const TileSums & tiles, const Eigen::MatrixXd & mixing)
+{
+  Eigen::VectorXd shared(NoiseResiduals::IntensityBins);
+  for (std::size_t b = 0; b < NoiseResiduals::IntensityBins; ++b)
+  {
+    // The sum over all lags, less the variance of the residuals, of which the projection has removed slow noise.
+    const Eigen::VectorXd covariance = sums.Autocovariance(tiles, mixing, b);
+    shared(static_cast<Eigen::Index>(b)) = 2.0 * covariance.sum() - covariance(0) - 1.0;
+  }
+  return shared;
+}
+
+/** Fits the dependence of the temporal covariance on the signal. Read noise that is correlated by itself makes it a
+ * constant, image lag proportional to the signal, and a filter after the read-out proportional to the variance. */
+void
+FitTimeShapes(const CorrelationSums & sums, const Eigen::MatrixXd & mixing, NoiseCorrelation & found)
+{
+  const auto      inBins = [&](const TileSums & tiles) { return TimeCovarianceInBins(sums, tiles, mixing); };
+  const auto      errors = Jackknife(sums.GetTiles(), inBins).covariance.diagonal().cwiseMax(0.0).cwiseSqrt().eval();
+  const auto      fits = FitAllShapes(sums, inBins, errors, sums.GetCodesDn2());
+  const TileSums  all = sums.Total();
+  found.timeShapes = WeighShapes(
+    fits, ProbabilitiesOf(fits.value.tail(NumberOfShapes), false), sums.ShapesOf(all, sums.GetCodesDn2()));
+}
+} // namespace
+
+bool
+IsCorrelatedInTime(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients)
+{
+  if (!sums.TimeLags().empty() &&
+      CoefficientOfBrightPixels(sums).Exceeds(InCorrelation.leastTimeCoefficient, Significance.severalTests))
+  {
+    return true;
+  }
   return std::any_of(coefficients.begin(), coefficients.end(), [](const LagCoefficient & lag) {
     return lag.coefficient.Exceeds(InCorrelation.leastTimeCoefficient, Significance.severalTests);
   });
@@ -291,11 +359,12 @@ SumOverTime(CorrelationSums & sums, NoiseCorrelation & found)
 {
   found.kind = NoiseKind::Temporal;
   const Eigen::MatrixXd & basis = sums.GetResiduals().GetBasis();
+  Eigen::MatrixXd         mixing;
   double                  last = 1.0;
   for (std::size_t known = 0; last > InCorrelation.smallTimeCoefficient && sums.TimeLags().size() > known;)
   {
     known = sums.TimeLags().size();
-    const Eigen::MatrixXd   mixing = TemporalMixing(basis, known);
+    mixing = TemporalMixing(basis, known);
     const JackknifeEstimate estimate = Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
       const Eigen::VectorXd covariance = sums.Autocovariance(tiles, mixing);
       return Eigen::VectorXd(Eigen::Vector2d(2.0 * covariance.sum() - covariance(0),
@@ -309,7 +378,9 @@ SumOverTime(CorrelationSums & sums, NoiseCorrelation & found)
     }
   }
   // The error includes the lags beyond, for a tail that continues to decrease as before.
-  found.timeFactor.standardError = std::hypot(found.timeFactor.standardError, 2.0 * last);
+  found.beyondTimeLags = 2.0 * last;
+  found.timeFactor.standardError = std::hypot(found.timeFactor.standardError, found.beyondTimeLags);
+  FitTimeShapes(sums, mixing, found);
 }
 
 namespace

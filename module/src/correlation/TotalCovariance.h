@@ -24,12 +24,13 @@ IsCorrelatedInSpace(const CorrelationSums & sums, const std::vector<LagCoefficie
 SensorNoise_EXPORT void
 SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found);
 
-/** Returns whether one of the temporal \a coefficients significantly exceeds InCorrelation.leastTimeCoefficient. */
+/** Returns whether one of the temporal \a coefficients, or the coefficient of neighbouring frames in the brightest bin,
+ * significantly exceeds InCorrelation.leastTimeCoefficient. Image lag is proportional to the signal. */
 SensorNoise_EXPORT bool
-IsCorrelatedInTime(const std::vector<LagCoefficient> & coefficients);
+IsCorrelatedInTime(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients);
 
-/** Sums the noise covariance over temporal lags, until the last two are small, and sets the noise class to Temporal.
- * More lags than needed increase the error: after the projection of a short burst, distant lags are hardly
+/** Sums the noise covariance over temporal lags, until the last two are small, fits the dependence on the signal, and
+ * sets the noise class to Temporal. More lags than needed increase the error: after the projection of a short burst, distant lags are hardly
  * distinguishable. */
 SensorNoise_EXPORT void
 SumOverTime(CorrelationSums & sums, NoiseCorrelation & found);

@@ -3,6 +3,7 @@
 #include "refined/GainEstimate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace sensornoise
@@ -10,19 +11,41 @@ namespace sensornoise
 
 namespace
 {
+using Shapes = std::array<WeightedShape, NumberOfShapes>;
+
+/** Adds a shape of the covariance, times \a weight, to a sum. */
+void
+AddShape(double weight, const WeightedShape & shape, WeightedShape & sum)
+{
+  sum.ofVariance += weight * shape.ofVariance;
+  sum.ofLight += weight * shape.ofLight;
+  sum.ofSquare += weight * shape.ofSquare;
+  sum.constantDn2 += weight * shape.constantDn2;
+}
+
 /** Returns the mean of all shapes of the covariance, weighted with their probabilities and coefficients. */
+WeightedShape
+MeanOf(const Shapes & shapes)
+{
+  WeightedShape mean;
+  for (const WeightedShape & shape : shapes)
+  {
+    AddShape(shape.probability * shape.coefficient.value, shape, mean);
+  }
+  return mean;
+}
+
+/** Returns the mean shape of the covariance with all neighbours in all frames. A filter over frames scales the
+ * covariance of neighbours, too, and the other way round. */
 WeightedShape
 MeanShape(const NoiseCorrelation & correlation)
 {
-  WeightedShape mean;
-  for (const WeightedShape & shape : correlation.shapes)
-  {
-    const double weight = shape.probability * shape.coefficient.value;
-    mean.ofVariance += weight * shape.ofVariance;
-    mean.ofLight += weight * shape.ofLight;
-    mean.ofSquare += weight * shape.ofSquare;
-    mean.constantDn2 += weight * shape.constantDn2;
-  }
+  const WeightedShape space = MeanOf(correlation.shapes);
+  const WeightedShape time = MeanOf(correlation.timeShapes);
+  WeightedShape       mean;
+  AddShape(1.0 + time.ofVariance, space, mean);
+  AddShape(1.0 + space.ofVariance, time, mean);
+  mean.ofVariance -= space.ofVariance * time.ofVariance;
   return mean;
 }
 
@@ -32,7 +55,6 @@ class TotalCovariance
 public:
   TotalCovariance(const NoiseCorrelation & correlation, double blackDn, double codesDn2)
     : m_Mean(MeanShape(correlation))
-    , m_Time(correlation.timeFactor.value)
     , m_BlackDn(blackDn)
     , m_CodesDn2(codesDn2)
     , m_LinesDn2(correlation.LineNoise().value)
@@ -44,14 +66,14 @@ public:
   {
     const double light = levelDn - m_BlackDn;
     const double noise = varianceDn2 - m_CodesDn2 - m_LinesDn2;
-    return m_CodesDn2 + m_Time * (noise * (1.0 + m_Mean.ofVariance) + m_Mean.constantDn2 +
-                                  light * (m_Mean.ofLight + light * m_Mean.ofSquare));
+    return m_CodesDn2 + noise * this->Factor() + m_Mean.constantDn2 +
+           light * (m_Mean.ofLight + light * m_Mean.ofSquare);
   }
   /** Returns the derivative of the sensor's variance with respect to a pixel's variance [1]. */
   double
   Factor() const
   {
-    return m_Time * (1.0 + m_Mean.ofVariance);
+    return 1.0 + m_Mean.ofVariance;
   }
   /** Returns the line of the sensor. \a lineOfSquare has slope and intercept of the line through the squared signal. */
   VarianceLine
@@ -59,12 +81,12 @@ public:
   {
     VarianceLine sensor = line;
     const double factor = this->Factor();
-    sensor.gain = factor * line.gain + m_Time * (m_Mean.ofLight + m_Mean.ofSquare * lineOfSquare(0));
+    sensor.gain = factor * line.gain + m_Mean.ofLight + m_Mean.ofSquare * lineOfSquare(0);
     sensor.intercept = m_CodesDn2 + factor * (line.intercept - m_CodesDn2 - m_LinesDn2) +
-                       m_Time * (m_Mean.ofSquare * lineOfSquare(1) - m_Mean.ofLight * m_BlackDn + m_Mean.constantDn2);
+                       m_Mean.ofSquare * lineOfSquare(1) - m_Mean.ofLight * m_BlackDn + m_Mean.constantDn2;
     sensor.lowestDn2 = line.lowestDn2 * factor;
     sensor.covariance = line.covariance * (factor * factor);
-    sensor.curvature = line.curvature * factor + m_Time * m_Mean.ofSquare;
+    sensor.curvature = line.curvature * factor + m_Mean.ofSquare;
     sensor.curvatureSd = line.curvatureSd * factor;
     sensor.weightSum = line.weightSum / (factor * factor);
     sensor.noiseDispersionDn4 = line.noiseDispersionDn4 * factor * factor;
@@ -73,7 +95,6 @@ public:
 
 private:
   WeightedShape m_Mean;
-  double        m_Time;
   double        m_BlackDn;
   double        m_CodesDn2;
   double        m_LinesDn2;
@@ -137,8 +158,40 @@ CurveOfSensor(const VarianceCurve & curve, const TotalCovariance & shared, const
   return sensor;
 }
 
-/** Returns the covariance of gain and intercept by the uncertainty of the noise correlation: the errors of the
- * coefficients, and the dispersion between the shapes. */
+/** Returns the covariance of the numbers that unitOf(shape) makes of a coefficient of 1: the errors of the
+ * coefficients, and the dispersion between the shapes. The remaining probability is that the covariance is a constant,
+ * which does not grow with the signal. */
+template <typename TFunction>
+Eigen::Matrix2d
+ErrorOfShapes(const Shapes & shapes, TFunction unitOf)
+{
+  const Eigen::Vector2d mean = unitOf(MeanOf(shapes));
+  double                constant = 1.0;
+  Eigen::Matrix2d       error = Eigen::Matrix2d::Zero();
+  for (const WeightedShape & shape : shapes)
+  {
+    const Eigen::Vector2d unit = unitOf(shape);
+    const Eigen::Vector2d own = shape.coefficient.value * unit - mean;
+    const Eigen::Vector2d chance = shape.coefficient.standardError * unit;
+    error += shape.probability * (own * own.transpose() + chance * chance.transpose());
+    constant -= shape.probability;
+  }
+  return error + std::max(0.0, constant) * mean * mean.transpose();
+}
+
+/** Returns the probability that the temporal covariance is not a constant, so that more lags would change the gain. */
+double
+ProbabilityOfFilter(const NoiseCorrelation & correlation)
+{
+  double probability = 0.0;
+  for (const WeightedShape & shape : correlation.timeShapes)
+  {
+    probability += shape.ofVariance > 0.0 || shape.ofLight > 0.0 ? shape.probability : 0.0;
+  }
+  return probability;
+}
+
+/** Returns the covariance of gain and intercept by the uncertainty of the noise correlation. */
 Eigen::Matrix2d
 ErrorOf(const NoiseCorrelation & correlation,
         const VarianceLine &     line,
@@ -147,28 +200,19 @@ ErrorOf(const NoiseCorrelation & correlation,
         double                   blackDn,
         double                   codesDn2)
 {
-  const double time = correlation.timeFactor.value;
-  const auto   unitOf = [&](const WeightedShape & shape) {
-    return Eigen::Vector2d(time * (shape.ofVariance * Eigen::Vector2d(line.gain, line.intercept - codesDn2) +
-                                   shape.ofLight * Eigen::Vector2d(1.0, -blackDn) + shape.ofSquare * lineOfSquare +
-                                   Eigen::Vector2d(0.0, shape.constantDn2)));
+  const auto unitOf = [&](const WeightedShape & shape) {
+    return Eigen::Vector2d(shape.ofVariance * Eigen::Vector2d(line.gain, line.intercept - codesDn2) +
+                           shape.ofLight * Eigen::Vector2d(1.0, -blackDn) + shape.ofSquare * lineOfSquare +
+                           Eigen::Vector2d(0.0, shape.constantDn2));
   };
-  const Eigen::Vector2d mean = unitOf(MeanShape(correlation));
-  // The remaining probability is that the covariance is a constant, which does not grow with the signal.
-  double          constant = 1.0;
-  Eigen::Matrix2d error = Eigen::Matrix2d::Zero();
-  for (const WeightedShape & shape : correlation.shapes)
-  {
-    const Eigen::Vector2d unit = unitOf(shape);
-    const Eigen::Vector2d own = shape.coefficient.value * unit - mean;
-    const Eigen::Vector2d chance = shape.coefficient.standardError * unit;
-    error += shape.probability * (own * own.transpose() + chance * chance.transpose());
-    constant -= shape.probability;
-  }
-  error += std::max(0.0, constant) * mean * mean.transpose();
+  const double          ofSpace = 1.0 + MeanOf(correlation.shapes).ofVariance;
+  const double          ofTime = 1.0 + MeanOf(correlation.timeShapes).ofVariance;
+  Eigen::Matrix2d       error = ofTime * ofTime * ErrorOfShapes(correlation.shapes, unitOf) +
+                          ofSpace * ofSpace * ErrorOfShapes(correlation.timeShapes, unitOf);
   const Eigen::Vector2d whole(sensor.gain, sensor.intercept - codesDn2);
-  const double          relative = std::hypot(correlation.timeFactor.standardError / std::max(1e-9, time),
-                                     correlation.beyondReach * line.gain * time / std::max(1e-9, sensor.gain));
+  const double          beyond = std::hypot(ofTime * correlation.beyondReach,
+                                   ofSpace * ProbabilityOfFilter(correlation) * correlation.beyondTimeLags);
+  const double          relative = beyond * line.gain / std::max(1e-9, sensor.gain);
   error += relative * relative * whole * whole.transpose();
   // The line noise is subtracted before the factor of the filter is applied.
   const double ofLines = FilterFactor(correlation) * correlation.LineNoise().standardError;
@@ -187,7 +231,7 @@ LinesOf(const StaticVariance & variance)
 double
 FilterFactor(const NoiseCorrelation & correlation)
 {
-  return correlation.timeFactor.value * (1.0 + MeanShape(correlation).ofVariance);
+  return 1.0 + MeanShape(correlation).ofVariance;
 }
 
 double
@@ -201,16 +245,20 @@ StandardDeviationOfShapes(double varianceDn2, const NoiseCorrelation & correlati
 {
   const double noise = varianceDn2 - codesDn2 - correlation.LineNoise().value;
   const auto   sharedOf = [noise](const WeightedShape & shape) { return shape.ofVariance * noise + shape.constantDn2; };
-  const double mean = sharedOf(MeanShape(correlation));
-  double       square = 0.0;
-  double       left = 1.0;
-  for (const WeightedShape & shape : correlation.shapes)
-  {
-    const double own = shape.coefficient.value * sharedOf(shape) - mean;
-    square += shape.probability * own * own;
-    left -= shape.probability;
-  }
-  return correlation.timeFactor.value * std::sqrt(square + std::max(0.0, left) * mean * mean);
+  const auto   deviationOf = [&sharedOf](const Shapes & shapes) {
+    const double mean = sharedOf(MeanOf(shapes));
+    double       square = 0.0;
+    double       left = 1.0;
+    for (const WeightedShape & shape : shapes)
+    {
+      const double own = shape.coefficient.value * sharedOf(shape) - mean;
+      square += shape.probability * own * own;
+      left -= shape.probability;
+    }
+    return std::sqrt(square + std::max(0.0, left) * mean * mean);
+  };
+  return std::hypot((1.0 + MeanOf(correlation.timeShapes).ofVariance) * deviationOf(correlation.shapes),
+                    (1.0 + MeanOf(correlation.shapes).ofVariance) * deviationOf(correlation.timeShapes));
 }
 
 SensorLines
