@@ -301,7 +301,7 @@ CorrelationSums::Autocovariance(const TileSums &           sums,
                                 const Eigen::MatrixXd &    mixing,
                                 std::optional<std::size_t> bin) const
 {
-  const auto sumsOf = [&](std::size_t lag) { return bin ? sums.lags[lag].bins.at(*bin) : sums.lags[lag].Total(); };
+  const auto      sumsOf = [&](std::size_t lag) { return bin ? sums.lags[lag].bins.at(*bin) : sums.lags[lag].Total(); };
   Eigen::VectorXd found(mixing.rows());
   const Lags      lags = this->TimeLags();
   for (Eigen::Index j = 0; j < found.size(); ++j)

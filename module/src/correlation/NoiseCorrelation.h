@@ -71,8 +71,9 @@ inline constexpr std::size_t PartsAfterFilter = 16;
 inline constexpr std::size_t NumberOfShapes = static_cast<std::size_t>(CovarianceShape::FirstPart) + PartsAfterFilter;
 
 /** Noise covariance as a function of the signal z, summed over all neighbours, or over all other frames: coefficient
- * times ofVariance (V - q) + ofLight z + ofSquare z^2 + constantDn2. V is the variance and q the variance of the quantization noise [DN^2]. A
- * constant covariance does not change the variance before the filter; all four factors are 0 for it. */
+ * times ofVariance (V - q) + ofLight z + ofSquare z^2 + constantDn2. V is the variance and q the variance of the
+ * quantization noise [DN^2]. A constant covariance does not change the variance before the filter; all four factors are
+ * 0 for it. */
 struct WeightedShape
 {
   MeasuredNumber coefficient;        ///< [1]; of CovarianceShape::Light [DN], of CovarianceShape::Constant [DN^2]

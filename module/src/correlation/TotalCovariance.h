@@ -30,8 +30,8 @@ SensorNoise_EXPORT bool
 IsCorrelatedInTime(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients);
 
 /** Sums the noise covariance over temporal lags, until the last two are small, fits the dependence on the signal, and
- * sets the noise class to Temporal. More lags than needed increase the error: after the projection of a short burst, distant lags are hardly
- * distinguishable. */
+ * sets the noise class to Temporal. More lags than needed increase the error: after the projection of a short burst,
+ * distant lags are hardly distinguishable. */
 SensorNoise_EXPORT void
 SumOverTime(CorrelationSums & sums, NoiseCorrelation & found);
 

@@ -205,9 +205,9 @@ ErrorOf(const NoiseCorrelation & correlation,
                            shape.ofLight * Eigen::Vector2d(1.0, -blackDn) + shape.ofSquare * lineOfSquare +
                            Eigen::Vector2d(0.0, shape.constantDn2));
   };
-  const double          ofSpace = 1.0 + MeanOf(correlation.shapes).ofVariance;
-  const double          ofTime = 1.0 + MeanOf(correlation.timeShapes).ofVariance;
-  Eigen::Matrix2d       error = ofTime * ofTime * ErrorOfShapes(correlation.shapes, unitOf) +
+  const double    ofSpace = 1.0 + MeanOf(correlation.shapes).ofVariance;
+  const double    ofTime = 1.0 + MeanOf(correlation.timeShapes).ofVariance;
+  Eigen::Matrix2d error = ofTime * ofTime * ErrorOfShapes(correlation.shapes, unitOf) +
                           ofSpace * ofSpace * ErrorOfShapes(correlation.timeShapes, unitOf);
   const Eigen::Vector2d whole(sensor.gain, sensor.intercept - codesDn2);
   const double          beyond = std::hypot(ofTime * correlation.beyondReach,
