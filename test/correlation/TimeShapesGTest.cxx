@@ -118,15 +118,15 @@ TEST(SensorNoiseTimeShapes, AFilterAfterTheReadOutIsInProportionToTheVariance)
 TEST(SensorNoiseTimeShapes, ImageLagOfBrightPixelsIsFoundWhereMostPixelsAreDark)
 {
   // One pixel in four has signal: a lag of 3 % makes a coefficient of 0.022 there, and of 0.0057 over all pixels.
-  constexpr double          a = 0.03;
-  std::vector<double>       light(Frame.Pixels(), 1.0);
-  const auto                shot = White(37);
-  const auto                read = White(38);
+  constexpr double    a = 0.03;
+  std::vector<double> light(Frame.Pixels(), 1.0);
+  const auto          shot = White(37);
+  const auto          read = White(38);
   for (std::size_t p = 0; p < light.size(); p += 4)
   {
     light[p] = 300.0;
   }
-  const NoiseResiduals residuals = ComputeResiduals(Frame, Frames, light, [&](std::size_t t) {
+  const NoiseResiduals   residuals = ComputeResiduals(Frame, Frames, light, [&](std::size_t t) {
     DoubleFrame frame = shot[t];
     for (std::size_t p = 0; p < frame.values.size(); ++p)
     {
