@@ -54,7 +54,7 @@ TakesSeveral(const std::string & name)
 {
   const auto & formats = sensornoise::ExportFormats();
   return std::any_of(formats.begin(), formats.end(), [&name](const auto & format) {
-    return name == format.name && format.leastReports > 1;
+    return name == format.name && format.takesSeveral;
   });
 }
 

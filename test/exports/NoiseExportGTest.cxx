@@ -13,7 +13,7 @@ class NoiseExports : public ExportTest
 
 TEST_F(NoiseExports, AnotherFormatIsRefusedWithTheNamesOfAll)
 {
-  IsRefused("darktable", { "\"darktable\"", "dng, ndsafir" });
+  IsRefused("lightzone", { "\"lightzone\"", "dng, ndsafir" });
   EXPECT_THROW(ExportNoise("dng", {}), ExportError);
   const CameraNoise noise = ReadCameraNoise(m_Report);
   EXPECT_THROW(ExportNoise("dng", { noise, noise }), ExportError);

@@ -141,8 +141,3 @@ TEST_F(NoiseProfiles, NumbersThatNoProgramTakesAreRefused)
   AreRefused(Values({ { "/gains/0", 0.5 }, { "/offsets", 0.0 } }), "0 numbers in offsets");
   AreRefused(Values({ { "/a", 0.5 } }), "reference_slope");
 }
-
-TEST_F(NoiseProfiles, DarktablesPresetsAreRefusedWithTheReason)
-{
-  AreRefused(Values({ { "/noiseprofiles/0/models/0/profiles/0/a/0", 1e-5 } }), "darktable's own demosaicing");
-}

@@ -28,6 +28,7 @@ protected:
 
 TEST_F(NoiseModelExporter, MakesTheFilesOfTheLibrary)
 {
+  m_Report.numbers["/camera/iso_speed"] = 100.0;
   const auto exporter = itk::NoiseModelExporter::New();
   this->Give(exporter);
   for (const sensornoise::ExportFormat & format : sensornoise::ExportFormats())

@@ -139,7 +139,7 @@ TEST_F(EstimateProfileTool, FilesThatAreNoProfileAreRefusedBeforeTheMeasurement)
   IsRefused(frames + WriteText("cut.json", "{\"gain\": 1"), { "cut.json", "whole file" });
   IsRefused(frames + WriteText("deep.json", std::string(100000, '[')), { "deep.json", "64 levels" });
   IsRefused(frames + WriteText("presets.json", R"({"version": 0, "noiseprofiles": [{"maker": "A"}]})"),
-            { "darktable", "demosaicing" });
+            { "darktable", "no preset" });
   IsRefused(frames + WriteText("other.txt", "hello"), { "other.txt", "no format that is known" });
   IsRefused(frames + "presets.json --method published", { "--check-profile", "--method refined" });
   IsRefused("burst.mha --black 64", { "--black", "--check-profile" });

@@ -112,6 +112,19 @@ def test_fitted_formats_say_how_near_they_are(report, mosaic):
     assert "differs from the measured variance" in made.note
 
 
+def test_presets_of_darktable_are_the_line_times_its_factors(mosaic):
+    records = [{**mosaic.to_dict(), "camera": {"iso_speed": iso}} for iso in (400, 100)]
+    made = sn.export_noise_model(records, "darktable", black=BLACK, white=WHITE)
+    (maker,) = json.loads(made.text)["noiseprofiles"]
+    presets = maker["models"][0]["profiles"]
+    assert [preset["iso"] for preset in presets] == [100, 400]
+    greens = (variance(mosaic.channel("G1")) + variance(mosaic.channel("G2"))) / 2
+    factor = 0.0463  # calibrate_darktable.py
+    assert of_profile(presets[0]["a"][1], presets[0]["b"][1]) / factor == pytest.approx(greens, rel=1e-6)
+    with pytest.raises(ValueError, match="no ISO speed"):
+        mosaic.export("darktable", black=BLACK, white=WHITE)
+
+
 def test_a_mosaic_has_a_profile_of_three_planes(mosaic):
     pairs = np.array([float(word) for word in exported(mosaic, "dng").text.split()]).reshape(3, 2)
     lines = {name: variance(mosaic.channel(name)) for name in ("R", "G1", "G2", "B")}
@@ -169,8 +182,8 @@ def test_what_is_written_is_what_the_program_writes(report, tmp_path):
 
 
 def test_wrong_use_is_refused_with_a_sentence(report):
-    with pytest.raises(ValueError, match=r'the format is "darktable"; expected one of dng'):
-        report.export("darktable")
+    with pytest.raises(ValueError, match=r'the format is "lightzone"; expected one of dng'):
+        report.export("lightzone")
     with pytest.raises(ValueError, match=r"no black level.*\(black=\)"):
         report.export("dng")
     with pytest.raises(ValueError, match=r"no white level.*\(white=\)"):

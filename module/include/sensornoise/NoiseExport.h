@@ -110,9 +110,10 @@ enum class ExportTakes : std::uint8_t
 /** How exactly the file holds the model. */
 enum class ExportExactness : std::uint8_t
 {
-  Exact,   ///< to the rounding of its numbers
-  Rounded, ///< a parameter is rounded to a whole number
-  Fitted   ///< the program has a model of another form, which is fitted
+  Exact,     ///< to the rounding of its numbers
+  Rounded,   ///< a parameter is rounded to a whole number
+  Fitted,    ///< the program has a model of another form, which is fitted
+  Calibrated ///< the program's numbers differ from the model by a factor that was measured, with an error
 };
 
 /** A file to be written. */
@@ -138,7 +139,8 @@ struct ExportFormat
   ExportExactness exactness{ ExportExactness::Exact };
   const char *    fields{ nullptr }; ///< what is written
   bool            isText{ true };
-  std::size_t     leastReports{ 1 }; ///< settings of the camera that it needs; 1: exactly one
+  std::size_t     leastReports{ 1 };     ///< settings of the camera that it needs
+  bool            takesSeveral{ false }; ///< whether it takes more settings than it needs; false: exactly one
   NoiseExport (*write)(const std::vector<CameraNoise> & settings){ nullptr };
 };
 
@@ -150,12 +152,12 @@ ExportFormats();
 SensorNoise_EXPORT const char *
 NameOf(ExportTakes takes);
 
-/** "exact", "rounded" or "fitted". */
+/** "exact", "rounded", "fitted" or "calibrated". */
 SensorNoise_EXPORT const char *
 NameOf(ExportExactness exactness);
 
 /** The table of the formats as JSON: a list of objects with `name`, `consumer`, `takes`, `exactness`, `fields`,
- * `is_text` and `least_reports`. */
+ * `is_text`, `least_reports` and `takes_several`. */
 SensorNoise_EXPORT std::string
 ExportFormatsAsJson();
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sensornoise
 {
@@ -296,6 +297,25 @@ WhiteLevelOf(const CameraNoise & noise)
                       ". Give the white level in DN (--white).");
   }
   return *noise.whiteLevelDn;
+}
+
+void
+RequireIsoSpeeds(const std::vector<CameraNoise> & settings, const std::string & format)
+{
+  for (const CameraNoise & noise : settings)
+  {
+    if (!noise.isoSpeed || !(*noise.isoSpeed > 0.0))
+    {
+      throw ExportError("the report " + noise.name + " has no ISO speed, as its files do not have one; " + format +
+                        " needs the ISO speed of each report");
+    }
+    if (noise.channels.size() != settings.front().channels.size())
+    {
+      throw ExportError("the reports " + settings.front().name + " and " + noise.name + " have " +
+                        std::to_string(settings.front().channels.size()) + " and " +
+                        std::to_string(noise.channels.size()) + " channels; expected the reports of one camera");
+    }
+  }
 }
 
 NoiseExport

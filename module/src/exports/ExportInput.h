@@ -7,6 +7,7 @@
 #include "sensornoise/NoiseModel.h"
 
 #include <string>
+#include <vector>
 
 namespace sensornoise
 {
@@ -56,6 +57,11 @@ double
 BlackLevelOf(const CameraNoise & noise);
 double
 WhiteLevelOf(const CameraNoise & noise);
+
+/** Throws ExportError, with the name of the \a format, if a report has no ISO speed, or another number of channels than
+ * the first one. */
+void
+RequireIsoSpeeds(const std::vector<CameraNoise> & settings, const std::string & format);
 
 /** A file of this name with this text, alone. */
 NoiseExport

@@ -105,20 +105,10 @@ FitAndroidChannel(const std::vector<CameraNoise> & settings, std::size_t channel
 void
 RequireAlike(const std::vector<CameraNoise> & settings)
 {
+  RequireIsoSpeeds(settings, "android");
   std::set<double> speeds;
   for (const CameraNoise & noise : settings)
   {
-    if (!noise.isoSpeed || !(*noise.isoSpeed > 0.0))
-    {
-      throw ExportError("the report " + noise.name +
-                        " has no ISO speed, as its files do not have one; android needs the ISO speed of each report");
-    }
-    if (noise.channels.size() != settings.front().channels.size())
-    {
-      throw ExportError("the reports " + settings.front().name + " and " + noise.name + " have " +
-                        std::to_string(settings.front().channels.size()) + " and " +
-                        std::to_string(noise.channels.size()) + " channels; expected the reports of one camera");
-    }
     speeds.insert(*noise.isoSpeed);
   }
   if (speeds.size() < 2)

@@ -3,6 +3,7 @@
 #include "sensornoise/NoiseExport.h"
 
 #include "exports/BinaryExports.h"
+#include "exports/DarktableExport.h"
 #include "exports/FittedExports.h"
 #include "exports/LineExports.h"
 #include "exports/SensorExports.h"
@@ -25,7 +26,7 @@ OfOneSetting(const std::vector<CameraNoise> & settings)
   return VExport(settings.front());
 }
 
-constexpr std::array<ExportFormat, 17> Formats{ {
+constexpr std::array<ExportFormat, 18> Formats{ {
   { "dng",
     "DNG files: Lightroom, Camera Raw, and others",
     ExportTakes::Line,
@@ -33,6 +34,7 @@ constexpr std::array<ExportFormat, 17> Formats{ {
     "tag 51041 NoiseProfile: scale and offset, of a mosaic for R, G and B",
     true,
     1,
+    false,
     OfOneSetting<ExportDng> },
   { "ndsafir",
     "ndsafir, denoiser of microscope images",
@@ -41,6 +43,7 @@ constexpr std::array<ExportFormat, 17> Formats{ {
     "JSON: gains, offsets of all channels",
     true,
     1,
+    false,
     OfOneSetting<ExportNdsafir> },
   { "anscombe-transform",
     "Python package anscombe-transform",
@@ -49,6 +52,7 @@ constexpr std::array<ExportFormat, 17> Formats{ {
     "JSON: conversion_gain, zero_level (a whole number)",
     true,
     1,
+    false,
     OfOneSetting<ExportAnscombeTransform> },
   { "deepinv",
     "deepinv's PoissonGaussianNoise",
@@ -57,6 +61,7 @@ constexpr std::array<ExportFormat, 17> Formats{ {
     "JSON: gain, sigma, for levels from 0 to 1",
     true,
     1,
+    false,
     OfOneSetting<ExportDeepinv> },
   { "careamics",
     "CAREamics' GaussianMixtureNoiseModel",
@@ -65,6 +70,7 @@ constexpr std::array<ExportFormat, 17> Formats{ {
     "npz: trained_weight, min_signal, max_signal, min_sigma",
     false,
     1,
+    false,
     OfOneSetting<ExportCareamics> },
   { "pyme",
     "PYME (python-microscopy)",
@@ -73,6 +79,7 @@ constexpr std::array<ExportFormat, 17> Formats{ {
     "YAML: ADOffset [ADU], ElectronsPerCount, ReadNoise [e-], SaturationThreshold [ADU]",
     true,
     1,
+    false,
     OfOneSetting<ExportPyme> },
   { "picasso",
     "picasso (Python package picassosr)",
@@ -81,6 +88,7 @@ constexpr std::array<ExportFormat, 17> Formats{ {
     "YAML: Baseline [ADU], Sensitivity [e-/ADU]",
     true,
     1,
+    false,
     OfOneSetting<ExportPicasso> },
   { "smap",
     "SMAP",
@@ -89,6 +97,7 @@ constexpr std::array<ExportFormat, 17> Formats{ {
     "JSON: offset [ADU], conversion [e-/ADU], emgain",
     true,
     1,
+    false,
     OfOneSetting<ExportSmap> },
   { "decode",
     "DECODE",
@@ -97,6 +106,7 @@ constexpr std::array<ExportFormat, 17> Formats{ {
     "YAML: baseline [ADU], e_per_adu, read_sigma [e-]",
     true,
     1,
+    false,
     OfOneSetting<ExportDecode> },
   { "thunderstorm",
     "ThunderSTORM",
@@ -105,6 +115,7 @@ constexpr std::array<ExportFormat, 17> Formats{ {
     "ImageJ macro: offset [ADU], photons2adu [e-/ADU]",
     true,
     1,
+    false,
     OfOneSetting<ExportThunderstorm> },
   { "fits",
     "FITS headers",
@@ -113,6 +124,7 @@ constexpr std::array<ExportFormat, 17> Formats{ {
     "cards EGAIN [e-/ADU], RDNOISE [e-]",
     true,
     1,
+    false,
     OfOneSetting<ExportFits> },
   { "ccdproc",
     "ccdproc",
@@ -121,6 +133,7 @@ constexpr std::array<ExportFormat, 17> Formats{ {
     "JSON: gain, readnoise, offset, each with its unit",
     true,
     1,
+    false,
     OfOneSetting<ExportCcdproc> },
   { "lsst",
     "LSST's PhotonTransferCurveDataset",
@@ -129,6 +142,7 @@ constexpr std::array<ExportFormat, 17> Formats{ {
     "JSON: gain [e-/ADU], noise [e-] of each channel, with errors",
     true,
     1,
+    false,
     OfOneSetting<ExportLsst> },
   { "emva1288",
     "Python package emva1288",
@@ -137,6 +151,7 @@ constexpr std::array<ExportFormat, 17> Formats{ {
     "XML: K [DN/e-], inverse_K [e-/DN], sigma_d [e-]",
     true,
     1,
+    false,
     OfOneSetting<ExportEmva1288> },
   { "libcamera",
     "libcamera on Raspberry Pi",
@@ -145,6 +160,7 @@ constexpr std::array<ExportFormat, 17> Formats{ {
     "JSON: rpi.noise with reference_constant, reference_slope",
     true,
     1,
+    false,
     OfOneSetting<ExportLibcamera> },
   { "android",
     "Android's sensor noise model",
@@ -153,7 +169,17 @@ constexpr std::array<ExportFormat, 17> Formats{ {
     "JSON: noise_model_A to noise_model_D of each channel",
     true,
     2,
+    true,
     ExportAndroid },
+  { "darktable",
+    "darktable's denoising (profiled)",
+    ExportTakes::Line,
+    ExportExactness::Calibrated,
+    "JSON: noiseprofiles with a and b of each ISO speed",
+    true,
+    1,
+    true,
+    ExportDarktable },
   { "maps",
     "PYME, SMAP, navigate: correction of each pixel",
     ExportTakes::Maps,
@@ -161,6 +187,7 @@ constexpr std::array<ExportFormat, 17> Formats{ {
     "TIFF: offset [DN], variance [DN^2], variance [e-^2]",
     false,
     1,
+    false,
     OfOneSetting<ExportMaps> },
 } };
 
@@ -192,7 +219,10 @@ NameOf(ExportTakes takes)
 const char *
 NameOf(ExportExactness exactness)
 {
-  return exactness == ExportExactness::Exact ? "exact" : exactness == ExportExactness::Rounded ? "rounded" : "fitted";
+  return exactness == ExportExactness::Exact     ? "exact"
+         : exactness == ExportExactness::Rounded ? "rounded"
+         : exactness == ExportExactness::Fitted  ? "fitted"
+                                                 : "calibrated";
 }
 
 static void
@@ -202,7 +232,7 @@ WriteJson(JsonWriter & json, const ExportFormat & format)
     json.Member("name", format.name).Member("consumer", format.consumer);
     json.Member("takes", NameOf(format.takes)).Member("exactness", NameOf(format.exactness));
     json.Member("fields", format.fields).Member("is_text", format.isText);
-    json.Member("least_reports", format.leastReports);
+    json.Member("least_reports", format.leastReports).Member("takes_several", format.takesSeveral);
   });
 }
 
@@ -224,12 +254,11 @@ ExportNoise(const std::string & format, const std::vector<CameraNoise> & setting
   {
     throw ExportError("the format is \"" + format + "\"; expected one of " + NamesOfFormats());
   }
-  if (settings.size() < found->leastReports || (found->leastReports == 1 && settings.size() != 1))
+  const std::size_t least = found->leastReports;
+  if (settings.size() < least || (!found->takesSeveral && settings.size() > least))
   {
     throw ExportError(std::to_string(settings.size()) + " reports were given; " + format + " takes " +
-                      (found->leastReports == 1
-                         ? "one"
-                         : std::to_string(found->leastReports) + " or more, each of another ISO setting"));
+                      (!found->takesSeveral ? "one" : std::to_string(least) + " or more, each of another ISO setting"));
   }
   return found->write(settings);
 }

@@ -49,6 +49,15 @@ struct AndroidProfile
   std::optional<double>    maxAnalogueIso;
 };
 
+/** Numbers of green in a preset of darktable: the variance of the details of demosaiced images, a x + b on [0, 1]. */
+struct DarktableNumbers
+{
+  std::string camera; ///< maker and model
+  double      isoSpeed{ 0.0 };
+  double      a{ 0.0 };
+  double      b{ 0.0 };
+};
+
 /** The noise that a file of another program claims. */
 struct NoiseProfile
 {
@@ -56,16 +65,19 @@ struct NoiseProfile
   std::string                   format; ///< of ExportFormats(), or "report"
   ProfileForm                   form{ ProfileForm::Line };
   std::vector<ProfileChannel>   channels;
-  std::optional<double>         blackLevelDn;       ///< the file's own; none: the camera's
-  std::optional<double>         whiteLevelDn;       ///< the file's own; none: the camera's
-  double                        floorDn2{ 0.0 };    ///< lowest variance that the program takes
-  double                        roundingDn2{ 0.0 }; ///< largest error of the variance by rounding in the file
-  std::optional<AndroidProfile> android;            ///< numbers of all ISO speeds, in place of the channels
+  std::optional<double>         blackLevelDn;         ///< the file's own; none: the camera's
+  std::optional<double>         whiteLevelDn;         ///< the file's own; none: the camera's
+  double                        floorDn2{ 0.0 };      ///< lowest variance that the program takes
+  double                        roundingDn2{ 0.0 };   ///< largest error of the variance by rounding in the file
+  double                        relativeError{ 0.0 }; ///< error of the variance, relative [1]
+  std::optional<AndroidProfile> android;              ///< numbers of all ISO speeds, in place of the channels
+  std::vector<DarktableNumbers> darktable;            ///< presets of all cameras, in place of the channels
 };
 
 /** Reads a noise profile from values by JSON Pointer, as a JSON or YAML file has them: a report, or a format of
- * libcamera, Android, ndsafir, anscombe-transform, deepinv, SMAP, ccdproc, LSST, PYME, picasso or DECODE. Throws
- * ExportError if it is of none, holds a number that its program does not take, or does not determine the variance. */
+ * libcamera, Android, darktable, ndsafir, anscombe-transform, deepinv, SMAP, ccdproc, LSST, PYME, picasso or DECODE.
+ * Throws ExportError if it is of none, holds a number that its program does not take, or does not determine the
+ * variance. */
 SensorNoise_EXPORT NoiseProfile
 ReadNoiseProfile(const StoredReport & values);
 

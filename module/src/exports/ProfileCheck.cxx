@@ -3,6 +3,7 @@
 #include "exports/ProfileCheck.h"
 
 #include "base/Text.h"
+#include "exports/DarktableExport.h"
 #include "exports/ExportInput.h"
 #include "exports/ProfileVariance.h"
 #include "stabilise/CheckText.h"
@@ -119,6 +120,19 @@ AddReadNoises(const ProfileVariance & profile, std::vector<ProfileMistake> & mis
   add("the read noise has the value of a variance", std::sqrt(std::max(0.0, profile.darkDn2)) * profile.unitDn);
 }
 
+/** Adds the mistake of a preset that darktable's tool measured with another demosaicing than today's. */
+void
+AddDemosaicing(const ProfileVariance & profile, std::vector<ProfileMistake> & mistakes)
+{
+  const double    factor = darktableGreen.value / darktableGreenPpg;
+  ProfileVariance corrected = profile;
+  corrected.slope *= factor;
+  corrected.darkDn2 *= factor;
+  mistakes.push_back({ "it was measured with the demosaicing PPG, whose presets have " + Rounded(1.0 / factor) +
+                         " times the numbers of darktable's RCD",
+                       corrected });
+}
+
 /** Adds the mistake of a floor that lies above the variance of dark pixels, as CAREamics' default may do. */
 void
 AddFloor(const ProfileVariance & profile, std::vector<ProfileMistake> & mistakes)
@@ -191,6 +205,10 @@ KnownMistakes(const ProfileVariance & profile)
   if (profile.floorDn2 > 0.0)
   {
     AddFloor(profile, mistakes);
+  }
+  if (profile.isOfDarktable)
+  {
+    AddDemosaicing(profile, mistakes);
   }
   AddInverses(profile, mistakes);
   AddLevels(profile, mistakes);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
+#include "exports/DarktableProfile.h"
 #include "exports/ExportInput.h"
 #include "exports/NoiseProfile.h"
 #include "exports/ProfileValues.h"
@@ -213,9 +214,10 @@ struct RecordFormat
   NoiseProfile (*read)(const ProfileValues &){ nullptr };
 };
 
-constexpr std::array<RecordFormat, 11> Records{ {
+constexpr std::array<RecordFormat, 12> Records{ {
   { "libcamera", "reference_slope", "reference_constant", ReadLibcamera },
   { "android", "noise_model_A", "noise_model_C", ReadAndroid },
+  { "darktable", "noiseprofiles", "version", ReadDarktablePresets },
   { "ndsafir", "gains", "offsets", ReadNdsafir },
   { "anscombe-transform", "conversion_gain", "zero_level", ReadAnscombeTransform },
   { "lsst", "ampNames", "noise", ReadLsst },
@@ -238,13 +240,6 @@ ReadNoiseProfile(const StoredReport & values)
   const auto          found = std::find_if(Records.begin(), Records.end(), [&](const RecordFormat & each) {
     return members.Has(each.member) && members.Has(each.otherMember);
   });
-  if (members.Has("noiseprofiles"))
-  {
-    throw ExportError("the profile " + values.name +
-                      " is a preset of darktable, which cannot be checked: its a and b are the variance after "
-                      "darktable's own demosaicing, which differs from the variance of the frames by a factor that is "
-                      "not known. Check a DNG file or another profile.");
-  }
   if (!isReport && found == Records.end())
   {
     std::string known;

@@ -3,6 +3,7 @@
 #include "exports/ProfileVariance.h"
 
 #include "base/Text.h"
+#include "exports/DarktableProfile.h"
 #include "exports/ExportInput.h"
 
 #include <algorithm>
@@ -63,6 +64,10 @@ ChannelFor(const NoiseProfile & profile, const CameraNoise & burst)
   if (profile.android)
   {
     return AndroidChannelAt(profile, burst);
+  }
+  if (!profile.darktable.empty())
+  {
+    return DarktableChannelAt(profile, burst);
   }
   std::vector<std::string> names;
   for (const ProfileChannel & channel : profile.channels)
@@ -148,7 +153,7 @@ ProfileVariance::UnavoidableErrorAt(double level) const
   const double rounding = variance > 0.0 ? roundingDn2 / variance : 0.0;
   if (form != ProfileForm::Root)
   {
-    return rounding;
+    return rounding + relativeError;
   }
   const LibcameraNoise best = FitLibcamera(camera);
   const double         fitted = LibcameraVariance(best, camera, level);
@@ -172,6 +177,8 @@ VarianceOfProfile(const NoiseProfile & profile, const CameraNoise & burst)
   variance.form = profile.form;
   variance.floorDn2 = profile.floorDn2;
   variance.roundingDn2 = profile.roundingDn2;
+  variance.relativeError = profile.relativeError;
+  variance.isOfDarktable = !profile.darktable.empty() && burst.channels.front().channel != "mono";
   variance.camera = burst;
   variance.camera.blackLevelDn = profile.blackLevelDn ? profile.blackLevelDn : burst.blackLevelDn;
   variance.camera.whiteLevelDn = profile.whiteLevelDn ? profile.whiteLevelDn : burst.whiteLevelDn;

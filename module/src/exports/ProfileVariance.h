@@ -21,14 +21,16 @@ Squared(double value)
 struct ProfileVariance
 {
   ProfileForm form{ ProfileForm::Line };
-  double      slope{ 0.0 };         ///< [DN/e-]
-  double      levelDn{ 0.0 };       ///< black level or dark offset; 0 for a line whose black level is not known
-  double      darkDn2{ 0.0 };       ///< variance at that level
-  double      unitDn{ 1.0 };        ///< unit in which the file has the root of darkDn2
-  double      smoothing{ 1.0 };     ///< variance of smoothed frames over the variance of the sensor [1]
-  double      floorDn2{ 0.0 };      ///< lowest variance that the program takes
-  double      roundingDn2{ 0.0 };   ///< largest error by rounding in the file
-  bool        hasReadNoise{ true }; ///< false: darkDn2 is the variance of the burst
+  double      slope{ 0.0 };           ///< [DN/e-]
+  double      levelDn{ 0.0 };         ///< black level or dark offset; 0 for a line whose black level is not known
+  double      darkDn2{ 0.0 };         ///< variance at that level
+  double      unitDn{ 1.0 };          ///< unit in which the file has the root of darkDn2
+  double      smoothing{ 1.0 };       ///< variance of smoothed frames over the variance of the sensor [1]
+  double      floorDn2{ 0.0 };        ///< lowest variance that the program takes
+  double      roundingDn2{ 0.0 };     ///< largest error by rounding in the file
+  double      relativeError{ 0.0 };   ///< error of the variance, relative [1]
+  bool        isOfDarktable{ false }; ///< whether the variance depends on the demosaicing of darktable
+  bool        hasReadNoise{ true };   ///< false: darkDn2 is the variance of the burst
   /** Whether the dark offset of the file changes the variance. False: neither a read noise nor a dark level is known.
    */
   bool           isOffsetTested{ true };
@@ -39,8 +41,8 @@ struct ProfileVariance
   double
   At(double levelDn) const;
 
-  /** Returns the relative error of the variance at a level that the file cannot avoid: its rounding, and in libcamera's
-   * form the misfit to the line of the burst [1]. */
+  /** Returns the relative error of the variance at a level that the file cannot avoid: its rounding, the error of
+   * darktable's factor, and in libcamera's form the misfit to the line of the burst [1]. */
   double
   UnavoidableErrorAt(double levelDn) const;
 };

@@ -86,8 +86,9 @@ def export_formats() -> list[dict[str, Any]]:
     Returns
     -------
     list of dict
-        `name`, `consumer` (the program), `takes` ("line", "sensor" or "maps"), `exactness` ("exact", "rounded" or
-        "fitted"), `fields` (what is written), `is_text` and `least_reports` (how many reports it needs).
+        `name`, `consumer` (the program), `takes` ("line", "sensor" or "maps"), `exactness` ("exact", "rounded",
+        "fitted" or "calibrated"), `fields` (what is written), `is_text`, `least_reports` (how many reports it needs)
+        and `takes_several` (whether it takes more).
 
     Examples
     --------
@@ -116,7 +117,7 @@ def export_noise_model(
     Parameters
     ----------
     reports : Report, ChannelReports, or a sequence of them
-        One report, or for the format "android" one for each ISO speed.
+        One report, or for the formats "android" and "darktable" one for each ISO speed.
     format : str
         Name of the format, see export_formats().
     output : str or os.PathLike, optional

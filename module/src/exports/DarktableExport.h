@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_exports_DarktableExport_h
+#define sensornoise_exports_DarktableExport_h
+
+#include "sensornoise/NoiseExport.h"
+
+#include <vector>
+
+namespace sensornoise
+{
+
+/** Variance that darktable's noise profiles hold, over the variance of the pixels of the mosaic [1]. */
+struct DarktableFactor
+{
+  double value{ 0.0 };
+  double standardDeviation{ 0.0 }; ///< between levels, gains and colours of the light
+};
+
+// Source: examples/python/calibrate_darktable.py --images 4, with darktable-cli 4.2.1 and its default demosaicing, RCD.
+// darktable's tool takes the diagonal details of a Haar transform of demosaiced images, (p - q - r + s) / 4 of the four
+// pixels of a square, which are smaller than 1/4 of the variance where demosaicing has smoothed.
+
+/** Of green, under light of any colour. */
+inline constexpr DarktableFactor darktableGreen{ 0.0463, 0.0007 };
+/** Of green, by the demosaicing PPG, which darktable's tool used before RCD was the default [1]. */
+inline constexpr double darktableGreenPpg = 0.0783;
+/** Of red and of blue, under light in which R, G and B are equal. The details of red and blue contain noise of green:
+ * where red or blue have a fraction of green's level, the factor is larger, 0.15 at a third. */
+inline constexpr DarktableFactor darktableRedBlue{ 0.0730, 0.0002 };
+/** Of pixels that are not demosaiced: exact for white noise. */
+inline constexpr DarktableFactor darktableMono{ 0.25, 0.0 };
+
+/** The presets of a camera, JSON in the form of darktable's noiseprofiles.json: for each ISO speed a and b of R, G and
+ * B, the scale and the offset of NoiseProfile times darktable's factors. darktable 4.2 takes the numbers of green for
+ * all channels. The note has the errors of the factors. Throws ExportError if a report has no ISO speed, two have the
+ * same, or their channels differ. */
+NoiseExport
+ExportDarktable(const std::vector<CameraNoise> & settings);
+
+} // namespace sensornoise
+
+#endif
