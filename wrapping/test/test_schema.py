@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Tests that every stored or new report agrees with documentation/report.schema.json."""
+"""Tests that every stored or new report, and every passport, agrees with its schema in documentation/."""
 
 import copy
 import json
@@ -14,6 +14,7 @@ import pytest
 
 SOURCE = Path(__file__).resolve().parents[2]
 SCHEMA = json.loads((SOURCE / "documentation" / "report.schema.json").read_text(encoding="utf-8"))
+PASSPORT = json.loads((SOURCE / "documentation" / "passport.schema.json").read_text(encoding="utf-8"))
 STORED = sorted((SOURCE / "test" / "reports").glob("*.json"))
 SMALL = ("--size", "96x64", "--frames", "20")
 
@@ -89,3 +90,38 @@ def test_what_is_no_report_is_not_valid(validator):
         assert not validator.is_valid({**copy.deepcopy(record), **change})
     del record["gain"]
     assert not validator.is_valid(record)
+
+
+def simulate_camera(tool, folder, settings: dict[str, float], *options: str) -> None:
+    """Writes a burst and dark frames for each setting. The values are the read noises [e-]."""
+    for seed, (name, noise) in enumerate(settings.items(), 1):
+        (folder / name / "dark").mkdir(parents=True)
+        gain = 0.005 * float(name.removeprefix("iso"))
+        camera = ("--size", "64x64", "--frames", "24", "--gain", str(gain), "--read-noise", str(noise * gain), *options)
+        light = ("--electrons", str(3000 / gain), "--seed", str(seed), "--output", str(folder / name / "light.mha"))
+        dark = ("--dark", "--seed", str(seed + 90), "--output", str(folder / name / "dark" / "dark.mha"))
+        tool("simulate-sensor-noise", *camera, *light)
+        tool("simulate-sensor-noise", *camera, *dark)
+
+
+@pytest.mark.parametrize("mosaic", [(), ("--bayer", "RGGB")], ids=["mono", "mosaic"])
+def test_passports_that_the_tool_writes(validator, tool, tmp_path, mosaic):
+    noises = {"iso100": 9.0, "iso200": 9.0, "iso400": 9.0, "iso800": 2.0, "iso1600": 2.0}
+    simulate_camera(tool, tmp_path / "camera", noises if not mosaic else {"iso100": 3.0, "iso400": 3.0}, *mosaic)
+    (tmp_path / "camera" / "iso50").mkdir()  # a setting without a file: a row with the reason
+    passport = tmp_path / "passport.json"
+    options = ("--sweep", str(tmp_path / "camera"), *mosaic, "--json", str(passport), "--quiet")
+    with pytest.raises(subprocess.CalledProcessError) as error:
+        tool("estimate-sensor-noise", *options)
+    assert error.value.returncode == 4
+    record = json.loads(passport.read_text(encoding="utf-8"))
+    jsonschema.Draft202012Validator.check_schema(PASSPORT)
+    passports = jsonschema.Draft202012Validator(PASSPORT)
+    assert [f"{found.json_path}: {found.message[:200]}" for found in passports.iter_errors(record)] == []
+    assert (record["conversion_gain_switch"] is None) == bool(mosaic)
+    measured = [entry for entry in record["settings"] if entry["status"] == "measured"]
+    assert len(measured) == len(record["settings"]) - 1
+    for entry in measured:
+        require_valid(validator, entry["report"])
+    for change in ({"setting": "shutter"}, {"another": 1}, {"settings": [{**measured[0], "report": None}]}):
+        assert not passports.is_valid({**record, **change})
