@@ -5,7 +5,9 @@
 #include "exports/ProfileCheck.h"
 #include "sensornoise/ReportText.h"
 #include "tools/StoredReportFile.h"
+#include "itkSensorNoiseFrameFiles.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -13,6 +15,7 @@
 #include <iostream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <variant>
@@ -72,6 +75,30 @@ ParseProfile(const std::string & file, const std::string & text)
   }
   return record;
 }
+
+/** Takes the black and the white level of a DNG file with a profile, where neither an option nor the frames give them.
+ */
+void
+FillLevels(const NoiseProfile & profile, CameraNoise & noise)
+{
+  if (profile.format != "dng" || (noise.blackLevelDn && noise.whiteLevelDn))
+  {
+    return;
+  }
+  try
+  {
+    const CameraSettings camera = OpenFrames({ profile.file }, {}, {}, {}).camera;
+    const auto           fill = [](std::optional<double> & level, double recorded) {
+      level = level || !std::isfinite(recorded) ? level : std::optional<double>(recorded);
+    };
+    fill(noise.blackLevelDn, camera.blackLevelDn);
+    fill(noise.whiteLevelDn, camera.whiteLevelDn);
+  }
+  catch (const std::exception &) // the numbers as text, or a copy without pixels: the levels are asked for
+  {
+    return;
+  }
+}
 } // namespace
 
 NoiseProfile
@@ -98,6 +125,7 @@ CheckProfile(const NoiseProfile & profile, const MeasuredStack & measured, const
   try
   {
     noise = ReadCameraNoise(ValuesOfJson("of these frames", nlohmann::json::parse(text)), settings);
+    FillLevels(profile, noise);
   }
   catch (const std::exception & error) // the report is written all the same
   {

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
+#include "helpers/DngTestHelper.h"
 #include "helpers/EstimateToolTestHelper.h"
 
 #include <string>
@@ -132,6 +133,21 @@ TEST_F(EstimateProfileTool, LevelsThatAreMissingAreAskedForAndTheReportIsWritten
   EXPECT_NE(m_Message.find("--black"), std::string::npos) << m_Message;
 }
 
+TEST_F(EstimateProfileTool, LevelsOfADngFileAreTakenWhereNothingElseGivesThem)
+{
+  Burst();
+  sensornoise::test::DngOf photo = sensornoise::test::DngOf::Sound();
+  photo.tags = { { 50714, { 4, { 100 } } }, { 50717, { 4, { 4095 } } } };
+  WriteText("photo.dng", photo.Bytes());
+  EXPECT_EQ(RunCommand("\"" + ToolFolder() +
+                       "/export-noise-model\" report.json --black 100 --white 4095 --format dng " +
+                       "--into photo.dng --output copy.dng"),
+            0)
+    << m_Message;
+  EXPECT_EQ(Check("copy.dng", "--dark dark.mha")["verdict"], "fits");
+  EXPECT_EQ(Check("copy.dng", "--dark dark.mha --white 8190")["verdict"], "does-not-fit");
+}
+
 TEST_F(EstimateProfileTool, FilesThatAreNoProfileAreRefusedBeforeTheMeasurement)
 {
   const std::string frames = Write("burst.mha", MakeBurst().GetPointer()) + " --check-profile ";
@@ -140,6 +156,9 @@ TEST_F(EstimateProfileTool, FilesThatAreNoProfileAreRefusedBeforeTheMeasurement)
   IsRefused(frames + WriteText("deep.json", std::string(100000, '[')), { "deep.json", "64 levels" });
   IsRefused(frames + WriteText("presets.json", R"({"version": 0, "noiseprofiles": [{"maker": "A"}]})"),
             { "darktable", "no preset" });
+  IsRefused(frames + WriteText("inverse.json",
+                               R"({"gain": {"value": 2, "unit": "adu / electron"}, "readnoise": {"value": 3}})"),
+            { "gain in \"adu / electron\"", "expected \"electron / adu\"" });
   IsRefused(frames + WriteText("other.txt", "hello"), { "other.txt", "no format that is known" });
   IsRefused(frames + "presets.json --method published", { "--check-profile", "--method refined" });
   IsRefused("burst.mha --black 64", { "--black", "--check-profile" });

@@ -153,9 +153,33 @@ ReadSmap(const ProfileValues & values)
   return OneChannel(ProfileForm::Sensor, values.Positive("conversion"), {}, values.Number("offset"));
 }
 
+/** Throws ExportError if a quantity of astropy has another unit. A quantity without a unit has the expected one. */
+void
+RequireUnit(const ProfileValues & values, const std::string & quantity, const std::string & unit)
+{
+  const auto packed = [](std::string text) {
+    text.erase(std::remove(text.begin(), text.end(), ' '), text.end());
+    return text;
+  };
+  for (const auto & [pointer, text] : values.Record().texts)
+  {
+    const std::string end = "/" + quantity + "/unit";
+    const bool        isUnit =
+      pointer.size() >= end.size() && pointer.compare(pointer.size() - end.size(), end.size(), end) == 0;
+    if (isUnit && packed(text) != packed(unit))
+    {
+      throw ExportError("the profile " + values.File() + " has " + quantity + " in \"" + text + "\"; expected \"" +
+                        unit + "\", as ccdproc takes it. Convert the number and its unit.");
+    }
+  }
+}
+
 NoiseProfile
 ReadCcdproc(const ProfileValues & values)
 {
+  RequireUnit(values, "gain", "electron / adu");
+  RequireUnit(values, "readnoise", "electron");
+  RequireUnit(values, "offset", "adu");
   return OneChannel(ProfileForm::Sensor,
                     values.Positive("gain/value"),
                     values.NotNegative("readnoise/value"),
