@@ -23,7 +23,7 @@ struct DarktableFactor
 
 /** Of green, under light of any colour. */
 inline constexpr DarktableFactor darktableGreen{ 0.0463, 0.0007 };
-/** Of green, by the demosaicing PPG, which darktable's tool used before RCD was the default [1]. */
+/** Of green, by the demosaicing PPG, with which a preset may have been measured [1]. */
 inline constexpr double darktableGreenPpg = 0.0783;
 /** Of red and of blue, under light in which R, G and B are equal. The details of red and blue contain noise of green:
  * where red or blue have a fraction of green's level, the factor is larger, 0.15 at a third. */
