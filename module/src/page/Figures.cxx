@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page/Figures.h"
 
-#include "page/HtmlText.h"
+#include "page/FigureParts.h"
 #include "page/SvgPanel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
-#include <initializer_list>
 #include <iterator>
 #include <limits>
 #include <string>
@@ -27,37 +26,6 @@ constexpr std::size_t MostBars = 16;
 /** Largest variance on the axis, relative to the largest corrected variance [1]. Larger variances as measured are
  * outside of the figure. */
 constexpr double HighestFactor = 4.0;
-
-/** Place of the panels of a figure, with space for the labels of all their axes [units of the figure]. */
-struct PanelPlace
-{
-  double left{ 0.0 };
-  double width{ 0.0 };
-
-  PanelPlace(const PlotAxis & across, std::initializer_list<PlotAxis> up)
-  {
-    for (const PlotAxis & axis : up)
-    {
-      left = std::max(left, axis.LabelWidth() + 10.0);
-    }
-    width = FigureWidth - left - std::max(12.0, 0.5 * across.LabelWidth() + 2.0);
-  }
-};
-
-/** Adds a sign and its words to the legend at (x, y). Returns the x at which the next entry may begin. */
-double
-LegendEntry(std::string & svg, double x, double y, const std::string & sign, const std::string & words)
-{
-  svg += "<g transform=\"translate(" + SvgNumber(x) + " " + SvgNumber(y) + ")\">" + sign + "<text x=\"26\" y=\"5\">" +
-         Escaped(words) + "</text></g>\n";
-  return x + 44.0 + 7.2 * static_cast<double>(words.size());
-}
-
-std::string
-LineSign(const char * style)
-{
-  return "<path class=\"" + std::string(style) + " line\" d=\"M0 0H20\"/>";
-}
 
 /** Returns the axis of the variance. It has all corrected variances and the line, and variances as measured up to
  * HighestFactor. \a above: number of larger ones. */
@@ -129,12 +97,10 @@ DrawCurve(const FigureData & data)
   const PanelPlace   place(MeanAxis(data), { axis, ResidualAxis(data) });
   std::string        svg = OpenSvg(hasResiduals ? 546.0 : 424.0, "temporal variance against mean");
   const char * const line = data.isIndicative ? "third dashed" : "third";
-  const std::string  disc = "<path class=\"after point full\" d=\"M7 0a2.5 2.5 0 1 0 5 0a2.5 2.5 0 1 0-5 0\"/>";
-  const std::string  ring = "<path class=\"before point\" d=\"M7 0a2.5 2.5 0 1 0 5 0a2.5 2.5 0 1 0-5 0\"/>";
   const std::string  higher =
     above > 0 ? " (" + std::to_string(above) + (above == 1 ? " point is higher)" : " points are higher)") : "";
-  LegendEntry(svg, 4.0, 12.0, ring, "as measured" + higher);
-  const double next = LegendEntry(svg, 4.0, 32.0, disc, "without flicker and motion");
+  LegendEntry(svg, 4.0, 12.0, PointSign("before point"), "as measured" + higher);
+  const double next = LegendEntry(svg, 4.0, 32.0, PointSign("after point full"), "without flicker and motion");
   if (!data.lineMean.empty())
   {
     const std::string band = data.bandLow.empty() ? "" : ", 95 % band";

@@ -4,6 +4,7 @@
 
 #include "base/Text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -108,6 +109,28 @@ WithCode(const std::string & text)
     isCode = c == '`' ? !isCode : isCode;
   }
   return isCode ? html + "</code>" : html;
+}
+
+std::string
+WithIndices(const std::string & text)
+{
+  const auto isOfIndex = [](char c) {
+    return c == '.' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  };
+  std::string html;
+  for (std::size_t at = 0; at < text.size();)
+  {
+    const std::size_t line = std::min(text.find('_', at), text.size());
+    std::size_t       end = std::min(line + 1, text.size());
+    while (end < text.size() && isOfIndex(text[end]))
+    {
+      ++end;
+    }
+    html += Escaped(text.substr(at, line - at));
+    html += line < text.size() ? "<sub>" + Escaped(text.substr(line + 1, end - line - 1)) + "</sub>" : "";
+    at = end;
+  }
+  return html;
 }
 
 std::string

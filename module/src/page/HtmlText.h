@@ -19,6 +19,11 @@ Escaped(const std::string & text);
 std::string
 WithCode(const std::string & text);
 
+/** Returns \a text escaped, with indices: "mu_y.dark" is mu with the index y.dark. An index has letters, digits and
+ * full stops. */
+std::string
+WithIndices(const std::string & text);
+
 /** Returns HTML in which no line ends behind a "±". */
 std::string
 Unbroken(std::string html);

@@ -10,6 +10,30 @@
 namespace sensornoise
 {
 
+/** Returns a quantity as a row of a table in HTML, with its value, error and unit, and its 95 % interval or status.
+ * \a label is plain text; \a meaning, in small letters below it, is HTML. \a unit: as in QuantityList(). */
+std::string
+QuantityRow(const std::string & label,
+            const std::string & meaning,
+            const Quantity &    quantity,
+            const std::string & unit);
+
+/** Returns rows of a table of quantities below a \a title, which is plain text. "" if there are no \a rows. */
+std::string
+QuantityGroupRows(const std::string & title, const std::string & rows);
+
+/** Returns the table of quantities around its \a groups of rows. */
+std::string
+TableOfGroups(const std::string & groups);
+
+/** Returns a quantity as a card in HTML, with its value, error and unit, and below it the 95 % interval or the status.
+ * \a name and \a besides, words behind the interval, are plain text. \a unit: as in QuantityList(). */
+std::string
+KeyCard(const std::string & name,
+        const Quantity &    quantity,
+        const std::string & unit,
+        const std::string & besides = "");
+
 /** Returns whether any quantity of the report has a value or an upper limit. */
 bool
 HasValues(const Report & report);
