@@ -4,9 +4,12 @@
 #define sensornoise_Emva1288_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Report.h"
+#include "sensornoise/ReportPage.h"
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -180,6 +183,13 @@ struct EmvaReport
   std::vector<EmvaNote>      notes;       ///< remarks
 };
 
+/** Evaluations of the planes of a mosaic of colour filters, each by itself. */
+struct EmvaMosaicReport
+{
+  BayerPattern              pattern{ BayerPattern::RGGB }; ///< colours of the upper left 2 x 2 pixels
+  std::array<EmvaReport, 4> planes;                        ///< in the order of BayerPlanes
+};
+
 /** Description of one quantity of the evaluation. */
 struct EmvaQuantityEntry
 {
@@ -210,9 +220,28 @@ EmvaQuantityList();
 SensorNoise_EXPORT EmvaReport
 EvaluateEmva1288(const std::vector<EmvaSeries> & series, const EmvaSettings & settings = {});
 
-/** Returns the evaluation as a table for people. */
+/** Returns the evaluation as a table for people; of a mosaic, a table of each plane. */
 SensorNoise_EXPORT std::string
 MakeTable(const EmvaReport & report);
+SensorNoise_EXPORT std::string
+MakeTable(const EmvaMosaicReport & report);
+
+/** Returns the evaluation as one HTML page, which needs no network and has no scripts: the main results, the photon
+ * transfer curve with the notes, all quantities in the order of the standard, the signal-to-noise ratio, the linearity,
+ * all exposures, and the settings. */
+SensorNoise_EXPORT std::string
+ToHtml(const EmvaReport & report, const PageTitle & title = {});
+
+/** Returns the evaluations of a mosaic as one HTML page: the main results of all planes as a table, and the content of
+ * the page of each plane. */
+SensorNoise_EXPORT std::string
+ToHtml(const EmvaMosaicReport & report, const PageTitle & title = {});
+
+/** Returns the photon transfer curve as an SVG file; of a mosaic, the curve of the plane G1. */
+SensorNoise_EXPORT std::string
+ToSvg(const EmvaReport & report);
+SensorNoise_EXPORT std::string
+ToSvg(const EmvaMosaicReport & report);
 
 /** Name and version of the schema of the JSON record. */
 inline constexpr const char * EmvaSchema = "itk-sensornoise-emva1288/1";
@@ -221,10 +250,23 @@ inline constexpr const char * EmvaSchema = "itk-sensornoise-emva1288/1";
 SensorNoise_EXPORT std::string
 ToJson(const EmvaReport & report);
 
+/** Name and version of the schema of the JSON record of a mosaic. */
+inline constexpr const char * EmvaMosaicSchema = "itk-sensornoise-emva1288-mosaic/1";
+
+/** Returns the evaluations of a mosaic as a JSON object, schema "itk-sensornoise-emva1288-mosaic/1". Its member
+ * `planes` has the record of each plane under the name of the plane, and `bayer` is the pattern. */
+SensorNoise_EXPORT std::string
+ToJson(const EmvaMosaicReport & report);
+
 /** Returns the evaluation as XML with the names and units of the Python package emva1288, version 1.0.2. Each value has
  * its section, its symbol and its unit. Exposure times count as seconds. */
 SensorNoise_EXPORT std::string
 ToXml(const EmvaReport & report);
+
+/** Returns the evaluations of a mosaic as XML: the element `mosaic` has an element `plane` with the name of each plane,
+ * which has the XML of the plane. */
+SensorNoise_EXPORT std::string
+ToXml(const EmvaMosaicReport & report);
 
 } // namespace sensornoise
 

@@ -15,17 +15,6 @@ namespace sensornoise
 
 namespace
 {
-/** Titles of the sections of the table, by their names in EmvaQuantityList(). */
-std::string
-TitleOf(const std::string & section)
-{
-  return section == "sensitivity"    ? "Sensitivity"
-         : section == "linearity"    ? "Linearity"
-         : section == "dark_current" ? "Dark current"
-         : section == "spatial"      ? "Non-uniformity, after the highpass filter"
-                                     : "For comparison";
-}
-
 /** Returns a ratio in decibels and bits as one line; "": there is no value. */
 std::string
 DescribeDecibels(const char * name, const Quantity & quantity)
@@ -43,10 +32,20 @@ DescribeDecibels(const char * name, const Quantity & quantity)
                 std::log2(*quantity.value));
   return text;
 }
+} // namespace
 
-/** Returns a line about the series that the table is made of. */
 std::string
-DescribeSeries(const EmvaReport & report)
+EmvaSectionTitle(const std::string & section)
+{
+  return section == "sensitivity"    ? "Sensitivity"
+         : section == "linearity"    ? "Linearity"
+         : section == "dark_current" ? "Dark current"
+         : section == "spatial"      ? "Non-uniformity, after the highpass filter"
+                                     : "For comparison";
+}
+
+std::string
+EmvaSeriesWords(const EmvaReport & report)
 {
   std::size_t frames = 0;
   for (const EmvaSeries & series : report.series)
@@ -57,9 +56,8 @@ DescribeSeries(const EmvaReport & report)
     std::count_if(report.series.begin(), report.series.end(), [](const EmvaSeries & series) { return series.isDark; }));
   return std::to_string(frames) + " frames of " + std::to_string(report.width) + " x " + std::to_string(report.height) +
          " pixels: " + std::to_string(report.series.size() - dark) + " series of flat fields, " + std::to_string(dark) +
-         " of dark frames\nmethod: emva1288 (EMVA Standard 1288, Release 4.0 Linear)\n";
+         " of dark frames";
 }
-} // namespace
 
 bool
 HasPhotons(const EmvaReport & report)
@@ -89,14 +87,14 @@ UnitOf(const EmvaQuantityEntry & entry, const EmvaReport & report)
 std::string
 MakeTable(const EmvaReport & report)
 {
-  std::string table = DescribeSeries(report);
+  std::string table = EmvaSeriesWords(report) + "\nmethod: emva1288 (EMVA Standard 1288, Release 4.0 Linear)\n";
   std::string section;
   for (const EmvaQuantityEntry & entry : EmvaQuantityList())
   {
     if (section != entry.section)
     {
       section = entry.section;
-      table += "\n" + TitleOf(section) + "\n";
+      table += "\n" + EmvaSectionTitle(section) + "\n";
     }
     table += QuantityLine(entry.label, UnitOf(entry, report), report.*entry.quantity, true);
   }

@@ -15,6 +15,14 @@ namespace sensornoise
 std::string
 UnitOf(const EmvaQuantityEntry & entry, const EmvaReport & report);
 
+/** Returns the title of a section of EmvaQuantityList(), as plain text. */
+std::string
+EmvaSectionTitle(const std::string & section);
+
+/** Returns number and size of the frames and the number of series, as plain text. */
+std::string
+EmvaSeriesWords(const EmvaReport & report);
+
 /** Returns whether all points have photons, which are then the abscissa of the linearity. */
 bool
 HasPhotons(const EmvaReport & report);
