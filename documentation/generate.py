@@ -35,6 +35,7 @@ GROUPS = {
         "SensorNoiseEstimator",
         "NoiseCorrelationEstimator",
         "SingleImageNoiseEstimator",
+        "Emva1288Evaluator",
         "SensorNoiseSums",
     ],
     "Steps of the published method": [

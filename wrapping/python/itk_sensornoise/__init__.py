@@ -27,6 +27,8 @@ from ._check import NoiseModelCheck, check_noise_model
 from ._compare import Comparison, compare
 from ._correlation import NoiseCorrelation, noise_correlation_estimator
 from ._denoise import denoise_with_noise_model
+from ._emva1288 import evaluate_emva1288
+from ._emva1288_report import Emva1288Report
 from ._estimate import estimate_sensor_noise
 from ._estimators import (
     noise_regression_estimator,
@@ -48,6 +50,7 @@ from ._sums import SensorNoiseSums
 __all__ = [
     "ChannelReports",
     "Comparison",
+    "Emva1288Report",
     "NoiseCorrelation",
     "NoiseExport",
     "NoiseModelCheck",
@@ -60,6 +63,7 @@ __all__ = [
     "compare",
     "denoise_with_noise_model",
     "estimate_sensor_noise",
+    "evaluate_emva1288",
     "export_formats",
     "export_noise_model",
     "flicker_correction_image_filter",

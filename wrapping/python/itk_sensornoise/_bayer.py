@@ -22,11 +22,17 @@ def note_pattern(image: ItkObject, pattern: str | None) -> None:
         image[_KEY] = pattern
 
 
+def noted_pattern(image: ItkObject) -> str | None:
+    """The pattern in an image's metadata; None: they have none."""
+    known = dict(image).get(_KEY)
+    return str(known) if known else None
+
+
 def set_pattern(estimator: ItkObject, bayer: str, whole: ItkObject, corner: Sequence[int]) -> None:
     """Sets the pattern, given for the `whole` frames or in their metadata, of what was cut out of them at `corner`."""
     _options.one_of("bayer", bayer, PATTERNS)
-    known = dict(whole).get(_KEY) if whole is not None else None
+    known = noted_pattern(whole) if whole is not None else None
     if bayer == "auto" and known:
-        note_pattern(estimator.GetInput(), cut_pattern(str(known), corner[0], corner[1]))
+        note_pattern(estimator.GetInput(), cut_pattern(known, corner[0], corner[1]))
     given = bayer in ("auto", "none")
     estimator.SetBayerPattern(bayer if given else cut_pattern(bayer, corner[0], corner[1]))

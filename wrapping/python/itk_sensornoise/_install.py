@@ -6,7 +6,13 @@ import inspect
 import sys
 from types import FunctionType
 
-_NEW = ("check_noise_model", "denoise_with_noise_model", "estimate_sensor_noise", "simulate_sensor_noise")
+_NEW = (
+    "check_noise_model",
+    "denoise_with_noise_model",
+    "estimate_sensor_noise",
+    "evaluate_emva1288",
+    "simulate_sensor_noise",
+)
 # ITK generates functions of these names too; what they return holds a C++ struct that Python cannot open, or they must
 # be given the pixel type, or do not accept a report.
 _REPLACED = (

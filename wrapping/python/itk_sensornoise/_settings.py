@@ -90,7 +90,7 @@ def prepare(stack: Stack, dark: Stack | None, settings: Settings) -> Prepared:
 
     whole, span = stack.image, settings.span
     total = None if stack.is_cut else stack.size[2]
-    corner, size = _region(stack, settings.roi, None if stack.is_cut else span)
+    corner, size = region_of(stack, settings.roi, None if stack.is_cut else span)
     mask = None if settings.mask is None else _mask_of(settings.mask, stack.size[:2])
     if dark is not None:
         dark = _cut_dark(dark, stack, corner, size)
@@ -233,7 +233,7 @@ def _frame_range(frame_range: tuple[int, int] | slice) -> tuple[int, int]:
     return first, end
 
 
-def _region(stack: Stack, roi: Roi | None, span: tuple[int, int] | None) -> tuple[tuple[int, ...], tuple[int, ...]]:
+def region_of(stack: Stack, roi: Roi | None, span: tuple[int, int] | None) -> tuple[tuple[int, ...], tuple[int, ...]]:
     """Corner and size (x, y, t) of what roi and frame_range ask for."""
     width, height, frames = stack.size
     expected = f"(x, y, width, height) inside {width} x {height} pixels"
