@@ -2,45 +2,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/EmvaRun.h"
 
-#include "files/PixelTypes.h"
 #include "sensornoise/Emva1288.h"
+#include "tools/EmvaFrames.h"
 #include "tools/EmvaSources.h"
 #include "tools/EstimateOptions.h"
 #include "tools/ExposureList.h"
 #include "tools/FilesInUse.h"
 #include "tools/PendingFile.h"
+#include "tools/SvgAsPng.h"
 #include "tools/TerminalText.h"
-#include "itkMultiThreaderBase.h"
 #include "itkSensorNoiseFrameFiles.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <functional>
+#include <filesystem>
 #include <iostream>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <vector>
+#include <variant>
 
 namespace sensornoise::tools
 {
 namespace
 {
-/** Returns loops over ITK's threads. */
-ParallelFor
-ItkParallelFor()
-{
-  return [](std::size_t count, const std::function<void(std::size_t)> & function) {
-    itk::MultiThreaderBase::New()->ParallelizeArray(
-      0, count, [&function](itk::SizeValueType i) { function(i); }, nullptr);
-  };
-}
-
 EmvaSourceList
 SourcesOf(const EstimateOptions & options)
 {
-  if (options.files.size() == 1 && IsEmvaList(options.files.front()))
+  const bool isList = options.files.size() == 1 && IsEmvaList(options.files.front());
+  if (!options.dark.empty() && (isList || !options.exposures.empty()))
+  {
+    throw std::invalid_argument("--dark gives dark frames whose files record their exposures, and " +
+                                (isList ? "the list " + options.files.front() : "--exposures") +
+                                " says which frames are dark; leave one of them out");
+  }
+  if (isList)
   {
     if (!options.exposures.empty())
     {
@@ -51,8 +46,7 @@ SourcesOf(const EstimateOptions & options)
   }
   if (options.exposures.empty())
   {
-    throw std::invalid_argument("--method emva1288 needs the exposures of the frames; expected a list of exposures in "
-                                "place of the frames (.csv, .txt), or --exposures LIST");
+    return GroupByRecordedExposure(options.files, options.dark);
   }
   const FrameList list = OpenFrames(options.files, {}, options.raw, options.choice);
   if (list.frames != options.exposures.size())
@@ -62,82 +56,6 @@ SourcesOf(const EstimateOptions & options)
                                 " frames; expected one exposure for each frame");
   }
   return GroupByExposure(options.files, options.exposures);
-}
-
-/** Throws if the frames are not what the list says, or are a mosaic. */
-void
-RequireFrames(const FrameList & list, const EmvaSource & source, const EmvaSourceList & all)
-{
-  if (all.width > 0 && (list.width != all.width || list.height != all.height))
-  {
-    throw std::runtime_error(source.files.front() + " has " + DescribeFrame(list) + ", and the list says " +
-                             std::to_string(all.width) + " x " + std::to_string(all.height) + "; expected one size");
-  }
-  if (!list.camera.bayerPattern.empty())
-  {
-    throw std::runtime_error(source.files.front() + " is a mosaic of colour filters (" + list.camera.bayerPattern +
-                             "), which the method emva1288 does not read; write the frames of one colour, and "
-                             "evaluate these");
-  }
-  const std::size_t frames = source.frames.empty() ? list.frames : source.frames.size();
-  if (frames < 2)
-  {
-    throw std::runtime_error(source.where + " has one frame; expected two or more frames of each exposure");
-  }
-}
-
-template <typename TPixel>
-EmvaSeries
-AddUp(const FrameList & list, const std::vector<std::size_t> & frames)
-{
-  const ParallelFor   parallelFor = ItkParallelFor();
-  EmvaSeriesSums      sums(list.width, list.height);
-  std::vector<TPixel> frame(list.width * list.height);
-  for (const std::size_t t : frames)
-  {
-    ReadFrames(list, t, 1, frame.data());
-    sums.AddFrame(frame.data(), parallelFor);
-  }
-  return sums.Measure(parallelFor);
-}
-
-EmvaSeries
-AddUp(const FrameList & list, const EmvaSource & source)
-{
-  std::vector<std::size_t> frames = source.frames;
-  if (frames.empty())
-  {
-    frames.resize(list.frames);
-    std::iota(frames.begin(), frames.end(), std::size_t{ 0 });
-  }
-  return CallWithPixelType(list.pixel, [&](auto pixel) { return AddUp<decltype(pixel)>(list, frames); });
-}
-
-EmvaReport
-Evaluate(const EstimateOptions & options, const EmvaSourceList & all)
-{
-  std::vector<EmvaSeries>  series;
-  std::vector<std::string> opened;
-  FrameList                list;
-  for (const EmvaSource & source : all.sources)
-  {
-    if (source.files != opened)
-    {
-      list = OpenFrames(source.files, {}, options.raw, options.choice);
-      opened = source.files;
-    }
-    RequireFrames(list, source, all);
-    EmvaSeries measured = AddUp(list, source);
-    measured.exposure = source.exposure;
-    measured.photons = source.photons;
-    measured.isDark = source.isDark;
-    series.push_back(measured);
-  }
-  EmvaSettings settings;
-  settings.quantizationStepDn = options.step > 0.0 ? options.step : 1.0;
-  settings.bitDepth = options.bitDepth > 0 ? options.bitDepth : all.bitDepth > 0 ? all.bitDepth : list.camera.bitDepth;
-  settings.exposureUnit = all.exposureUnit;
-  return EvaluateEmva1288(series, settings);
 }
 
 /** Throws if an output is also an input or another output. */
@@ -168,54 +86,109 @@ RequireApart(const EstimateOptions & options, const EmvaSourceList & all)
   {
     files.Write(options.xml, "--xml");
   }
+  if (!options.plot.empty())
+  {
+    files.Write(options.plot, "--plot");
+  }
 }
 
-/** Makes the file of an output, under a temporary name; empty: no file is asked for. */
-std::optional<PendingFile>
-MakeOutput(const std::string & name, const std::string & option)
+/** Returns the name of the list, or of the first and the last file, without folders. */
+PageTitle
+TitleOf(const EstimateOptions & options)
 {
-  if (name.empty())
-  {
-    return std::nullopt;
-  }
-  RequireReportName(name, option);
-  return std::optional<PendingFile>(std::in_place, name);
+  const auto        name = [](const std::string & file) { return std::filesystem::path(file).filename().string(); };
+  const std::string last = options.files.size() == 1 ? "" : " to " + name(options.files.back());
+  return { name(options.files.front()) + last, "" };
 }
+
+/** Returns the text of the file that --plot selects. */
+std::string
+MakePlot(const EstimateOptions & options, const EmvaEvaluation & evaluation)
+{
+  if (options.Plot() == PlotKind::Page)
+  {
+    return std::visit([&](const auto & report) { return ToHtml(report, TitleOf(options)); }, evaluation);
+  }
+  const std::string svg = std::visit([](const auto & report) { return ToSvg(report); }, evaluation);
+  return options.Plot() == PlotKind::Png ? SvgAsPng(svg) : svg;
+}
+
+bool
+HasGain(const EmvaReport & report)
+{
+  return report.gain.value.has_value();
+}
+
+/** Returns whether any plane has a gain. */
+bool
+HasGain(const EmvaMosaicReport & report)
+{
+  return std::any_of(
+    report.planes.begin(), report.planes.end(), [](const EmvaReport & plane) { return HasGain(plane); });
+}
+
+/** File of an output; none if no file is asked for. */
+class EmvaOutput
+{
+public:
+  /** Makes the file, under a temporary name. Throws std::exception if it cannot be written. */
+  EmvaOutput(const std::string & name, const char * option)
+  {
+    if (!name.empty())
+    {
+      RequireReportName(name, option);
+      m_File.emplace(name);
+    }
+  }
+
+  template <typename TFunction>
+  void
+  Write(TFunction makeText)
+  {
+    if (m_File)
+    {
+      m_File->Write(makeText());
+      m_File->Commit();
+    }
+  }
+
+private:
+  std::optional<PendingFile> m_File;
+};
 } // namespace
 
 bool
 RunEmva1288(const EstimateOptions & options)
 {
+  if (options.Plot() == PlotKind::Png)
+  {
+    RequirePng(options.plot);
+  }
   const EmvaSourceList all = SourcesOf(options);
   // throws before the work begins if an output cannot be written
-  std::optional<PendingFile> json = MakeOutput(options.HasReportFile() ? options.json : "", "--json");
-  std::optional<PendingFile> xml = MakeOutput(options.xml, "--xml");
+  EmvaOutput json(options.HasReportFile() ? options.json : "", "--json");
+  EmvaOutput xml(options.xml, "--xml");
+  EmvaOutput plot(options.plot, "--plot");
   RequireApart(options, all);
-  const EmvaReport report = Evaluate(options, all);
-  if (json)
-  {
-    json->Write(ToJson(report));
-    json->Commit();
-  }
-  if (xml)
-  {
-    xml->Write(ToXml(report));
-    xml->Commit();
-  }
+  const EmvaEvaluation evaluation = EvaluateFrames(options, all);
+  const auto           toJson = [&] { return std::visit([](const auto & of) { return ToJson(of); }, evaluation); };
+  json.Write(toJson);
+  xml.Write([&] { return std::visit([](const auto & of) { return ToXml(of); }, evaluation); });
+  plot.Write([&] { return MakePlot(options, evaluation); });
   if (!options.quiet)
   {
-    std::cout << ForStandardOutput(MakeTable(report));
+    std::cout << ForStandardOutput(std::visit([](const auto & of) { return MakeTable(of); }, evaluation));
   }
   if (options.json == "-")
   {
-    std::cout << ToJson(report);
+    std::cout << toJson();
   }
   if (!std::cout.flush())
   {
     throw std::runtime_error(
       "cannot write the result to standard output: it is full or closed. Write a file: --json FILE");
   }
-  return report.gain.value.has_value();
+  return std::visit([](const auto & of) { return HasGain(of); }, evaluation);
 }
 
 } // namespace sensornoise::tools

@@ -55,6 +55,11 @@ ReadEmvaList(const std::string & file, bool areRaw);
 EmvaSourceList
 GroupByExposure(const std::vector<std::string> & files, const std::vector<double> & exposures);
 
+/** Groups flat fields and dark frames by the exposure times that their files record, in seconds. Throws
+ * std::exception if a file records none, or cannot be read, and if there are no dark frames. */
+EmvaSourceList
+GroupByRecordedExposure(const std::vector<std::string> & flats, const std::vector<std::string> & darks);
+
 } // namespace sensornoise::tools
 
 #endif

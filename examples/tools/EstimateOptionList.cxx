@@ -219,7 +219,8 @@ AddOtherOptions(CLI::App & app, EstimateOptions & options)
       "refined; or published: Figure 2 of Sur & Grediac 2015; or single-image: the even areas of one frame, "
       "after Foi et al. 2008, which gives the gain, but neither offset nor read noise; or emva1288: flat fields and "
       "dark frames at several exposures, after EMVA Standard 1288 Release 4. FRAME is then a list of exposures "
-      "(.csv, or a descriptor .txt of the package emva1288), or --exposures gives them")
+      "(.csv, or a descriptor .txt of the package emva1288), or --exposures gives them; or FRAME and --dark are raw "
+      "files that record their exposures")
     ->check(CLI::IsMember({ "refined", "published", "single-image", "emva1288" }))
     ->type_name("NAME")
     ->capture_default_str()

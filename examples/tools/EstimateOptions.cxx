@@ -323,21 +323,17 @@ RequireOptionsOfEmva(const CLI::App & app, const EstimateOptions & options)
     }
     return;
   }
-  const std::set<std::string> known{ "FRAME",   "--method",  "--exposures", "--json",    "--xml",
-                                     "--quiet", "--raw",     "--step",      "--channel", "--plane",
-                                     "--bayer", "--threads", "--bit-depth" };
+  const std::set<std::string> known{ "FRAME",   "--method",  "--exposures", "--dark", "--json", "--xml",
+                                     "--plot",  "--quiet",   "--raw",       "--step", "--roi",  "--channel",
+                                     "--plane", "--threads", "--bit-depth", "--bayer" };
   for (const CLI::Option * const option : app.get_options())
   {
     if (option->count() > 0 && known.count(option->get_name()) == 0)
     {
       throw CLI::ValidationError("--method",
                                  "the method emva1288 does not use " + option->get_name() +
-                                   "; leave it out. The dark frames are in the list of exposures, or have exposure 0");
+                                   "; leave it out. A part of the frame is selected by --roi");
     }
-  }
-  if (options.bayer != "auto" && options.bayer != "none")
-  {
-    throw CLI::ValidationError("--bayer", "the method emva1288 reads no mosaic; write the frames of one colour first");
   }
 }
 

@@ -4,6 +4,7 @@
 
 _BUILDS = "builds or tests the whole project: continuous integration runs it"
 _STUDY = "takes minutes or hours: the tables of the documents come from it"
+_FILES = "needs raw files of a camera at several exposures; the same with FITS files is a test of the tool"
 
 NOT_RUN = {
     "bash test/run.sh": _BUILDS,
@@ -31,6 +32,7 @@ NOT_RUN = {
         ),
         _STUDY,
     ),
+    "estimate-sensor-noise flat_*.dng --dark dark_*.dng --method emva1288": _FILES,
     "bash wrapping/build-wheel.sh && pip install dist/itk_sensornoise-*.whl": _BUILDS,
 }
 

@@ -91,6 +91,35 @@ protected:
     return WriteText("descriptor.txt", text);
   }
 
+  /** Writes a frame of stack.mha as a FITS file that records an exposure time [s]. Returns its name. */
+  std::string
+  WriteFits(std::size_t t, double exposure) const
+  {
+    constexpr std::size_t block = 2880; // of a file [byte]
+    const auto            stack = Read<StackType>(Path("stack.mha"));
+    std::string           text;
+    const auto            add = [&text](std::string card) {
+      card.resize(80, ' ');
+      text += card;
+    };
+    add("SIMPLE  = T");
+    add("BITPIX  = 16");
+    add("NAXIS   = 2");
+    add("NAXIS1  = 64");
+    add("NAXIS2  = 48");
+    add("EXPTIME = " + TextOf(exposure));
+    add("END");
+    text.resize(block, ' ');
+    const unsigned short * const pixels = stack->GetBufferPointer() + t * 64 * 48;
+    for (std::size_t p = 0; p < std::size_t{ 64 * 48 }; ++p)
+    {
+      text += static_cast<char>(pixels[p] >> 8U);
+      text += static_cast<char>(pixels[p] & 0xFFU);
+    }
+    text.resize((text.size() + block - 1) / block * block, '\0');
+    return WriteText("frame_" + std::to_string(100 + t) + ".fits", text);
+  }
+
   /** Expects the exit code 2, and one sentence with these parts. */
   void
   Refuses(const std::string & arguments, const std::vector<std::string> & parts)
@@ -165,6 +194,87 @@ TEST_F(EstimateEmvaTool, WritesTableAndXml)
   EXPECT_EQ(valueOf("s_2_y_dark"), report["series"][0]["highpass_spatial_variance"]["total"].get<double>());
 }
 
+TEST_F(EstimateEmvaTool, ARegionIsEvaluatedAsFramesOfItsSize)
+{
+  MakeSeries();
+  const std::string method = " --method emva1288 --exposures exposures.txt";
+  const auto        stack = Read<StackType>(Path("stack.mha"));
+  const auto        frames = stack->GetLargestPossibleRegion().GetSize(2);
+  Write("cut.mha", Cut<unsigned short>(stack.GetPointer(), { { 3, 5, 0 } }, { { 40, 30, frames } }).GetPointer());
+  EXPECT_EQ(ReportOf("stack.mha --roi 3,5,40,30" + method), ReportOf("cut.mha" + method));
+  Refuses("stack.mha --roi 30,5,40,30" + method, { "40 x 30 pixels from 30,5", "64 x 48" });
+}
+
+TEST_F(EstimateEmvaTool, PlanesOfAMosaicAreEvaluatedByThemselves)
+{
+  MakeSeries();
+  const std::string method = " --method emva1288 --exposures exposures.txt";
+  const auto        stack = Read<StackType>(Path("stack.mha"));
+  const auto        frames = stack->GetLargestPossibleRegion().GetSize(2);
+  const auto        planeAt = [&](long x, long y, std::size_t width, std::size_t height) {
+    const auto plane = Make<StackType>({ { width, height, frames } }, 0);
+    auto *     pixel = plane->GetBufferPointer();
+    for (long t = 0; t < static_cast<long>(frames); ++t)
+    {
+      for (std::size_t row = 0; row < height; ++row)
+      {
+        for (std::size_t column = 0; column < width; ++column)
+        {
+          *pixel++ = stack->GetPixel({ { x + 2 * static_cast<long>(column), y + 2 * static_cast<long>(row), t } });
+        }
+      }
+    }
+    return Write("plane.mha", plane.GetPointer());
+  };
+  const auto mosaic = ReportOf("stack.mha --bayer GRBG" + method);
+  EXPECT_EQ(mosaic["schema"], "itk-sensornoise-emva1288-mosaic/1");
+  EXPECT_EQ(mosaic["bayer"], "GRBG");
+  EXPECT_EQ(mosaic["planes"]["G1"], ReportOf(planeAt(0, 0, 32, 24) + method));
+  EXPECT_EQ(mosaic["planes"]["R"], ReportOf(planeAt(1, 0, 32, 24) + method));
+  EXPECT_EQ(mosaic["planes"]["B"], ReportOf(planeAt(0, 1, 32, 24) + method));
+  // an odd corner begins with another colour, and an odd size leaves a row and a column out
+  const auto part = ReportOf("stack.mha --bayer GRBG --roi 3,5,41,31" + method);
+  EXPECT_EQ(part["bayer"], "GBRG");
+  EXPECT_EQ(part["planes"]["G2"], ReportOf(planeAt(3, 5, 20, 15) + method));
+}
+
+TEST_F(EstimateEmvaTool, WritesThePageAndTheFigure)
+{
+  MakeSeries();
+  const std::string method = " --method emva1288 --exposures exposures.txt";
+  ASSERT_EQ(Run("stack.mha --plot page.html --quiet" + method), 0) << m_Message;
+  EXPECT_NE(ReadText(Path("page.html")).find("<title>EMVA 1288: stack.mha</title>"), std::string::npos);
+  ASSERT_EQ(Run("stack.mha --plot figure.svg --bayer RGGB --quiet" + method), 0) << m_Message;
+  EXPECT_EQ(ReadText(Path("figure.svg")).rfind("<svg", 0), 0U);
+  Refuses("stack.mha --plot stack.mha.html --json stack.mha.html" + method, { "stack.mha.html" });
+}
+
+TEST_F(EstimateEmvaTool, ExposuresAreTakenFromFilesThatRecordThem)
+{
+  MakeSeries();
+  std::string text;
+  std::string flats;
+  std::string darks;
+  for (std::size_t t = 0; t < m_Exposures.size(); ++t)
+  {
+    const bool        isDark = t < DarkFrames;
+    const double      exposure = isDark ? 0.1 : m_Exposures[t];
+    const std::string name = WriteFits(t, exposure);
+    (isDark ? darks : flats) += " " + name;
+    text +=
+      (t % 2 == 0 && t != 2 ? (t == 0 ? "" : "\n") + TextOf(exposure) + (isDark ? ",dark," : ",flat,") : ";") + name;
+  }
+  const std::string method = " --method emva1288";
+  const auto        expected = ReportOf(WriteText("list.csv", "exposure_s,kind,files\n" + text + "\n") + method);
+  const auto        recorded = ReportOf(flats + " --dark" + darks + method);
+  EXPECT_EQ(recorded["sensitivity"], expected["sensitivity"]);
+  EXPECT_EQ(recorded["points"], expected["points"]);
+  EXPECT_EQ(recorded["settings"]["exposure_unit"], "s");
+  Refuses(flats + method, { "no dark frames", "--dark" });
+  Refuses(flats + " --dark " + m_Names[0] + method, { m_Names[0] + " records none" });
+  Refuses("list.csv --dark" + darks + method, { "--dark", "list.csv" });
+}
+
 TEST_F(EstimateEmvaTool, RefusesListsThatAreNone)
 {
   MakeSeries();
@@ -192,7 +302,7 @@ TEST_F(EstimateEmvaTool, RefusesOptionsOfOtherMethods)
   Refuses("stack.mha" + method, { "needs the exposures" });
   Refuses("stack.mha --exposures 0,1" + method, { "2 numbers", "28 frames" });
   Refuses("stack.mha --exposures exposures.txt --offset 3" + method, { "does not use --offset" });
-  Refuses("stack.mha --exposures exposures.txt --bayer RGGB" + method, { "mosaic" });
+  Refuses("stack.mha --exposures exposures.txt --mask mask.png" + method, { "does not use --mask", "--roi" });
   Refuses(WriteTable("list.csv"), { "list.csv is text", "--method emva1288" });
   Refuses("stack.mha --xml results.xml", { "writes no XML" });
   Refuses(WriteTable("list.csv") + " --exposures exposures.txt" + method, { "both say exposures" });

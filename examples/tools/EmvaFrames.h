@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef EmvaFrames_h
+#define EmvaFrames_h
+
+#include "sensornoise/Emva1288.h"
+
+#include <optional>
+#include <string>
+#include <variant>
+
+namespace sensornoise::tools
+{
+
+struct EmvaSourceList;
+struct EstimateOptions;
+
+/** Evaluation of a monochrome camera, or of the planes of a mosaic. */
+using EmvaEvaluation = std::variant<EmvaReport, EmvaMosaicReport>;
+
+/** Reads the frames of all exposures, and evaluates them: the part that --roi selects, and each plane of a mosaic by
+ * itself. A mosaic is what --bayer or the files say. Throws std::exception if frames cannot be read, differ, or do
+ * not have the size that the list says. */
+EmvaEvaluation
+EvaluateFrames(const EstimateOptions & options, const EmvaSourceList & all);
+
+} // namespace sensornoise::tools
+
+#endif
