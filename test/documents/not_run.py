@@ -6,7 +6,12 @@ _BUILDS = "builds or tests the whole project: continuous integration runs it"
 _STUDY = "takes minutes or hours: the tables of the documents come from it"
 _FILES = "needs raw files of a camera at several exposures; the same with FITS files is a test of the tool"
 
+_NAPARI = "needs napari: test/run.sh installs it and runs its test"
+
 NOT_RUN = {
+    "pip install itk-sensornoise": _NAPARI,
+    'pip install pytest "napari[pyqt5]" dist/itk_sensornoise-*.whl': _NAPARI,
+    "QT_QPA_PLATFORM=offscreen pytest wrapping/test/test_napari.py": _NAPARI,
     "bash test/run.sh": _BUILDS,
     "bash examples/browser/build.sh": _BUILDS,
     "python3 test/fuzz/fuzz_files.py --bin build/bin --count 20000": _STUDY,
