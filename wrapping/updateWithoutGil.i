@@ -4,6 +4,7 @@
 // global lock (GIL) during every call. Observers take the lock themselves (itk::PyCommand), the functions of
 // itk::PyImageFilter do not: with such a filter in the pipeline the lock is kept.
 %{
+#include "ReleasedGil.h"
 #include "itkDataObject.h"
 #include "itkProcessObject.h"
 
@@ -40,28 +41,6 @@ CallsPython(itk::ProcessObject * last)
   }
   return false;
 }
-
-/** Gives Python's lock to other threads until its end, which an exception brings, too. */
-class ReleasedGil
-{
-public:
-  explicit ReleasedGil(bool isReleased)
-    : m_State(isReleased ? PyEval_SaveThread() : nullptr)
-  {}
-  ReleasedGil(const ReleasedGil &) = delete;
-  ReleasedGil &
-  operator=(const ReleasedGil &) = delete;
-  ~ReleasedGil()
-  {
-    if (m_State != nullptr)
-    {
-      PyEval_RestoreThread(m_State);
-    }
-  }
-
-private:
-  PyThreadState * m_State;
-};
 
 void
 UpdateWithoutGil(itkProcessObject * process)

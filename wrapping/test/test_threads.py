@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests that other threads of Python run while ITK works, and that frames which Python reads are still measured."""
 
+import concurrent.futures
 import threading
 import time
 
 import itk
+import itk_sensornoise as sn
 import numpy as np
 import pytest
+from itk_sensornoise._denoise import named_denoiser
 
 
 def ticks_during(work) -> tuple[float, list[float], float]:
@@ -84,3 +87,39 @@ def test_error_in_a_call_without_the_lock_is_raised(burst):
     with pytest.raises(ValueError, match="exposures"):
         itk.estimate_sensor_noise(burst, exposures=[1.0, 2.0])
     assert itk.estimate_sensor_noise(burst)["gain"]["status"] == "identified"
+
+
+def test_threads_run_while_frames_are_added():
+    """One call of ITK adds all frames, as in test_threads_run_during_a_call_that_has_no_observer()."""
+    stack, _ = sn.simulate_sensor_noise(frames=100, size=(384, 384))
+    sums = sn.SensorNoiseSums(stack.shape, stack.dtype, bayer="none")
+    start, ticks, end = ticks_during(lambda: sums.add(stack))
+    assert np.diff([start, *ticks, end]).max() < 0.5 * (end - start)
+
+
+def test_two_threads_add_frames_to_the_same_sums(burst):
+    """Frames are added, and sums are read, by several threads at once. The result has the same bits."""
+    sums = sn.SensorNoiseSums(burst.shape, burst.dtype, bayer="none")
+    while not sums.is_done:
+        parts = [range(first, len(burst), 4) for first in range(4)]
+
+        def add(part):
+            for number in part:
+                sums.add(burst[number : number + 1], number)
+                assert number in sums.frames
+
+        with concurrent.futures.ThreadPoolExecutor(len(parts)) as threads:
+            for done in threads.map(add, parts):
+                assert done is None
+        sums.end_pass()
+    assert sums.report() == itk.estimate_sensor_noise(burst, bayer="none")
+
+
+def test_threads_run_while_the_bilateral_filter_works():
+    if not hasattr(itk, "BilateralImageFilter"):
+        pytest.skip("itk-filtering is not installed: its bilateral filter was not tested")
+    remove = named_denoiser("itk", 1.0)
+    frame = np.random.default_rng(1).normal(10.0, 1.0, (288, 384)).astype(np.float32)
+    remove(frame[:16, :16])  # loads the library
+    start, ticks, end = ticks_during(lambda: remove(frame))
+    assert np.diff([start, *ticks, end]).max() < 0.5 * (end - start)

@@ -18,6 +18,7 @@ from ._stabilise import (
     noise_model,
     open_report,
 )
+from ._update import update
 
 # Filter strength of OpenCV's non-local means with NORM_L1, and standard deviations of ITK's bilateral filter over
 # places [pixels] and values, for noise of variance 1: those of denoise-with-noise-model, see OpenCVDenoisers.cxx and
@@ -247,7 +248,7 @@ def _bilateral(strength: float) -> Denoiser:
             itk.image_view_from_array(kept), DomainSigma=domain, RangeSigma=value * strength
         )
         with itk_errors():
-            bilateral.Update()
+            update(bilateral)
         clean: np.ndarray = itk.array_from_image(bilateral.GetOutput())
         return clean
 

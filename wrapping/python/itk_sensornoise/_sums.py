@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The sums of estimate_sensor_noise() by themselves, for several processes that read a part of the frames each."""
 
-from collections.abc import Mapping, Sequence
+import threading
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -10,7 +12,7 @@ import numpy as np
 from . import _options
 from ._arrays import PIXEL_NAMES, PIXEL_TYPES, view
 from ._channels import ChannelReports, report_of
-from ._errors import itk_errors
+from ._errors import InvalidValueError, itk_errors
 from ._frames import Stack, crop, open_dumps, open_frames
 from ._maps import arrays_of
 from ._names import expand, is_name
@@ -47,6 +49,8 @@ class SensorNoiseSums:
     estimate_sensor_noise(), 20 kB a frame of the whole, and twice the sums. At most 2^22 frames, for which sums of
     integers are exact.
 
+    Other threads of Python run while frames are added. Threads may use the same object: their calls follow each other.
+
     It can be pickled: settings, the sums of the passes that have ended, and those of the current one. dark and mask go
     with the settings, as they were given.
     """
@@ -77,6 +81,7 @@ class SensorNoiseSums:
             **settings,
         )
         self._ended: list[np.ndarray] | None = []
+        self._lock = threading.Lock()
         require_settings(settings)
         self._settings = Settings(**settings)
         self._settings.check(dark)
@@ -116,13 +121,15 @@ class SensorNoiseSums:
     @property
     def passes_ended(self) -> int:
         """How many passes have ended."""
-        return int(self._sums.GetPass())
+        with self._alone():
+            return int(self._sums.GetPass())
 
     @property
     def is_done(self) -> bool:
         """All passes have ended: there are no sums, but a report. There are three passes, and one more each where
         frames are left out, as they are unlike the others, and where the illumination changes strongly."""
-        return bool(self._sums.IsDone())
+        with self._alone():
+            return bool(self._sums.IsDone())
 
     @property
     def frames(self) -> np.ndarray:
@@ -138,7 +145,7 @@ class SensorNoiseSums:
     def fingerprints(self) -> np.ndarray:
         """Pass 1: an array (frames, planes), a plane of a mosaic, else one, of 16 bytes for each of `frames`, which are
         equal where frames are equal, bit by bit. See leave()."""
-        with itk_errors():
+        with self._alone():
             rows = _array(self._sums.GetFingerprints())
         return np.ascontiguousarray(rows).view("V16")
 
@@ -146,7 +153,7 @@ class SensorNoiseSums:
         """Pass 1, before frames are added: does not count those where `flags` (planes, t) are not 0, because another
         process counts an equal one. All processes must know of them by the same rule: the first is counted."""
         flags = np.ascontiguousarray(flags, dtype=np.uint8)
-        with itk_errors(kind=ValueError):
+        with self._alone(kind=ValueError):
             self._sums.SetCountedElsewhere(view(flags))
 
     def add(self, frames: Frames, first: int = 0, *, frame_range: tuple[int, int] | None = None) -> None:
@@ -170,7 +177,7 @@ class SensorNoiseSums:
         width, height, _ = self._prepared.size
         in_memory = stack.image.GetBufferedRegion().GetNumberOfPixels() == np.prod(stack.size)
         if in_memory and (width, height, end - start) == stack.size:
-            with itk_errors():
+            with self._alone():
                 self._sums.AddFrames(stack.image, first)
             return
         step = max(LEAST_FRAMES, CHUNK_BYTES // (width * height * np.dtype(self._pixel).itemsize))
@@ -178,10 +185,10 @@ class SensorNoiseSums:
             part = crop(stack, (x, y, at), (width, height, min(step, end - at)))
             with itk_errors():
                 part.image.Update()
-                if not stack.failed:
-                    self._sums.AddFrames(part.image, first + at - start)
             for error in stack.failed:
                 raise error
+            with self._alone():
+                self._sums.AddFrames(part.image, first + at - start)
 
     def merge(self, other: "SensorNoiseSums | bytes | np.ndarray") -> bool:
         """Adds the sums of other frames in the same pass: an object, or its to_bytes(). False, and nothing is changed,
@@ -189,7 +196,7 @@ class SensorNoiseSums:
         frame here and one there are equal, if the sums were made with other settings or of another stack, or by another
         version of the package, which it names, and if the bytes are damaged or not all that to_bytes() returned."""
         sums = _row(other._array() if isinstance(other, SensorNoiseSums) else other)
-        with itk_errors():
+        with self._alone():
             return bool(self._sums.MergeSums(view(sums)))
 
     def to_bytes(self) -> bytes:
@@ -204,7 +211,7 @@ class SensorNoiseSums:
 
     def forget(self) -> None:
         """Takes back all that was added and merged in this pass."""
-        with itk_errors():
+        with self._alone():
             self._sums.ForgetSums()
 
     def end_pass(self) -> None:
@@ -216,7 +223,7 @@ class SensorNoiseSums:
             )
         if self._ended is not None:
             self._ended.append(self._array())
-        with itk_errors():
+        with self._alone():
             self._sums.EndPass()
 
     def report(self, *, maps: bool = False) -> Report | ChannelReports:
@@ -230,13 +237,20 @@ class SensorNoiseSums:
         """Gives back the memory of the sums of ended passes, and keeps no more: it can then not be pickled."""
         self._ended = None
 
+    @contextmanager
+    def _alone(self, kind: type[Exception] = InvalidValueError) -> Iterator[None]:
+        """Calls ITK's sums from one thread at a time, as other threads run while frames are added; errors as
+        itk_errors()."""
+        with self._lock, itk_errors(kind=kind):
+            yield
+
     def _array(self) -> np.ndarray:
-        with itk_errors():
+        with self._alone():
             sums: np.ndarray = _array(self._sums.GetSums())[0]
         return sums
 
     def _flags(self) -> np.ndarray:
-        with itk_errors():
+        with self._alone():
             flags: np.ndarray = _array(self._sums.GetFrames())[0]
         return flags
 
