@@ -237,13 +237,15 @@ def test_second_press_of_the_button_starts_nothing(viewer):
 
 @pytest.mark.parametrize("kind", [MeasureNoise, StabiliseDenoise])
 def test_closed_widget_leaves_the_viewer_alone(viewer, burst, kind):
+    inserted = viewer.layers.events.inserted
+    before = len(inserted.callbacks)
     panel = kind(viewer)
     stop = panel._stop
     panel.deleteLater()
     QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
     viewer.add_image(burst, name="burst")
     viewer.layers.clear()
-    assert stop.is_set()
+    assert stop.is_set() and len(inserted.callbacks) == before
 
 
 def test_stabilised_layer_has_noise_of_variance_1_and_returns_to_grey_values(viewer, burst, report):
