@@ -179,9 +179,9 @@ struct PatternConstants
   double leastLeakagePixels{ 20.0 };
   double leastTilePixels{ 12.0 };
   double leastTileContrast{ 30.0 };
-  /** Limits for local illumination to be a drift of the offset: side of a tile [pixel], largest chi-square of the tiles
-   * about one line, relative to their number [1], and the smallest chi-square that the line explains, relative to that
-   * chi-square [1]. Chosen empirically. */
+  /** Limits for local illumination to be a drift of the offset: side of a tile [pixel], largest chi-square about one
+   * line (or one offset), relative to the number of tiles [1], and the smallest chi-square that the line explains,
+   * relative to that chi-square [1]. Chosen empirically. */
   std::size_t driftTileSide{ 32 };
   double      largestDriftChi2{ 4.0 };
   double      leastDriftExplained{ 10.0 };

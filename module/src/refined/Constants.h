@@ -38,11 +38,10 @@ struct RefinedConstants
 
   /** \name Errors of the gain */
   ///@{
-  /** Squared vibration above which the expansion in derivatives fails [pixels^2]. The bias of the gain is then
-   * proportional to the squared vibration: it is \a biasOfVibration of the gain [1] at \a referenceVibration
-   * [pixels^2]. Measured by the robustness
-   * cases of measure-cases. */
-  double smallVibration{ 0.16 };
+  /** Vibration above which the expansion in derivatives fails, so that the frames should be registered [pixels rms].
+   * The bias of the gain is then proportional to the squared vibration: it is \a biasOfVibration of the gain [1] at
+   * \a referenceVibration [pixels^2]. Measured by the robustness cases of measure-cases. */
+  double strongVibration{ 0.4 };
   double biasOfVibration{ 0.0015 };
   double referenceVibration{ 0.25 };
   /** Largest factor by which the scatter between classes widens the variance in tests for deviations from a line [1].
@@ -96,8 +95,6 @@ struct RefinedConstants
   /** Smallest expected square of a frame's residuals for the weights, relative to the tile's mean square [1]: a guard
    * where a line is negative. Chosen empirically: the dark frames of series of 5,000 electrons have 0.02. */
   double leastWeighedVariance{ 0.01 };
-  /** Smallest number of tiles of the noise sample, whose scatter is the error. */
-  std::size_t leastTilesOfTransfer{ 4 };
   /** Number of iterations of the weights: the third one changes a gain by less than 1e-4 of its error. */
   int roundsOfTransfer{ 4 };
   /** Relative difference of a frame's noise variance from the line at its level above which the frame is left out [1].
@@ -106,7 +103,7 @@ struct RefinedConstants
   /** That difference under local changes of the illumination, which are not known in every frame and tile [1]. Chosen
    * larger than the local changes of lamps that pulse under a rolling shutter. */
   double leastUnlikeUnderLocalIllumination{ 0.3 };
-  /** That difference where the scene moves by more than smallVibration [1]: twice the noise. Chosen empirically: the
+  /** That difference where the scene moves by more than strongVibration [1]: twice the noise. Chosen empirically: the
    * remaining motion of a frame adds less in the flatter half of a scene. */
   double leastUnlikeUnderMotion{ 1.0 };
   /** Number of iterations that find the groups of frames with their noise from the iteration before. Chosen
@@ -129,9 +126,6 @@ struct RefinedConstants
   /** Largest distance of an offset beyond its bounds, as a fraction of the range of levels, besides statistical error
    * [1]. Chosen empirically. */
   double slackOfRange{ 0.01 };
-  /** Largest dispersion of the lines of local illumination about one zero for which their offset is given [1]. Chosen
-   * empirically. */
-  double largestLocalDispersion{ 4.0 };
   /** Fraction of the difference between two estimates of motion that is taken as its systematic error [1]. Chosen on
    * simulated scenes: the motion of pages of sharp text is wrong by a fifth of it, the motion of other scenes by less
    * than a tenth. */
@@ -171,9 +165,6 @@ struct RefinedConstants
    * empirically. */
   double reportedFraction{ 0.01 };
   double reportedTrimmed{ 2e-3 };
-  /** Motion above which the frames should be registered [pixels rms]. Chosen empirically: biasOfVibration begins there.
-   */
-  double strongVibration{ 0.4 };
   ///@}
 };
 

@@ -3,6 +3,7 @@
 #include "refined/FramePhotonTransfer.h"
 
 #include "base/ChiSquare.h"
+#include "correlation/Constants.h"
 #include "moments/Constants.h"
 #include "pixels/PartTiles.h"
 #include "refined/Constants.h"
@@ -240,7 +241,7 @@ VariancesOfFrames(const FrameEnergies & energies,
 VarianceCurve
 FitFramePhotonTransfer(const FrameEnergies & energies, const TileLevels & levels, const VarianceLine & start)
 {
-  if (energies.Tiles() < static_cast<Eigen::Index>(InRefined.leastTilesOfTransfer) || energies.Frames() < 3)
+  if (energies.Tiles() < static_cast<Eigen::Index>(InCorrelation.leastTiles) || energies.Frames() < 3)
   {
     return {};
   }

@@ -35,7 +35,7 @@ double
 ErrorOfVibration(const VarianceLine & line, const InitialNoiseModel & model)
 {
   const double square = std::max(model.vibrationXPixels2, model.vibrationYPixels2);
-  return square > InRefined.smallVibration
+  return square > InRefined.strongVibration * InRefined.strongVibration
            ? InRefined.biasOfVibration * line.gain * square / InRefined.referenceVibration
            : 0.0;
 }

@@ -171,7 +171,8 @@ BetterLine(const StaticVariance & variance)
 bool
 MovesLittle(const FrameComparison & by)
 {
-  return std::max(by.scene.model.vibrationXPixels2, by.scene.model.vibrationYPixels2) < InRefined.smallVibration;
+  return std::max(by.scene.model.vibrationXPixels2, by.scene.model.vibrationYPixels2) <
+         InRefined.strongVibration * InRefined.strongVibration;
 }
 
 /** Finds the frames whose noise differs from the noise of the others. If frames of two gains have two levels, the line

@@ -5,6 +5,7 @@
 #include "base/Quantiles.h"
 #include "base/Constants.h"
 #include "base/Text.h"
+#include "correlation/Constants.h"
 #include "refined/Constants.h"
 
 #include <algorithm>
@@ -180,7 +181,7 @@ NoiseOfFrames(const FrameEnergies &   energies,
               const Eigen::VectorXd & known)
 {
   const Eigen::VectorXd noise = known.size() > 0 ? known : Eigen::VectorXd::Ones(energies.Frames());
-  if (energies.Tiles() < static_cast<Eigen::Index>(InRefined.leastTilesOfTransfer))
+  if (energies.Tiles() < static_cast<Eigen::Index>(InCorrelation.leastTiles))
   {
     return {};
   }

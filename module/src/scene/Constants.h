@@ -17,13 +17,11 @@ struct SceneConstants
   ///@{
   /** Least number of pixels to which a model is fitted, in the whole frame or in a part of it. Chosen empirically. */
   std::size_t fewestPixels{ 100 };
-  /** Ratio of raw to modelled variance above which the model does not explain a pixel, apart from chance [1]. Chosen
-   * empirically: weights and masks need the model to some 10 %. */
+  /** Ratio of raw to modelled variance above which the model does not explain a pixel, apart from chance [1]. The first
+   * fit excludes pixels of the smoother half, where motion adds little, by the same ratio to the median of their
+   * intensity bin. Chosen empirically: weights and masks need the model to some 10 %. */
   double largestRatio{ 2.5 };
-  /** Ratio of the variance of a pixel to the median of its intensity bin from which the first fit excludes the pixel
-   * [1]. The first is for the smoother half of the pixels, where motion adds little, the second for the rougher half.
-   * Chosen empirically. */
-  double startRatioSmooth{ 2.5 };
+  /** That ratio to the median for the rougher half of the pixels, where motion adds much [1]. Chosen empirically. */
   double startRatioRough{ 30.0 };
   /** Ratio of the squared derivatives along both axes from which the variance of a pixel shows the motion along one of
    * them [1]. Chosen empirically. */

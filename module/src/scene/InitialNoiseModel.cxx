@@ -137,7 +137,7 @@ StartFromMedians(const VarianceSample & sample)
     start.variance[i] = std::isfinite(median) ? median : largest;
     start.keep[i] =
       sample.raw[i] <
-          (sample.energy[i] <= middleEnergy ? InScene.startRatioSmooth : InScene.startRatioRough) * start.variance[i]
+          (sample.energy[i] <= middleEnergy ? InScene.largestRatio : InScene.startRatioRough) * start.variance[i]
         ? 1
         : 0;
   }
