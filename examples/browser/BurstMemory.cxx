@@ -47,7 +47,8 @@ NeedOf(const Burst & burst, const BurstOptions & options)
     return { bytes, bytes };
   }
   const MemoryNeed need{ pixels, burst.frames };
-  return { need.Least(), std::max(need.Least(), need.BesideProjections() + need.OfProjections(MostComponents)) };
+  return { need.Least(),
+           std::max(need.Least(), need.BesideProjections() + need.OfProjections(MostComponents, SumWidth::Wide)) };
 }
 } // namespace
 

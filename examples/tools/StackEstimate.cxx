@@ -193,7 +193,8 @@ NoteMemory(const EstimateOptions & options, const itk::ImageRegion<3> & region)
             << TextOfBytes(need.Least()) << " of memory";
   if (options.memoryLimit == 0)
   {
-    std::cerr << ", or " << TextOfBytes(need.BesideProjections()) << " and " << TextOfBytes(need.OfProjections(1))
+    std::cerr << ", or " << TextOfBytes(need.BesideProjections()) << " and "
+              << TextOfBytes(need.OfProjections(1, SumWidth::Narrow))
               << " for each temporal component of illumination and motion (2 to 20), if that is more; --memory-limit "
                  "reads the stack more often instead";
   }

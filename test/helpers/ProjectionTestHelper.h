@@ -16,7 +16,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <random>
 #include <utility>
 #include <vector>
@@ -79,10 +78,11 @@ struct Input
   ProjectionSums            sums; // until they are projected
   std::vector<std::uint8_t> mask;
 
-  std::optional<PixelCoordinates> coordinates;
+  PixelCoordinates coordinates; // on the illumination components
 
   explicit Input(const Eigen::MatrixXd & series)
     : sums(Pixels, Basis().Size())
+    , coordinates(Pixels, Basis().NumberOfIlluminationFactors())
   {
     std::vector<double> mean = WavyScene(Width, Height);
     std::vector<double> variance(Pixels);
@@ -112,8 +112,7 @@ struct Input
   Project(const ParallelFor & parallelFor = SerialFor, const FrameIllumination & illumination = {})
   {
     ResidualSquares squares;
-    AppendResidualSquares(frame, Basis(), sums, true, parallelFor, squares);
-    coordinates.emplace(std::move(sums));
+    AppendResidualSquares(frame, Basis(), sums, parallelFor, squares, coordinates);
     return { frame, Basis(), motion, std::move(squares), model, mask, parallelFor, illumination };
   }
 };

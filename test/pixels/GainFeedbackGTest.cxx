@@ -83,7 +83,8 @@ struct Burst
     mask = frame.usable;
     ProjectionSums sums(Pixels, basis.Size());
     sums.AddFrames(ProjectedFrames(basis, stack.data(), PixelLayout::OfFrames({ Pixels, 1, 1 }), 0, Frames), 0, Pixels);
-    AppendResidualSquares(frame, basis, sums, false, SerialFor, squares);
+    PixelCoordinates none;
+    AppendResidualSquares(frame, basis, sums, SerialFor, squares, none);
     model.interceptDn2 = 200.0;
     model.slopeDn = Gain;
     model.darkestDn = 300.0;

@@ -50,7 +50,7 @@ struct Scene
   IlluminationResponses
   Data() const
   {
-    return { input.frame, *input.coordinates, Basis().NumberOfIlluminationFactors(), line, input.mask, CentreDn, 400.0,
+    return { input.frame, input.coordinates, Basis().NumberOfIlluminationFactors(), line, input.mask, CentreDn, 400.0,
              1200.0 };
   }
 };

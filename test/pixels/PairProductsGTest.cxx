@@ -96,6 +96,17 @@ ExpectExact(const Case & of, std::size_t pixels)
   found = start;
   AddPairProductsOneByOne(of.frames, of.Weights(), -32768.0, pixels, found.data());
   EXPECT_EQ(found, expected) << of.weights.size() << " pairs, " << pixels << " pixels, one by one";
+
+  std::array<std::uint32_t, FramePairs::MostPixels> modular{};
+  AddPairProducts(of.frames, of.Weights(), std::uint32_t{ 0 } - 32765U, pixels, modular.data()); // 3 - 32768
+  auto inOrder = decltype(modular){};
+  AddPairProductsOneByOne(of.frames, of.Weights(), std::uint32_t{ 0 } - 32765U, pixels, inOrder.data());
+  for (std::size_t i = 0; i < pixels; ++i)
+  {
+    const auto low = static_cast<std::uint32_t>(static_cast<std::int64_t>(expected[i])); // modulo 2^32
+    ASSERT_EQ(modular[i], low) << i;
+    ASSERT_EQ(inOrder[i], low) << i;
+  }
 }
 } // namespace
 

@@ -207,7 +207,8 @@ TEST(SensorNoiseProjectedVariance, ReplacedSquaresHaveTheirOwnDegreesOfFreedom)
   const std::size_t      p = 5 * Width + 7;
   const double           half = 0.5 * DofWithoutMotion();
   ResidualSquares        rest;
-  AppendResidualSquares(other.frame, Basis(), other.sums, false, SerialFor, rest);
+  PixelCoordinates       none;
+  AppendResidualSquares(other.frame, Basis(), other.sums, SerialFor, rest, none);
   CodeNoise codes; // a remainder of 3 DN^2 at every level
   codes.remaindersDn2 = { 3.0, 3.0 };
   const ProjectedSquares replaced(other.frame,

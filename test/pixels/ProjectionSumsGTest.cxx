@@ -198,11 +198,14 @@ TYPED_TEST(SensorNoiseProjectionSumsOf, AllFramesAtOnceHaveTheResidualSquaresOfT
     frame.mean.push_back(moments.GetMean(p));
     frame.variance.push_back(moments.GetVariance(p));
   }
-  ProjectionSums  sums = SumsOf(stack, 0, Frames);
-  ResidualSquares expected;
-  AppendResidualSquares(frame, Basis(), sums, true, SerialFor, expected);
+  ProjectionSums   sums = SumsOf(stack, 0, Frames);
+  ResidualSquares  expected;
+  PixelCoordinates coordinates(Pixels, light);
+  AppendResidualSquares(frame, Basis(), sums, SerialFor, expected, coordinates);
+  EXPECT_EQ(sums.FirstPixel(), ProjectionSums::SlabPixels);
 
-  ProjectionSums        kept(Pixels, light);
+  PixelCoordinates kept(Pixels, light);
+  kept.AllocateSlabOf(0);
   const ProjectedFrames frames(Basis(), stack.data(), PixelLayout::OfFrames({ Pixels, 1, 1 }), 0, Frames);
   ResidualSquares       squares{ std::vector<double>(Pixels), std::vector<float>(Pixels) };
   FillResidualSquares(frame, Basis(), frames, 0, Pixels, squares, kept);
@@ -210,7 +213,7 @@ TYPED_TEST(SensorNoiseProjectionSumsOf, AllFramesAtOnceHaveTheResidualSquaresOfT
   EXPECT_EQ(squares.skew, expected.skew);
   for (std::size_t i = 0; i < Pixels * light; ++i)
   {
-    ASSERT_EQ(kept.At(i / light, i % light), sums.At(i / light, i % light)) << i;
+    ASSERT_EQ(kept.At(i / light, i % light), coordinates.At(i / light, i % light)) << i;
   }
 }
 
@@ -246,6 +249,50 @@ TYPED_TEST(SensorNoiseProjectionSumsOf, ManyFramesOfTheLargestProductsAreExact)
       ASSERT_EQ(sums.At(i / 2, i % 2), sum) << i;
     }
   }
+}
+
+TEST(SensorNoiseProjectionSums, NarrowOnesGiveTheWideOnes)
+{
+  // Sums over some of the frames exceed 2^32; what is within 2^31 is the sum over all of series times deviation.
+  std::mt19937                random(8);
+  std::normal_distribution<>  normal(0.0, 5.0);
+  std::vector<unsigned short> stack(Pixels * Frames);
+  std::vector<double>         mean(Pixels);
+  for (std::size_t i = 0; i < stack.size(); ++i)
+  {
+    const double level = 219.0 * static_cast<double>(i % Pixels);
+    stack[i] = static_cast<unsigned short>(std::clamp(level + normal(random), 0.0, 65535.0));
+    mean[i % Pixels] += static_cast<double>(stack[i]) / static_cast<double>(Frames);
+  }
+  const TemporalBasis   basis = Basis().WithUnit(TemporalBasis::Unit / 4.0);
+  const auto            layout = PixelLayout::OfFrames({ Pixels, 1, 1 });
+  const ProjectedFrames frames(basis, stack.data(), layout, 0, Frames);
+  ProjectionSums        wide(Pixels, Series);
+  wide.AddFrames(frames, 0, Pixels);
+  const auto narrowOf = [&](std::size_t first, std::size_t count) {
+    ProjectionSums sums(Pixels, Series, SerialFor, 0, 1, SumWidth::Narrow);
+    sums.AddFrames(ProjectedFrames(basis, stack.data() + first * Pixels, layout, first, count), 0, Pixels);
+    return sums;
+  };
+  ProjectionSums narrow = narrowOf(9, Frames - 9);
+  narrow.Merge(narrowOf(0, 9));
+  ProjectionSums part(Pixels, Series);
+  part.AddFrames(ProjectedFrames(basis, stack.data(), layout, 0, 9), 0, Pixels);
+  double largest = 0.0; // of this part
+  for (std::size_t first = 0; first < Pixels; first += ProjectionSums::BlockPixels)
+  {
+    const std::size_t   pixels = std::min(ProjectionSums::BlockPixels, Pixels - first);
+    std::vector<double> sums(Series * ProjectionSums::BlockPixels);
+    narrow.CopyBlock(first, pixels, basis, mean.data() + first, sums.data());
+    for (std::size_t i = 0; i < pixels * Series; ++i)
+    {
+      const double own = sums[i % Series * ProjectionSums::BlockPixels + i / Series];
+      ASSERT_EQ(own, wide.At(first + i / Series, i % Series)) << first << ' ' << i;
+      largest = std::max(largest, std::abs(part.At(first + i / Series, i % Series)));
+    }
+  }
+  EXPECT_GT(largest, std::exp2(32.0));
+  EXPECT_THROW(narrow.Merge(wide), std::invalid_argument);
 }
 
 TEST(SensorNoiseProjectionSums, MergeRefusesOtherSizes)

@@ -101,8 +101,9 @@ struct Burst
     model.slopeDn = 0.4;
     model.darkestDn = BlackDn + 20.0;
     motion.inverseGram.resize(0, 0);
-    ResidualSquares rest;
-    AppendResidualSquares(frame, *basis, sums, false, SerialFor, rest);
+    ResidualSquares  rest;
+    PixelCoordinates none;
+    AppendResidualSquares(frame, *basis, sums, SerialFor, rest, none);
     squares =
       std::make_unique<ProjectedSquares>(frame, *basis, motion, std::move(rest), model, frame.usable, SerialFor);
     projected = std::make_unique<ProjectedVariance>(*squares, 0.0);

@@ -22,7 +22,7 @@ using namespace sensornoise::test;
 
 namespace
 {
-using Codes = unsigned short;
+using Codes = float; // whole numbers whose sums need 8 bytes: those of integers fit within the least memory
 
 constexpr std::size_t Width = 1100;
 constexpr std::size_t Height = 1000;
@@ -179,6 +179,7 @@ TEST(SensorNoiseMemoryNeed, IsThatOfTheMapsTheFramesAndTheSample)
 {
   const MemoryNeed need{ 4'000'000, 100 };
   EXPECT_DOUBLE_EQ(need.Least(), 64.0 * 4e6 + 20e3 * 100.0 + 33554432.0);
-  EXPECT_DOUBLE_EQ(need.OfProjections(9), 8.0 * 9.0 * 4e6);
+  EXPECT_DOUBLE_EQ(need.OfProjections(9, SumWidth::Wide), 8.0 * 9.0 * 4e6);
+  EXPECT_DOUBLE_EQ(need.OfProjections(9, SumWidth::Narrow), 4.0 * 9.0 * 4e6);
   EXPECT_LT(need.BesideProjections(), need.Least());
 }

@@ -24,16 +24,16 @@ namespace sensornoise
  * flicker, local illumination and motion. Pass 3 projects the time series of every pixel on these components. The
  * residual is sensor noise, and the regression of its variance on the mean gives gain and intercept. If the
  * illumination changes strongly, the stack is read once more between passes 1 and 2. Several processes exchange sums of
- * 16 kB per frame in pass 2, of 8 bytes per pixel and component in pass 3, and of 8 bytes per pixel in the additional
- * pass.
+ * 16 kB per frame in pass 2, of 4 or 8 bytes per pixel and component in pass 3, and of 8 bytes per pixel in the
+ * additional pass.
  *
  * A stack with repeated frames has the result of its distinct frames. The series of the report have the same value for
  * equal frames.
  *
- * The result has the same bits for any number of threads and any chunks. The method needs 56 bytes per pixel, 8 bytes
- * per pixel and component of illumination and motion (2 to 20 are found), 20 kB per frame, and 32 MiB. A stack that
- * cannot be measured gives a report whose quantities have `failed`, with a warning that names the reason. Wrong use
- * throws std::invalid_argument. */
+ * The result has the same bits for any number of threads and any chunks. The method needs 56 bytes per pixel, 4 bytes
+ * per pixel and component of illumination and motion (2 to 20 are found), or 8 bytes (large changes of the illumination
+ * at 16 bits, floating-point pixels), 20 kB per frame, and 32 MiB. A stack that cannot be measured gives a report whose
+ * quantities have `failed`, with a warning that names the reason. Wrong use throws std::invalid_argument. */
 template <typename TPixel>
 class RefinedMethod final : public StackMethod<TPixel>
 {

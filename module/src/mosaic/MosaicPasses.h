@@ -122,11 +122,10 @@ public:
     }
   }
 
-  /** Limits beyond which the third pass's sums of 8 bytes are too many for all planes at once. */
+  /** Limits beyond which the third pass's sums are too many for all planes at once. */
   struct ManySums
   {
-    std::size_t ofPixel = 8;                     ///< sums for each pixel; a memory limit reduces every stack to 64
-                                                 ///< bytes
+    std::size_t ofPixel = 64;                    ///< bytes for each pixel; a memory limit reduces every stack to them
     std::size_t bytes = std::size_t{ 32 } << 20; ///< bytes of the mosaic's sums; saving less is not worth a pass
   };
 
@@ -244,8 +243,8 @@ private:
   EndPassBeforeLast()
   {
     this->EndPlanes(0, RedRows);
-    const std::size_t sums = std::max(m_Methods[0].SumsPerPixel(), m_Methods[1].SumsPerPixel());
-    const std::size_t bytes = sizeof(double) * sums * m_Geometry.frame.Pixels();
+    const std::size_t sums = std::max(m_Methods[0].SumBytesPerPixel(), m_Methods[1].SumBytesPerPixel());
+    const std::size_t bytes = sums * m_Geometry.frame.Pixels();
     if (sums <= m_ManySums->ofPixel || bytes <= m_ManySums->bytes)
     {
       this->EndPlanes(RedRows, m_Last);

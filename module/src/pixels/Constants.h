@@ -27,6 +27,9 @@ struct PixelsConstants
    * empirically: below, standard errors are too small by at most half of this fraction. A flicker of 10 % rms has this
    * loss. */
   double leastLossOfDof{ 0.01 };
+  /** Largest change of the variance by the rounding of the temporal basis, in units of the standard error of the mean
+   * variance of all pixels [1]. Chosen empirically: it does not show in any reported digit. */
+  double largestRoundingError{ 0.01 };
   /** Fraction of the roughness classes, the flattest ones, that the first line is fitted to [1]. Chosen empirically. */
   double flatShare{ 0.6 };
   ///@}

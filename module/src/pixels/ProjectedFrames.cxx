@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <type_traits>
 #include <vector>
 
@@ -29,23 +30,26 @@ struct PairSums
   alignas(32) std::int32_t high[FramePairs::MostPixels];
 };
 
+template <typename TSum>
 inline void
-AddTo(double * sums, const PairSums & products, double more, std::size_t pixels)
+AddTo(TSum * sums, const PairSums & products, TSum more, std::size_t pixels)
 {
+  constexpr auto step = static_cast<TSum>(PairWeights::Step);
   for (std::size_t i = 0; i < pixels; ++i)
   {
-    sums[i] += more + PairWeights::Step * products.high[i] + products.low[i];
+    sums[i] += more + step * static_cast<TSum>(products.high[i]) + static_cast<TSum>(products.low[i]);
   }
 }
 
 #if defined(SENSORNOISE_AVX2)
 /** A single instruction multiplies sixteen values and adds the products of each pixel; compilers do not generate it. */
+template <typename TSum>
 __attribute__((target("avx2"))) void
 AddPairProductsAvx2(const FramePairs &               frames,
                     const std::vector<PairWeights> & weights,
-                    double                           more,
+                    TSum                             more,
                     std::size_t                      pixels,
-                    double *                         sums)
+                    TSum *                           sums)
 {
   constexpr std::size_t together = 4; // vectors, of eight pixels each
   PairSums              products{};
@@ -75,23 +79,25 @@ AddPairProductsAvx2(const FramePairs &               frames,
 #endif
 
 /** Returns the fastest version for this processor. */
+template <typename TSum>
 auto
 FindAddPairProducts()
 {
 #if defined(SENSORNOISE_AVX2)
-  return HasAvx2() ? AddPairProductsAvx2 : AddPairProductsOneByOne;
+  return HasAvx2() ? AddPairProductsAvx2<TSum> : AddPairProductsOneByOne<TSum>;
 #else
-  return AddPairProductsOneByOne;
+  return AddPairProductsOneByOne<TSum>;
 #endif
 }
 } // namespace
 
+template <typename TSum>
 void
 AddPairProductsOneByOne(const FramePairs &               frames,
                         const std::vector<PairWeights> & weights,
-                        double                           more,
+                        TSum                             more,
                         std::size_t                      pixels,
-                        double *                         sums)
+                        TSum *                           sums)
 {
   PairSums products{};
   for (std::size_t k = 0; k < weights.size(); ++k)
@@ -108,16 +114,26 @@ AddPairProductsOneByOne(const FramePairs &               frames,
   AddTo(sums, products, more, pixels);
 }
 
+template <typename TSum>
 void
 AddPairProducts(const FramePairs &               frames,
                 const std::vector<PairWeights> & weights,
-                double                           more,
+                TSum                             more,
                 std::size_t                      pixels,
-                double *                         sums)
+                TSum *                           sums)
 {
-  static const auto add = FindAddPairProducts();
+  static const auto add = FindAddPairProducts<TSum>();
   add(frames, weights, more, pixels, sums);
 }
+
+#define SensorNoise_INSTANTIATE(TSum)                                                 \
+  template SensorNoise_EXPORT void AddPairProducts(                                   \
+    const FramePairs &, const std::vector<PairWeights> &, TSum, std::size_t, TSum *); \
+  template SensorNoise_EXPORT void AddPairProductsOneByOne(                           \
+    const FramePairs &, const std::vector<PairWeights> &, TSum, std::size_t, TSum *)
+SensorNoise_INSTANTIATE(double);
+SensorNoise_INSTANTIATE(std::uint32_t);
+#undef SensorNoise_INSTANTIATE
 
 namespace
 {
@@ -195,30 +211,33 @@ ProjectedFrames<TPixel>::WeightsOf(std::size_t series, std::size_t first, std::s
 }
 
 template <typename TPixel>
+template <typename TSum>
 void
-ProjectedFrames<TPixel>::AddTo(double *       sums,
-                               std::size_t    begin,
-                               std::size_t    end,
-                               std::size_t    ahead,
-                               const double * next) const
+ProjectedFrames<TPixel>::AddTo(TSum * sums, std::size_t begin, std::size_t end, std::size_t ahead, const TSum * next)
+  const
 {
   if constexpr (std::is_integral_v<TPixel>)
   {
     this->AddTogether(sums, begin, end, ahead, next);
   }
-  else
+  else if constexpr (std::is_floating_point_v<TSum>)
   {
     this->AddOneByOne(sums, begin, end);
+  }
+  else
+  {
+    throw std::logic_error("floating-point frames have no sums modulo 2^32");
   }
 }
 
 template <typename TPixel>
+template <typename TSum>
 void
-ProjectedFrames<TPixel>::AddTogether(double *       sums,
-                                     std::size_t    begin,
-                                     std::size_t    end,
-                                     std::size_t    ahead,
-                                     const double * next) const
+ProjectedFrames<TPixel>::AddTogether(TSum *       sums,
+                                     std::size_t  begin,
+                                     std::size_t  end,
+                                     std::size_t  ahead,
+                                     const TSum * next) const
 {
   const std::size_t series = m_Basis->Size();
   FramePairs        values{};
@@ -238,7 +257,8 @@ ProjectedFrames<TPixel>::AddTogether(double *       sums,
         PrefetchValues(next + j * BlockPixels, BlockPixels);
       }
       const Weights & weights = m_Weights[n][j];
-      AddPairProducts(values, weights.pairs, weights.ofMiddle, end - begin, sums + j * BlockPixels);
+      const auto      ofMiddle = static_cast<TSum>(static_cast<std::int64_t>(weights.ofMiddle));
+      AddPairProducts(values, weights.pairs, ofMiddle, end - begin, sums + j * BlockPixels);
     }
   }
 }
@@ -265,7 +285,12 @@ ProjectedFrames<TPixel>::AddOneByOne(double * sums, std::size_t begin, std::size
   }
 }
 
-#define SensorNoise_INSTANTIATE(TPixel) template class ProjectedFrames<TPixel>
+#define SensorNoise_INSTANTIATE(TPixel)                                     \
+  template class ProjectedFrames<TPixel>;                                   \
+  template SensorNoise_EXPORT void ProjectedFrames<TPixel>::AddTo(          \
+    double *, std::size_t, std::size_t, std::size_t, const double *) const; \
+  template SensorNoise_EXPORT void ProjectedFrames<TPixel>::AddTo(          \
+    std::uint32_t *, std::size_t, std::size_t, std::size_t, const std::uint32_t *) const
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 #undef SensorNoise_INSTANTIATE
 

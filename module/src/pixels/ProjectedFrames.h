@@ -58,30 +58,34 @@ struct FramePairs
 };
 
 /** Adds to \a sums of \a pixels pixels \a more and the sum over the pairs of frames of weights times values. All
- * numbers are whole, so the result has the same bits on every processor, with or without SIMD instructions. */
+ * numbers are whole, so the result has the same bits on every processor, with or without SIMD instructions.
+ * \tparam TSum double, or std::uint32_t for sums modulo 2^32 */
+template <typename TSum>
 SensorNoise_EXPORT void
 AddPairProducts(const FramePairs &               frames,
                 const std::vector<PairWeights> & weights,
-                double                           more,
+                TSum                             more,
                 std::size_t                      pixels,
-                double *                         sums);
+                TSum *                           sums);
 
 /** Adds the same sums as AddPairProducts(), without SIMD instructions: for unknown processors, and to test the other
  * versions. */
+template <typename TSum>
 SensorNoise_EXPORT void
 AddPairProductsOneByOne(const FramePairs &               frames,
                         const std::vector<PairWeights> & weights,
-                        double                           more,
+                        TSum                             more,
                         std::size_t                      pixels,
-                        double *                         sums);
+                        TSum *                           sums);
 
 /** \class ProjectedFrames
  * \brief Frames that are multiplied by the components of a TemporalBasis, one block of pixels at a time.
  *
  * Integer frames are multiplied and summed in whole numbers, up to 32 frames at once, so that the order of the frames
  * does not change the sums. Doubles hold the sums exactly, because they stay below 2^53 for up to 2^34 frames: the
- * components have the norm 2^20, and a pixel's values have a norm of at most 2^16 times the square root of the number
- * of frames. Floating-point frames are added one by one, in their order. */
+ * components have the norm 2^20 at most, and a pixel's values have a norm of at most 2^16 times the square root of the
+ * number of frames. Sums modulo 2^32 hold what is left of them, see UnitOfNarrowSums(). Floating-point frames are added
+ * one by one, in their order. */
 template <typename TPixel>
 class ProjectedFrames
 {
@@ -99,9 +103,11 @@ public:
 
   /** Adds the sums of the pixels [begin, end), at most a block, to sums[j BlockPixels + i], with i from 0 for each
    * component j. Meanwhile the pixels [end, ahead) of the frames and the block of sums at \a next, if not null, are
-   * prefetched. */
+   * prefetched.
+   * \tparam TSum double, or std::uint32_t for sums modulo 2^32 of integer frames */
+  template <typename TSum>
   void
-  AddTo(double * sums, std::size_t begin, std::size_t end, std::size_t ahead, const double * next = nullptr) const;
+  AddTo(TSum * sums, std::size_t begin, std::size_t end, std::size_t ahead, const TSum * next = nullptr) const;
 
 private:
   /** Weights of frames that are added together, in one component. */
@@ -113,8 +119,9 @@ private:
 
   Weights
   WeightsOf(std::size_t series, std::size_t first, std::size_t count) const;
+  template <typename TSum>
   void
-  AddTogether(double * sums, std::size_t begin, std::size_t end, std::size_t ahead, const double * next) const;
+  AddTogether(TSum * sums, std::size_t begin, std::size_t end, std::size_t ahead, const TSum * next) const;
   void
   AddOneByOne(double * sums, std::size_t begin, std::size_t end) const;
 

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <istream>
 #include <ostream>
 #include <stdexcept>
@@ -26,38 +27,66 @@ namespace sensornoise
 
 namespace
 {
-constexpr const char * Name = "ProjectionSums";
+/** Returns the name of the sums in a stream. */
+const char *
+NameOf(SumWidth width)
+{
+  return width == SumWidth::Wide ? "ProjectionSums" : "ProjectionSums modulo 2^32";
+}
 } // namespace
 
 ProjectionSums::ProjectionSums(std::size_t         pixels,
                                std::size_t         series,
                                const ParallelFor & parallelFor,
                                std::size_t         firstSlab,
-                               std::size_t         lastSlab)
+                               std::size_t         lastSlab,
+                               SumWidth            width)
   : m_Pixels(pixels)
   , m_Series(series)
   , m_FirstSlab(firstSlab)
   , m_LastSlab(std::min(lastSlab, NumberOfSlabs(pixels)))
-  , m_Slabs(NumberOfSlabs(pixels))
+  , m_Width(width)
+  , m_Wide(NumberOfSlabs(pixels))
+  , m_Narrow(NumberOfSlabs(pixels))
 {
-  for (std::size_t slab = m_FirstSlab; slab < m_LastSlab; ++slab)
-  {
-    const std::size_t own = std::min(SlabPixels, pixels - slab * SlabPixels);
-    Eigen::ArrayXd &  sums = m_Slabs[slab];
-    sums.resize(static_cast<Eigen::Index>((own + BlockPixels - 1) / BlockPixels * BlockPixels * series));
-  }
+  this->OnSlabs([&](auto & slabs) {
+    for (std::size_t slab = m_FirstSlab; slab < m_LastSlab; ++slab)
+    {
+      const std::size_t own = std::min(SlabPixels, pixels - slab * SlabPixels);
+      slabs[slab].resize(static_cast<Eigen::Index>((own + BlockPixels - 1) / BlockPixels * BlockPixels * series));
+    }
+  });
   this->Clear(parallelFor); // by all threads, because the first use of the memory is slow
 }
 
 void
 ProjectionSums::Clear(const ParallelFor & parallelFor)
 {
-  for (std::size_t slab = m_FirstSlab; slab < m_LastSlab; ++slab)
+  this->OnSlabs([&](auto & slabs) {
+    for (std::size_t slab = m_FirstSlab; slab < m_LastSlab; ++slab)
+    {
+      auto & sums = slabs[slab];
+      ForBlocks(static_cast<std::size_t>(sums.size()), parallelFor, [&sums](std::size_t begin, std::size_t end) {
+        std::fill(sums.data() + begin, sums.data() + end, 0);
+      });
+    }
+  });
+}
+
+template <typename TPixel, typename TSum>
+void
+ProjectionSums::AddFramesTo(std::vector<Eigen::Array<TSum, Eigen::Dynamic, 1>> & slabs,
+                            const ProjectedFrames<TPixel> &                      frames,
+                            std::size_t                                          begin,
+                            std::size_t                                          end)
+{
+  const auto at = [&](std::size_t p) { return slabs[p / SlabPixels].data() + this->IndexInSlab(p % SlabPixels, 0); };
+  for (std::size_t p = begin; p < end && m_Series > 0;)
   {
-    Eigen::ArrayXd & sums = m_Slabs[slab];
-    ForBlocks(static_cast<std::size_t>(sums.size()), parallelFor, [&sums](std::size_t begin, std::size_t end) {
-      std::fill(sums.data() + begin, sums.data() + end, 0.0);
-    });
+    const std::size_t  next = std::min(end, (p / BlockPixels + 1) * BlockPixels);
+    const TSum * const ahead = next == end ? nullptr : at(next);
+    frames.AddTo(at(p), p, next, std::min(end, next + BlockPixels), ahead);
+    p = next;
   }
 }
 
@@ -65,13 +94,7 @@ template <typename TPixel>
 void
 ProjectionSums::AddFrames(const ProjectedFrames<TPixel> & frames, std::size_t begin, std::size_t end)
 {
-  for (std::size_t p = begin; p < end && m_Series > 0;)
-  {
-    const std::size_t next = std::min(end, (p / BlockPixels + 1) * BlockPixels);
-    const bool        isLast = next == end;
-    frames.AddTo(&this->At(p, 0), p, next, std::min(end, next + BlockPixels), isLast ? nullptr : &this->At(next, 0));
-    p = next;
-  }
+  this->OnSlabs([&](auto & slabs) { this->AddFramesTo(slabs, frames, begin, end); });
 }
 
 #define SensorNoise_INSTANTIATE(TPixel) \
@@ -83,7 +106,7 @@ void
 ProjectionSums::Merge(const ProjectionSums & other)
 {
   if (other.m_Pixels != m_Pixels || other.m_Series != m_Series || other.m_FirstSlab != m_FirstSlab ||
-      other.m_LastSlab != m_LastSlab)
+      other.m_LastSlab != m_LastSlab || other.m_Width != m_Width)
   {
     throw std::invalid_argument("projections of " + std::to_string(other.m_Pixels) + " pixels on " +
                                 std::to_string(other.m_Series) + " series cannot be merged into those of " +
@@ -91,57 +114,78 @@ ProjectionSums::Merge(const ProjectionSums & other)
   }
   for (std::size_t slab = m_FirstSlab; slab < m_LastSlab; ++slab)
   {
-    m_Slabs[slab] += other.m_Slabs[slab];
+    m_Wide[slab] += other.m_Wide[slab]; // one of both is empty
+    m_Narrow[slab] += other.m_Narrow[slab];
   }
 }
 
 void
 ProjectionSums::Save(std::ostream & out) const
 {
-  WriteSumsHeader(out, Name, m_Pixels, 0);
+  WriteSumsHeader(out, NameOf(m_Width), m_Pixels, 0);
   WriteCount(out, m_Series);
-  for (std::size_t slab = m_FirstSlab; slab < m_LastSlab; ++slab)
-  {
-    WriteNumbers(out, m_Slabs[slab].data(), static_cast<std::size_t>(m_Slabs[slab].size()));
-  }
+  this->OnSlabs([&](const auto & slabs) {
+    for (std::size_t slab = m_FirstSlab; slab < m_LastSlab; ++slab)
+    {
+      WriteNumbers(out, slabs[slab].data(), static_cast<std::size_t>(slabs[slab].size()));
+    }
+  });
 }
 
 void
 ProjectionSums::Restore(std::istream & in)
 {
-  ProjectionSums read(m_Pixels, m_Series, SerialFor, m_FirstSlab, m_LastSlab);
-  ReadSumsHeader(in, Name, m_Pixels);
+  ProjectionSums read(m_Pixels, m_Series, SerialFor, m_FirstSlab, m_LastSlab, m_Width);
+  ReadSumsHeader(in, NameOf(m_Width), m_Pixels);
   RequireCount("series", ReadCount(in), m_Series);
-  for (std::size_t slab = m_FirstSlab; slab < m_LastSlab; ++slab)
-  {
-    ReadNumbers(in, read.m_Slabs[slab].data(), static_cast<std::size_t>(read.m_Slabs[slab].size()));
-  }
+  read.OnSlabs([&](auto & slabs) {
+    for (std::size_t slab = m_FirstSlab; slab < m_LastSlab; ++slab)
+    {
+      ReadNumbers(in, slabs[slab].data(), static_cast<std::size_t>(slabs[slab].size()));
+    }
+  });
   *this = std::move(read);
 }
 
-PixelCoordinates::PixelCoordinates(ProjectionSums &&           sums,
-                                   const TemporalBasis &       basis,
-                                   const std::vector<double> & mean,
-                                   const ParallelFor &         parallelFor)
-  : m_Coordinates(std::move(sums))
+namespace
 {
-  if (basis.Size() == 0 || mean.empty())
-  {
-    return;
-  }
-  const std::size_t offset = m_Coordinates.FirstPixel();
-  ForBlocks(m_Coordinates.LastPixel() - offset, parallelFor, [&](std::size_t begin, std::size_t end) {
-    end += offset;
-    for (std::size_t p = begin + offset; p < end; p += BlockPixels)
+/** Returns the whole numbers of narrow sums. Their differences from \a total times the whole number that is nearest to
+ * the mean are within 2^31, so that 32 bits give them.
+ * \param total sum of the integer series over time, at most half the number of frames */
+void
+CompleteSums(const std::uint32_t * narrow, double total, const double * means, std::size_t pixels, double * sums)
+{
+  CallWithAvx2([=] {
+    const auto ofTotal = static_cast<std::uint32_t>(static_cast<std::int32_t>(total));
+    for (std::size_t i = 0; i < pixels; ++i)
     {
-      basis.ToCoordinates(&m_Coordinates.At(p, 0), BlockPixels, mean.data() + p, std::min(BlockPixels, end - p));
+      const auto level = static_cast<std::int32_t>(means[i]);
+      const auto difference = static_cast<std::int32_t>(narrow[i] - ofTotal * static_cast<std::uint32_t>(level));
+      sums[i] = static_cast<double>(difference) + total * static_cast<double>(level);
     }
   });
 }
+} // namespace
 
-PixelCoordinates::PixelCoordinates(ProjectionSums && coordinates)
-  : m_Coordinates(std::move(coordinates))
-{}
+void
+ProjectionSums::CopyBlock(std::size_t           first,
+                          std::size_t           pixels,
+                          const TemporalBasis & basis,
+                          const double *        means,
+                          double *              sums) const
+{
+  const std::size_t place = this->IndexInSlab(first % SlabPixels, 0);
+  if (m_Width == SumWidth::Wide && m_Series > 0)
+  {
+    std::copy_n(m_Wide[first / SlabPixels].data() + place, m_Series * BlockPixels, sums);
+    return;
+  }
+  for (std::size_t j = 0; j < m_Series; ++j)
+  {
+    const std::uint32_t * const narrow = m_Narrow[first / SlabPixels].data() + place + j * BlockPixels;
+    CompleteSums(narrow, basis.SumOfRounded(j), means, pixels, sums + j * BlockPixels);
+  }
+}
 
 namespace detail
 {
@@ -197,41 +241,76 @@ private:
 };
 } // namespace detail
 
+namespace
+{
+/** Calls function(first, pixels, coordinates) for the blocks of the pixels whose \a sums are held, for several at the
+ * same time. begin(first, last) is called before the blocks of a slab; its sums are released after them. */
+template <typename TBegin, typename TFunction>
+void
+ForCoordinates(ProjectionSums &            sums,
+               const TemporalBasis &       basis,
+               const std::vector<double> & mean,
+               const ParallelFor &         parallelFor,
+               TBegin                      begin,
+               TFunction                   function)
+{
+  constexpr std::size_t BlockPixels = ProjectionSums::BlockPixels;
+  const std::size_t     end = sums.LastPixel();
+  while (sums.FirstPixel() < end)
+  {
+    const std::size_t slab = sums.FirstPixel();
+    const std::size_t last = std::min(end, slab + ProjectionSums::SlabPixels);
+    begin(slab, last);
+    ForBlocks(last - slab, parallelFor, [&](std::size_t from, std::size_t to) {
+      std::vector<double> coordinates(basis.Size() * BlockPixels);
+      for (std::size_t first = slab + from; first < slab + to; first += BlockPixels)
+      {
+        const std::size_t    pixels = std::min(BlockPixels, slab + to - first);
+        const double * const means = mean.data() + first;
+        sums.CopyBlock(first, pixels, basis, means, coordinates.data());
+        basis.ToCoordinates(coordinates.data(), BlockPixels, means, pixels);
+        function(first, pixels, coordinates.data());
+      }
+    });
+    sums.ReleaseFirstSlab();
+  }
+}
+} // namespace
+
 void
 AppendResidualSquares(const ReferenceFrame & frame,
                       const TemporalBasis &  basis,
                       ProjectionSums &       sums,
-                      bool                   keepCoordinates,
                       const ParallelFor &    parallelFor,
-                      ResidualSquares &      squares)
+                      ResidualSquares &      squares,
+                      PixelCoordinates &     coordinates)
 {
-  constexpr std::size_t         BlockPixels = ProjectionSums::BlockPixels;
   const detail::SquaresOfBlocks blocks(frame, basis, squares);
   squares.rss.reserve(frame.mean.size());
   squares.skew.reserve(frame.mean.size());
-  const auto append = [&](std::size_t firstPixel, std::size_t lastPixel) {
-    GrowMap(squares.rss, lastPixel, parallelFor);
-    GrowMap(squares.skew, lastPixel, parallelFor);
-    ForBlocks(lastPixel - firstPixel, parallelFor, [&](std::size_t begin, std::size_t end) {
-      end += firstPixel;
-      for (std::size_t first = begin + firstPixel; first < end; first += BlockPixels)
-      {
-        const std::size_t pixels = std::min(BlockPixels, end - first);
-        double * const    own = basis.Size() > 0 ? &sums.At(first, 0) : nullptr;
-        basis.ToCoordinates(own, BlockPixels, frame.mean.data() + first, pixels);
-        blocks.Fill(own, first, pixels);
-      }
-    });
+  const auto begin = [&](std::size_t first, std::size_t last) {
+    GrowMap(squares.rss, last, parallelFor);
+    GrowMap(squares.skew, last, parallelFor);
+    coordinates.AllocateSlabOf(first);
   };
-  const std::size_t last = sums.LastPixel();
-  for (std::size_t first = sums.FirstPixel(); first < last; first += ProjectionSums::SlabPixels)
-  {
-    append(first, std::min(last, first + ProjectionSums::SlabPixels));
-    if (!keepCoordinates)
-    {
-      sums.ReleaseFirstSlab();
-    }
-  }
+  ForCoordinates(
+    sums, basis, frame.mean, parallelFor, begin, [&](std::size_t first, std::size_t pixels, const double * own) {
+      blocks.Fill(own, first, pixels);
+      coordinates.SetBlock(first, pixels, own);
+    });
+}
+
+void
+FillCoordinates(const std::vector<double> & mean,
+                const TemporalBasis &       basis,
+                ProjectionSums &            sums,
+                const ParallelFor &         parallelFor,
+                PixelCoordinates &          coordinates)
+{
+  const auto begin = [&](std::size_t first, std::size_t) { coordinates.AllocateSlabOf(first); };
+  ForCoordinates(sums, basis, mean, parallelFor, begin, [&](std::size_t first, std::size_t pixels, const double * own) {
+    coordinates.SetBlock(first, pixels, own);
+  });
 }
 
 template <typename TPixel>
@@ -242,7 +321,7 @@ FillResidualSquares(const ReferenceFrame &          frame,
                     std::size_t                     begin,
                     std::size_t                     end,
                     ResidualSquares &               squares,
-                    ProjectionSums &                coordinates)
+                    PixelCoordinates &              coordinates)
 {
   constexpr std::size_t         BlockPixels = ProjectionSums::BlockPixels;
   const detail::SquaresOfBlocks blocks(frame, basis, squares);
@@ -254,10 +333,7 @@ FillResidualSquares(const ReferenceFrame &          frame,
     frames.AddTo(sums.data(), first, last, std::min(end, last + BlockPixels));
     basis.ToCoordinates(sums.data(), BlockPixels, frame.mean.data() + first, last - first);
     blocks.Fill(sums.data(), first, last - first);
-    for (std::size_t j = 0; j < coordinates.GetNumberOfSeries(); ++j)
-    {
-      std::copy_n(sums.data() + j * BlockPixels, last - first, &coordinates.At(first, j));
-    }
+    coordinates.SetBlock(first, last - first, sums.data());
   }
 }
 
@@ -268,7 +344,7 @@ FillResidualSquares(const ReferenceFrame &          frame,
                                                        std::size_t,                     \
                                                        std::size_t,                     \
                                                        ResidualSquares &,               \
-                                                       ProjectionSums &)
+                                                       PixelCoordinates &)
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 #undef SensorNoise_INSTANTIATE
 

@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/FrameGeometry.h"
 #include "correlation/FrameSample.h"
+#include "pixels/ProjectionSums.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -37,9 +38,9 @@ struct MemoryNeed
   }
   /** Returns the memory of the third pass's sums, for all pixels and \a series temporal components. */
   double
-  OfProjections(std::size_t series) const
+  OfProjections(std::size_t series, SumWidth width) const
   {
-    return 8.0 * static_cast<double>(pixels) * static_cast<double>(series);
+    return static_cast<double>(BytesOf(width) * pixels * series);
   }
 
 private:

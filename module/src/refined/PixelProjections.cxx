@@ -47,9 +47,10 @@ PixelProjections::PixelProjections(const FrameGeometry & geometry,
 }
 
 std::size_t
-PixelProjections::SlabsWithin(double bytes, std::size_t series)
+PixelProjections::SlabsWithin(double bytes, std::size_t series, SumWidth width)
 {
-  const double slab = MemoryNeed{ ProjectionSums::SlabPixels, 0 }.OfProjections(std::max<std::size_t>(1, series));
+  const double slab =
+    MemoryNeed{ ProjectionSums::SlabPixels, 0 }.OfProjections(std::max<std::size_t>(1, series), width);
   return static_cast<std::size_t>(std::clamp(bytes / slab, 1.0, 1e9)); // also for an infinite limit
 }
 
@@ -66,11 +67,11 @@ PixelProjections::AllocateNextSlabs()
   }
   if (m_NextSlab - first == ProjectionSums::NumberOfSlabs(pixels))
   {
-    RequireMemory(MemoryNeed{ pixels, 0 }.OfProjections(series),
+    RequireMemory(MemoryNeed{ pixels, 0 }.OfProjections(series, m_Options.width),
                   "the projection of all pixels on " + std::to_string(series) +
                     " series of light and motion (a memory limit parts it)");
   }
-  m_Sums = ProjectionSums(pixels, series, m_ParallelFor, first, m_NextSlab);
+  m_Sums = ProjectionSums(pixels, series, m_ParallelFor, first, m_NextSlab, m_Options.width);
 }
 
 /** Frames that are added to the sums of a plane, or to its residual squares if they are all frames. */
@@ -80,7 +81,7 @@ struct PixelProjections::Batch
   PixelProjections *      to;
   const ReferenceFrame *  frame;
   ProjectedFrames<TPixel> projected;
-  ProjectionSums          light; // sums for the illumination components, if all frames are added at once
+  PixelCoordinates        light; // coordinates for the illumination components, if all frames are added at once
 
   Batch(const Plane & plane, const TPixel * frames, std::size_t count)
     : to(plane.projections)
@@ -97,8 +98,11 @@ struct PixelProjections::Batch
       return;
     }
     const std::size_t pixels = to->m_Geometry.Pixels();
-    light = ProjectionSums(
-      pixels, to->m_Options.keepIllumination ? to->m_Basis.NumberOfIlluminationFactors() : 0, to->m_ParallelFor);
+    light = to->MakeCoordinates();
+    for (std::size_t p = 0; p < pixels; p += ProjectionSums::SlabPixels)
+    {
+      light.AllocateSlabOf(p);
+    }
     to->m_Squares = { MakeMap<double>(pixels, to->m_ParallelFor), MakeMap<float>(pixels, to->m_ParallelFor) };
     to->m_IsProjected = true;
   }
@@ -121,7 +125,7 @@ struct PixelProjections::Batch
   {
     if (to->m_IsProjected && to->m_Options.keepIllumination)
     {
-      to->m_Coordinates = PixelCoordinates(std::move(light));
+      to->m_Coordinates = std::move(light);
     }
   }
 };
@@ -163,12 +167,18 @@ PixelProjections::Forget()
   if (std::exchange(m_IsProjected, false))
   {
     m_Squares = {};
-    m_Coordinates = {};
+    m_Coordinates = PixelCoordinates();
   }
   if (!m_HasSample)
   {
     m_Sample.Clear();
   }
+}
+
+PixelCoordinates
+PixelProjections::MakeCoordinates() const
+{
+  return PixelCoordinates(m_Geometry.Pixels(), m_Options.keepIllumination ? m_Basis.NumberOfIlluminationFactors() : 0);
 }
 
 void
@@ -216,11 +226,11 @@ PixelProjections::EndPass(const ReferenceFrame & frame)
   }
   const std::size_t pixels = m_Geometry.Pixels();
   const bool        keepAll = m_Options.keepIllumination && m_Sums.FirstPixel() == 0 && m_Sums.LastPixel() == pixels;
-  AppendResidualSquares(frame, m_Basis, m_Sums, keepAll, m_ParallelFor, m_Squares);
   if (keepAll)
   {
-    m_Coordinates = PixelCoordinates(std::move(m_Sums));
+    m_Coordinates = this->MakeCoordinates();
   }
+  AppendResidualSquares(frame, m_Basis, m_Sums, m_ParallelFor, m_Squares, m_Coordinates);
   const bool isLast = m_Squares.rss.size() == pixels;
   if (!isLast)
   {
@@ -241,7 +251,8 @@ PixelProjections::StartIlluminationPass()
 void
 PixelProjections::EndIlluminationPass(const ReferenceFrame & frame)
 {
-  m_Coordinates = PixelCoordinates(std::move(m_Sums), m_Basis, frame.mean, m_ParallelFor);
+  m_Coordinates = this->MakeCoordinates();
+  FillCoordinates(frame.mean, m_Basis, m_Sums, m_ParallelFor, m_Coordinates);
 }
 
 #define SensorNoise_INSTANTIATE(TPixel)                         \
@@ -336,7 +347,7 @@ LevelProjection::LevelProjection(StackMaps                   maps,
   , m_Projections(geometry,
                   FrameSample(),
                   BasisOfLevels(frameMeans),
-                  { ProjectionSums::NumberOfSlabs(geometry.Pixels()), false, withoutMerging },
+                  { ProjectionSums::NumberOfSlabs(geometry.Pixels()), false, withoutMerging, SumWidth::Wide },
                   parallelFor)
 {
   m_Projections.SetLayout(layout);

@@ -41,6 +41,7 @@ public:
     std::size_t slabsAtOnce{ 1 };          ///< slabs (ProjectionSums) that are projected in a pass
     bool        keepIllumination{ false }; ///< whether the coordinates on the illumination components are needed
     bool        withoutMerging{ false };   ///< whether no sums are saved or merged
+    SumWidth    width{ SumWidth::Wide };   ///< how the sums are held
   };
 
   /** Prepares the first pass over frames of \a geometry. \a sample must be empty, and is filled in the first pass. */
@@ -53,13 +54,13 @@ public:
   /** Returns the number of slabs that can be projected at once in \a bytes bytes with \a series temporal components: at
    * least 1. */
   static std::size_t
-  SlabsWithin(double bytes, std::size_t series);
+  SlabsWithin(double bytes, std::size_t series, SumWidth width);
 
-  /** Returns the number of sums for each pixel, one for each temporal component. */
+  /** Returns the size of the sums of a pixel, one for each temporal component [bytes]. */
   std::size_t
-  SumsPerPixel() const
+  BytesPerPixel() const
   {
-    return m_Basis.Size();
+    return BytesOf(m_Options.width) * m_Basis.Size();
   }
   const TemporalBasis &
   GetBasis() const
@@ -114,7 +115,7 @@ public:
   bool
   HasCoordinates() const
   {
-    return m_Coordinates.LastPixel() > m_Coordinates.FirstPixel();
+    return m_Coordinates.GetNumberOfSeries() > 0;
   }
   /** Start and end a further pass for the illumination components alone. */
   void
@@ -142,6 +143,9 @@ public:
 private:
   void
   AllocateNextSlabs();
+  /** Returns the coordinates of all pixels on the illumination components, if they are needed, to be filled. */
+  PixelCoordinates
+  MakeCoordinates() const;
   void
   RequireMerging() const;
   template <typename TPixel>

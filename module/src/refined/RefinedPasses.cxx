@@ -7,6 +7,7 @@
 #include "moments/Constants.h"
 #include "moments/DarkMaps.h"
 #include "moments/StackMaps.h"
+#include "pixels/NarrowSums.h"
 #include "refined/RefinedResults.h"
 #include "refined/MemoryNeed.h"
 #include "refined/RefinedReport.h"
@@ -283,11 +284,16 @@ RefinedPasses<TPixel>::EndFrameSums()
   {
     knownOffsetDn = m_Settings.offset->valueDn;
   }
-  m_Series.emplace(FindSceneSeries(*m_FrameSums,
-                                   m_Settings.rollingShutter,
-                                   knownOffsetDn,
-                                   BlackLevel(m_Settings, *m_Scene, std::nullopt),
-                                   m_Scene->changesStrongly));
+  SceneSeries                 series = FindSceneSeries(*m_FrameSums,
+                                       m_Settings.rollingShutter,
+                                       knownOffsetDn,
+                                       BlackLevel(m_Settings, *m_Scene, std::nullopt),
+                                       m_Scene->changesStrongly);
+  const std::optional<double> narrow =
+    std::is_integral_v<TPixel> ? UnitOfNarrowSums(m_Scene->frame, m_Scene->model, m_ParallelFor) : std::nullopt;
+  const SumWidth width = narrow ? SumWidth::Narrow : SumWidth::Wide;
+  series.basis = series.basis.WithUnit(narrow.value_or(TemporalBasis::Unit));
+  m_Series.emplace(std::move(series));
   if (this->RestartWithoutFrames(m_Series->frameOffsets.unlike, FrameFault::OtherOffset))
   {
     this->ForgetFindings();
@@ -295,12 +301,13 @@ RefinedPasses<TPixel>::EndFrameSums()
   }
   const MemoryNeed  need{ m_Geometry.Pixels(), m_Distinct.Count() };
   const double      left = m_Settings.memoryLimitBytes - need.BesideProjections();
-  const std::size_t slabs = PixelProjections::SlabsWithin(left, m_Series->basis.Size());
-  m_Projections.emplace(m_Geometry,
-                        FrameSample::Of<TPixel>(m_Geometry, m_Distinct.Count(), m_ParallelFor),
-                        m_Series->basis,
-                        PixelProjections::Options{ slabs, m_Series->local.series.cols() > 0, m_IsWithoutMerging },
-                        m_ParallelFor);
+  const std::size_t slabs = PixelProjections::SlabsWithin(left, m_Series->basis.Size(), width);
+  m_Projections.emplace(
+    m_Geometry,
+    FrameSample::Of<TPixel>(m_Geometry, m_Distinct.Count(), m_ParallelFor),
+    m_Series->basis,
+    PixelProjections::Options{ slabs, m_Series->local.series.cols() > 0, m_IsWithoutMerging, width },
+    m_ParallelFor);
   m_Projections->SetLayout(m_Layout);
 }
 

@@ -40,15 +40,16 @@ namespace sensornoise
  * is sensor noise, and its regression on the mean gives gain and intercept. If the illumination changes strongly, the
  * stack is read once more between passes 1 and 2, see LevelProjection. Usage, also by several processes, as
  * StackPasses. The sums of a process have 16 kB for each frame in pass 2, 8 bytes for each pixel and temporal
- * component in pass 3, and 8 bytes for each pixel in the further pass.
+ * component in pass 3 (4 where that is enough, see UnitOfNarrowSums()), and 8 bytes for each pixel in the further
+ * pass.
  *
  * Identical frames are counted once: the result is the result of the distinct frames, and the series in the report
  * repeat the values of a frame's original.
  *
- * The results are identical for any number of threads and any chunks. Memory: 56 bytes for each pixel, 8 more for each
- * temporal component that is found (2 to 20), 20 kB for each frame, and 32 MiB, see MemoryNeed. A stack that cannot be
- * measured (NothingToMeasure) has a report whose quantities are `failed`, with a warning that gives the reason. Wrong
- * use throws std::invalid_argument. May be moved, also between and within passes. */
+ * The results are identical for any number of threads and any chunks. Memory: 56 bytes for each pixel, 4 or 8 more for
+ * each temporal component that is found (2 to 20), 20 kB for each frame, and 32 MiB, see MemoryNeed. A stack that
+ * cannot be measured (NothingToMeasure) has a report whose quantities are `failed`, with a warning that gives the
+ * reason. Wrong use throws std::invalid_argument. May be moved, also between and within passes. */
 template <typename TPixel>
 class RefinedPasses final : public StackPasses<TPixel>
 {
@@ -56,7 +57,7 @@ public:
   using typename StackPasses<TPixel>::Passes;
   using Settings = RefinedSettings;
 
-  /** Whether there is SumsPerPixel(). */
+  /** Whether there is SumBytesPerPixel(). */
   static constexpr bool HasManySums = true;
 
   /** \a mask, if given, has a nonzero value at the pixels to be used. \a parallelFor distributes the work. Throws
@@ -91,11 +92,11 @@ public:
   {
     return m_HasScene && !m_IsDone && !m_Projections;
   }
-  /** Returns the number of sums of 8 bytes for each pixel in the third pass; 0 before it. */
+  /** Returns the size of the sums of a pixel in the third pass [bytes]; 0 before it. */
   std::size_t
-  SumsPerPixel() const
+  SumBytesPerPixel() const
   {
-    return m_Projections ? m_Projections->SumsPerPixel() : 0;
+    return m_Projections ? m_Projections->BytesPerPixel() : 0;
   }
   /** Releases the memory that is needed only to add frames. Call it when all frames of the second pass have been added,
    * and the pass is to end later. */

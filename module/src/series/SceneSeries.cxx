@@ -78,8 +78,15 @@ TemporalBasis::TemporalBasis(const std::vector<double> & gamma,
   all << light, motion;
   const Eigen::MatrixXd basis = Orthonormalise(all, std::max(light.cols(), MostSeries(frames)));
   m_IlluminationFactors = static_cast<std::size_t>(std::min(basis.cols(), Orthonormalise(light, frames).cols()));
-  m_Rounded = (basis * Unit).array().round();
-  m_Series = m_Rounded / Unit;
+  this->Round(basis);
+}
+
+void
+TemporalBasis::Round(const Eigen::MatrixXd & basis)
+{
+  m_Rounded = (basis * m_Unit).array().round();
+  m_Sums = m_Rounded.colwise().sum();
+  m_Series = m_Rounded / m_Unit;
   const Eigen::MatrixXd             centred = m_Series.rowwise() - m_Series.colwise().mean();
   const Eigen::LLT<Eigen::MatrixXd> factor(centred.transpose() * centred);
   m_Inverse = factor.matrixL().solve(Eigen::MatrixXd::Identity(centred.cols(), centred.cols()));
@@ -88,15 +95,29 @@ TemporalBasis::TemporalBasis(const std::vector<double> & gamma,
 }
 
 TemporalBasis
+TemporalBasis::WithUnit(double unit) const
+{
+  TemporalBasis basis = *this;
+  basis.m_Unit = unit;
+  if (unit != m_Unit)
+  {
+    basis.Round(m_Basis);
+  }
+  return basis;
+}
+
+TemporalBasis
 TemporalBasis::OfLight() const
 {
   const auto    light = static_cast<Eigen::Index>(m_IlluminationFactors);
   TemporalBasis basis;
   basis.m_IlluminationFactors = m_IlluminationFactors;
+  basis.m_Unit = m_Unit;
   basis.m_Rounded = m_Rounded.leftCols(light);
   basis.m_Series = m_Series.leftCols(light);
   basis.m_Basis = m_Basis.leftCols(light);
   basis.m_Inverse = m_Inverse.topLeftCorner(light, light);
+  basis.m_Sums = m_Sums.leftCols(light);
   basis.m_Means = m_Means.leftCols(light);
   return basis;
 }
@@ -111,7 +132,7 @@ TemporalBasis::ToCoordinates(double * sums, std::size_t stride, const double * m
       const double taken = m_Means(static_cast<Eigen::Index>(j)) * frames;
       for (std::size_t i = 0; i < pixels; ++i)
       {
-        sums[j * stride + i] = sums[j * stride + i] / Unit - taken * means[i];
+        sums[j * stride + i] = sums[j * stride + i] / m_Unit - taken * means[i];
       }
     }
     for (std::size_t j = this->Size(); j-- > 0;)

@@ -30,12 +30,12 @@ MotionColumns(const MotionSeries & motion, const std::vector<double> & gamma);
  * \brief The temporal components that are not sensor noise: flicker, local illumination and motion, orthonormal, and
  * orthogonal to the constant.
  *
- * They are held as integers of 20 bits, so that their products with integer pixels are summed exactly; the basis spans
- * the rounded series. The first NumberOfIlluminationFactors() components are illumination. */
+ * They are held as integers of at most 20 bits, so that their products with integer pixels are summed exactly; the
+ * basis spans the rounded series. The first NumberOfIlluminationFactors() components are illumination. */
 class SensorNoise_EXPORT TemporalBasis
 {
 public:
-  static constexpr double Unit = 1048576.0; // 2^20
+  static constexpr double Unit = 1048576.0; ///< largest norm of the integer series: 2^20
 
   TemporalBasis() = default;
   /** Makes a basis of at most mostSeriesOfFrames (T - 2) series, but of all series of the illumination: a short burst
@@ -56,6 +56,9 @@ public:
    * because of its triangular form. */
   TemporalBasis
   OfLight() const;
+  /** Returns this basis with integer series of the norm \a unit, a power of 2 of at most Unit. */
+  TemporalBasis
+  WithUnit(double unit) const;
 
   /** Orthonormal series, frames x factors. */
   const Eigen::MatrixXd &
@@ -63,11 +66,17 @@ public:
   {
     return m_Basis;
   }
-  /** Returns the integer series times 2^20, for frame \a t and factor \a j. */
+  /** Returns the integer series, for frame \a t and factor \a j. */
   double
   Rounded(std::size_t t, std::size_t j) const
   {
     return m_Rounded(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(j));
+  }
+  /** Returns the sum over time of the integer series of factor \a j. */
+  double
+  SumOfRounded(std::size_t j) const
+  {
+    return m_Sums(static_cast<Eigen::Index>(j));
   }
   /** Converts sums over time of rounded series times pixel value, in place, into the coordinates of the time series of
    * \a pixels pixels in the basis. The sum for pixel i and series j is sums[j stride + i]; means[i] is the mean of the
@@ -76,11 +85,17 @@ public:
   ToCoordinates(double * sums, std::size_t stride, const double * means, std::size_t pixels) const;
 
 private:
+  /** Rounds an orthonormal basis to integers of the norm m_Unit. */
+  void
+  Round(const Eigen::MatrixXd & basis);
+
   std::size_t        m_IlluminationFactors{ 0 };
+  double             m_Unit{ Unit };
   Eigen::MatrixXd    m_Rounded;
   Eigen::MatrixXd    m_Series;
   Eigen::MatrixXd    m_Basis;
   Eigen::MatrixXd    m_Inverse; // inverse of the lower triangle that converts coordinates into centred sums
+  Eigen::RowVectorXd m_Sums;    // of the integer series over time
   Eigen::RowVectorXd m_Means;
 };
 

@@ -175,8 +175,8 @@ def estimate_sensor_noise(
     memory_limit : int, optional
         Most memory that the estimate takes beside the frames [bytes], for example 4 * 10**9: frames that are read a few
         at a time are read more often where it would need more, with the same result. "refined" needs 56 bytes a pixel
-        of a frame and 8 more for each series of light and motion that it finds, "published" 40. Less than 64 bytes a
-        pixel (40), 20 kB a frame and 32 MiB is refused. Default: no limit.
+        of a frame and 4 more for each series of light and motion that it finds (8: large changes of the light, floating
+        point), "published" 40. Less than 64 bytes a pixel (40), 20 kB a frame and 32 MiB is refused. Default: no limit.
     threads : int, optional
         Number of threads. Default: all. The result is the same bits for any number.
     progress : bool or callable, default False
