@@ -4,6 +4,7 @@
 #include "sensornoise/Simulator.h"
 #include "itkBayerPlaneImageFilter.h"
 #include "itkImage.h"
+#include "itkCastImageFilter.h"
 #include "itkSensorNoiseEstimator.h"
 #include "itkSensorNoiseMetaData.h"
 #include "helpers/PipelineTestHelper.h"
@@ -197,17 +198,21 @@ TEST(SensorNoiseEstimatorBayer, EachPassReadsTheStackOnce)
 
 TEST(SensorNoiseEstimatorBayer, RowsOfLargeFramesTakeTurnsAndFindTheSame)
 {
-  // On the target there are 9 series or more, whose sums have more than 32 MiB.
+  // On the target there are 9 series or more, whose sums have more than 32 MiB, and 72 bytes for a pixel of floats.
+  using FloatStack = itk::Image<float, 3>;
   constexpr unsigned int frames = 24;
-  const auto             stack = MakeMosaicStack(false, frames, 720);
-  const auto             reader = StackReader<StackType>::Of(stack);
-  const auto             inTurns = EstimatorOf<StackType>(reader->GetOutput());
+  const auto             cast = itk::CastImageFilter<StackType, FloatStack>::New();
+  cast->SetInput(MakeMosaicStack(false, frames, 720));
+  cast->Update();
+  const FloatStack::Pointer stack = cast->GetOutput();
+  const auto                reader = StackReader<FloatStack>::Of(stack);
+  const auto                inTurns = EstimatorOf<FloatStack>(reader->GetOutput());
   inTurns->SetNumberOfStreamDivisions(4);
   inTurns->SetBayerPattern("GRBG");
   inTurns->Update();
   EXPECT_EQ(reader->Reads(), (3U + 1U) * 4U);
-  const auto again = StackReader<StackType>::Of(stack);
-  const auto together = EstimatorOf<StackType>(again->GetOutput());
+  const auto again = StackReader<FloatStack>::Of(stack);
+  const auto together = EstimatorOf<FloatStack>(again->GetOutput());
   together->SetNumberOfStreamDivisions(4);
   together->SetBayerPattern("GRBG");
   together->SetMemoryLimit(1'000'000'000);
