@@ -34,6 +34,7 @@ NOT_RUN = {
             "measure-cases 'single/*' --seeds 20 >single.jsonl",
             "python examples/python/study_tables.py single.jsonl",
             "python examples/python/compare_methods.py --bin build/bin --peers environments",
+            "python examples/python/study_likelihood.py --bin build/bin --seeds 10",
         ),
         _STUDY,
     ),
