@@ -94,7 +94,7 @@ RequireApart(const EstimateOptions & options, const EmvaSourceList & all)
 
 /** Returns the name of the list, or of the first and the last file, without folders. */
 PageTitle
-TitleOf(const EstimateOptions & options)
+TitleOfEvaluation(const EstimateOptions & options)
 {
   const auto        name = [](const std::string & file) { return std::filesystem::path(file).filename().string(); };
   const std::string last = options.files.size() == 1 ? "" : " to " + name(options.files.back());
@@ -107,7 +107,7 @@ MakePlot(const EstimateOptions & options, const EmvaEvaluation & evaluation)
 {
   if (options.Plot() == PlotKind::Page)
   {
-    return std::visit([&](const auto & report) { return ToHtml(report, TitleOf(options)); }, evaluation);
+    return std::visit([&](const auto & report) { return ToHtml(report, TitleOfEvaluation(options)); }, evaluation);
   }
   const std::string svg = std::visit([](const auto & report) { return ToSvg(report); }, evaluation);
   return options.Plot() == PlotKind::Png ? SvgAsPng(svg) : svg;

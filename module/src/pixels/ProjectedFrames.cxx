@@ -126,6 +126,7 @@ AddPairProducts(const FramePairs &               frames,
   add(frames, weights, more, pixels, sums);
 }
 
+// A type between parentheses is an expression. NOLINTBEGIN(bugprone-macro-parentheses)
 #define SensorNoise_INSTANTIATE(TSum)                                                 \
   template SensorNoise_EXPORT void AddPairProducts(                                   \
     const FramePairs &, const std::vector<PairWeights> &, TSum, std::size_t, TSum *); \
@@ -134,6 +135,7 @@ AddPairProducts(const FramePairs &               frames,
 SensorNoise_INSTANTIATE(double);
 SensorNoise_INSTANTIATE(std::uint32_t);
 #undef SensorNoise_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 namespace
 {

@@ -32,6 +32,9 @@ struct SceneConstants
    * 0.003. */
   double largestRejectedEnergy{ 0.1 };
   double largestRejectedSmooth{ 0.05 };
+  /** Size of a negative variance of motion along one axis, relative to that along the other, that is due to chance [1].
+   * Chosen empirically: frames after a gamma curve have 0.8, and negative variances along both axes. */
+  double negativeMotion{ 0.05 };
   /** Lower bound of the predicted variance, as a fraction of the variance of the darkest levels [1]. Chosen
    * empirically: a fit may become negative. */
   double leastFractionOfDarkest{ 0.2 };

@@ -305,6 +305,16 @@ KeepBelowSteps(const VarianceSample &                 sample,
   }
 }
 
+/** Returns whether the variances \a alongX and \a alongY [pixel^2] of the motion are those of a vibration, which are
+ * not negative. Where the response is not linear the variance is no line of the level, and falls where the scene is
+ * steep. */
+bool
+IsVibration(double alongX, double alongY)
+{
+  const auto [least, largest] = std::minmax(alongX, alongY);
+  return largest > 0.0 && least > -InScene.negativeMotion * largest;
+}
+
 /** Fits the model to a scene whose edges are sharper than a pixel: the pixels are kept that the largest steps around
  * them explain, and the fit starts from the motion that sums over 3 x 3 pixels show. */
 ModelFit
@@ -376,7 +386,8 @@ FitInitialNoiseModel(const ReferenceFrame & frame)
       RejectedSmooth(sample, fit.prediction) < InScene.largestRejectedSmooth)
   {
     ModelFit sharp = FitSharpScene(frame, pixels, sample, model.largestRatio);
-    model.isSharp = RejectedEnergy(sample, sharp.prediction) < rejected;
+    model.isSharp = RejectedEnergy(sample, sharp.prediction) < InScene.largestRejectedEnergy &&
+                    IsVibration(sharp.theta(3), sharp.theta(4));
     fit = model.isSharp ? std::move(sharp) : std::move(fit);
   }
   SetCoefficients(model, fit.theta, sample);
