@@ -48,9 +48,18 @@ def test_truth_is_found_within_the_errors(report):
         (report.dark_noise, DARK_NOISE),
         (report.quantity("sensitivity.quantum_efficiency"), 50.0),
     ):
-        assert abs(quantity.value - truth) < 4.0 * quantity.standard_error < 0.1 * truth
+        assert abs(quantity.value - truth) < 4.0 * quantity.standard_error < 0.15 * truth
     assert report["settings"] == {"quantisation_step": 1.0, "bit_depth": 12, "exposure_unit": "s"}
     assert "not-saturated" not in {note["code"] for note in report["notes"]}
+
+
+def rounded(record):
+    """Returns a record with numbers of 12 digits: two compilations may round the last digits otherwise."""
+    if isinstance(record, dict):
+        return {name: rounded(value) for name, value in record.items()}
+    if isinstance(record, list):
+        return [rounded(value) for value in record]
+    return float(f"{record:.12g}") if isinstance(record, float) else record
 
 
 def test_tool_says_the_same(report, flats, darks, tool, tmp_path):
@@ -65,7 +74,7 @@ def test_tool_says_the_same(report, flats, darks, tool, tmp_path):
     record, xml = tmp_path / "record.json", tmp_path / "record.xml"
     options = ("--method", "emva1288", "--bit-depth", "12", "--json", record, "--xml", xml)
     table = tool("estimate-sensor-noise", tmp_path / "list.csv", *options)
-    assert json.loads(record.read_text(encoding="utf-8")) == report.to_dict()
+    assert rounded(json.loads(record.read_text(encoding="utf-8"))) == rounded(report.to_dict())
     assert xml.read_text(encoding="utf-8") == report.to_xml()
     assert table.rstrip("\n") == str(report)
     names = {exposure: str(tmp_path / f"flat{exposure:.1f}.npy") for exposure in EXPOSURES}
