@@ -122,6 +122,16 @@ TEST(SensorNoiseRefinedReport, ToneCurveIsRefusedWithItsLine)
   }
 }
 
+TEST(SensorNoiseRefinedReport, ToneCurveIsNotTakenForSharpEdges)
+{
+  // The pixels that the initial model leaves out are at the edges, as where edges are sharper than a pixel.
+  SimulationSettings settings; // it flickers and vibrates
+  settings.frames = 60;
+  settings.flaws.response = { ResponseShape::Gamma, 0.6 };
+  const Report report = Measure(Simulate<Codes>(settings, 256, 192), {}).GetReport();
+  EXPECT_EQ(report.gain.status, EstimateStatus::Failed);
+}
+
 TEST(SensorNoiseRefinedReport, ToneCurveOfTheCodesIsRefusedHoweverManyPixelsTellIt)
 {
   // With more pixels the roughness classes differ beyond chance. This must not hide the curve.

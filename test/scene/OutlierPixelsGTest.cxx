@@ -91,19 +91,3 @@ TEST(SensorNoiseUnexplainedPixels, AreNotThoseOfEdgesSharperThanAPixel)
   frame.variance[20 * Width + 24] = 100.0 * noiseDn2; // in a bright bar
   EXPECT_EQ(Count(FindOutlierPixels(frame, model, SerialFor)), 1u);
 }
-
-TEST(SensorNoiseUnexplainedPixels, AreThoseOfEdgesWhereTheVarianceFalls)
-{
-  // The response is not linear: a variance that is no line of the level is above the model in the middle levels.
-  SyntheticFrames frames(Width, Height, std::vector<FrameChange>(20));
-  auto &          frame = frames.reference;
-  for (std::size_t p = 0; p < frame.mean.size(); ++p)
-  {
-    const std::size_t inPeriod = p % Width % 12;
-    const double      light = inPeriod < 4 ? 0.0 : inPeriod < 8 ? 1.0 : 0.5;
-    frame.mean[p] = 500.0 + 1000.0 * light;
-    frame.variance[p] = light == 0.5 ? 2000.0 : 50.0;
-  }
-  frame.neighbourMean = ComputeNeighbourMean(frame, SerialFor);
-  EXPECT_FALSE(FitInitialNoiseModel(frame).isSharp);
-}
