@@ -3,20 +3,13 @@
 #ifndef LowerCase_h
 #define LowerCase_h
 
-#include <algorithm>
-#include <cctype>
+#include "base/LowerCase.h"
+
 #include <filesystem>
 #include <string>
 
 namespace sensornoise::tools
 {
-
-inline std::string
-LowerCase(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 /** Returns the file name extension in lower case: ".tif" for "Frame.TIF". */
 inline std::string

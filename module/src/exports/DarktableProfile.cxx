@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exports/DarktableProfile.h"
 
+#include "base/LowerCase.h"
 #include "base/Text.h"
 #include "exports/DarktableExport.h"
 #include "exports/ProfileValues.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -61,15 +61,6 @@ AddPresets(const StoredReport &            record,
   }
 }
 
-std::string
-InLowerCase(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char letter) {
-    return static_cast<char>(std::tolower(letter));
-  });
-  return text;
-}
-
 /** Returns the presets of the burst's camera by rising ISO speed. Throws ExportError if there are none. */
 std::vector<DarktableNumbers>
 PresetsOfCamera(const NoiseProfile & profile, const CameraNoise & burst)
@@ -79,7 +70,7 @@ PresetsOfCamera(const NoiseProfile & profile, const CameraNoise & burst)
   for (const DarktableNumbers & preset : profile.darktable)
   {
     cameras.insert(preset.camera);
-    if (InLowerCase(preset.camera) == InLowerCase(burst.camera))
+    if (LowerCase(preset.camera) == LowerCase(burst.camera))
     {
       presets.push_back(preset);
     }

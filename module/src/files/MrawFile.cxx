@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/FrameFormats.h"
 
+#include "base/LowerCase.h"
 #include "files/DataFile.h"
 #include "files/FrameReader.h"
 #include "files/FrameSizes.h"
 #include "files/TextHeader.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -201,17 +201,10 @@ ReadPhotronHeader(const std::string & file, FileBytes & bytes)
   return isXml ? PhotronElements(file, text).Read() : ReadLines(text);
 }
 
-std::string
-LowerCaseText(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
 bool
 IsMraw(const std::string & name)
 {
-  return HasEnding(LowerCaseText(name), { ".mraw" });
+  return HasEnding(LowerCase(name), { ".mraw" });
 }
 
 /** Returns the path of the other file of the recording. Throws FileError if there is none. */
@@ -294,8 +287,8 @@ ExposureOf(const PhotronFields & fields)
 SampleFormat
 FormatOfMraw(const FrameFile & file, const PhotronFields & fields)
 {
-  const std::string   kind = LowerCaseText(fields.Text("imageFileInfo/fileFormat", "File Format"));
-  const std::string   color = LowerCaseText(fields.Text("imageDataInfo/colorInfo/type", "Color Type"));
+  const std::string   kind = LowerCase(fields.Text("imageFileInfo/fileFormat", "File Format"));
+  const std::string   color = LowerCase(fields.Text("imageDataInfo/colorInfo/type", "Color Type"));
   const std::uint64_t bits = fields.Number("imageDataInfo/colorInfo/bit", "Color Bit");
   if (!kind.empty() && kind != "mraw")
   {
@@ -325,7 +318,7 @@ ReadCamera(const PhotronFields & fields, const SampleFormat & format, CameraSett
   camera.exposureSeconds = ExposureOf(fields);
   const std::optional<std::uint64_t> depth =
     WholeNumber(fields.Text("imageDataInfo/effectiveBit/depth", "EffectiveBit Depth"));
-  const std::string side = LowerCaseText(fields.Text("imageDataInfo/effectiveBit/side", "EffectiveBit Side"));
+  const std::string side = LowerCase(fields.Text("imageDataInfo/effectiveBit/side", "EffectiveBit Side"));
   // digital numbers that are shifted up use all bits of their format
   const bool isLower = side == "lower" && depth && *depth >= 1 && *depth <= format.bits;
   camera.bitDepth = isLower ? static_cast<unsigned>(*depth) : format.bits;
@@ -335,7 +328,7 @@ ReadCamera(const PhotronFields & fields, const SampleFormat & format, CameraSett
 bool
 IsHeadOfMraw(const std::string & /*head*/, const std::string & name)
 {
-  return HasEnding(LowerCaseText(name), { ".mraw", ".cihx", ".cih" });
+  return HasEnding(LowerCase(name), { ".mraw", ".cihx", ".cih" });
 }
 
 void

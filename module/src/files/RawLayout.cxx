@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/RawLayout.h"
 
+#include "base/LowerCase.h"
 #include "files/ByteOrder.h"
 #include "files/FileBytes.h"
 #include "files/FrameFormats.h"
@@ -29,13 +30,6 @@ RefuseLayout(const std::string & text, const std::string & found)
   throw std::invalid_argument(
     "\"" + text + "\" is no layout of raw frames: " + found +
     "; expected WIDTHxHEIGHT:TYPE[:SKIP[:ROW[:GAP[:END]]]], for example 640x480:uint16le or 1920x1080:Mono12p:64");
-}
-
-std::string
-LowerCaseOf(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
 }
 
 std::vector<std::string>
@@ -176,7 +170,7 @@ TakePattern(std::string & name)
 void
 ReadType(const std::string & text, const std::string & type, RawLayout & layout)
 {
-  std::string name = LowerCaseOf(type);
+  std::string name = LowerCase(type);
   if (const auto numbers = FormatOfNumbers(name))
   {
     layout.sample = *numbers;
@@ -249,7 +243,7 @@ RawLayout
 ReadRawLayout(const std::string & text)
 {
   const std::vector<std::string> parts = Parted(text, ':');
-  const std::vector<std::string> size = Parted(LowerCaseOf(parts.front()), 'x');
+  const std::vector<std::string> size = Parted(LowerCase(parts.front()), 'x');
   if (parts.size() < 2 || parts.size() > 6 || size.size() != 2)
   {
     RefuseLayout(text,
