@@ -21,13 +21,6 @@ namespace
 {
 const char * const Standard = ", EMVA Standard 1288, Release 4.0 Linear";
 
-/** Returns a figure with its caption, which is HTML. */
-std::string
-FigureElement(const std::string & svg, const std::string & caption)
-{
-  return "<figure>" + svg + "</svg>\n<figcaption>" + caption + "</figcaption></figure>\n";
-}
-
 /** Returns the results that are asked for first, as cards. */
 std::string
 KeyNumbers(const EmvaReport & report)
@@ -57,7 +50,7 @@ std::string
 CurveAndNotes(const EmvaReport & report)
 {
   return "<div class=\"two\">\n<section>\n" + Heading("h2", "Photon transfer") +
-         FigureElement(TransferFigure(report),
+         FigureElement(TransferFigure(report) + "</svg>\n",
                        "Temporal variance without the dark variance against the signal. The slope of the line is the "
                        "system gain K. The dashed line is at saturation, the largest variance.") +
          "</section>\n<section>\n" + Notes(report) + "</section>\n</div>\n";
@@ -155,11 +148,11 @@ std::string
 Figures(const EmvaReport & report)
 {
   return "<div class=\"maps\">\n<div>" + Heading("h2", "Signal-to-noise ratio") +
-         FigureElement(SnrFigure(report),
+         FigureElement(SnrFigure(report) + "</svg>\n",
                        "Discs: signal over temporal noise. The lines follow from gain, dark noise and non-uniformity "
                        "by the linear model of the standard.") +
          "</div>\n<div>" + Heading("h2", "Linearity") +
-         FigureElement(LinearityFigure(report),
+         FigureElement(LinearityFigure(report) + "</svg>\n",
                        "The line is fitted from 5 to 95 % of saturation, with the relative deviations as weights. "
                        "Below: deviations from it.") +
          "</div>\n</div>\n";

@@ -8,7 +8,6 @@
 #include "files/FrameSizes.h"
 #include "files/TextHeader.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>

@@ -134,6 +134,12 @@ WithIndices(const std::string & text)
 }
 
 std::string
+FigureElement(const std::string & svg, const std::string & caption)
+{
+  return "<figure>" + svg + (caption.empty() ? "" : "<figcaption>" + caption + "</figcaption>") + "</figure>\n";
+}
+
+std::string
 Unbroken(std::string html)
 {
   return WithReplaced(std::move(html), "\u00B1 ", "\u00B1&#160;");

@@ -24,6 +24,10 @@ WithCode(const std::string & text);
 std::string
 WithIndices(const std::string & text);
 
+/** Returns a figure with its \a caption, which is HTML; "": without a caption. */
+std::string
+FigureElement(const std::string & svg, const std::string & caption);
+
 /** Returns HTML in which no line ends behind a "±". */
 std::string
 Unbroken(std::string html);

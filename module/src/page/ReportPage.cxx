@@ -25,14 +25,9 @@ constexpr double LeastSpread = 1.05; ///< FigureData::residualSpread from which 
 
 /** Returns a figure with its caption, if any, or the sentence that replaces a figure without data. */
 std::string
-FigureElement(const std::string & figure, const std::string & caption)
+FigureOrSentence(const std::string & figure, const std::string & caption)
 {
-  if (figure.rfind("<svg", 0) != 0)
-  {
-    return figure;
-  }
-  return "<figure>" + figure + (caption.empty() ? "" : "<figcaption>" + Escaped(caption) + "</figcaption>") +
-         "</figure>\n";
+  return figure.rfind("<svg", 0) == 0 ? FigureElement(figure, Escaped(caption)) : figure;
 }
 
 const char * const CurveWords =
@@ -93,7 +88,7 @@ CurveAndWarnings(const Report & report)
 {
   const FigureData  data = MakeFigureData(report);
   const std::string curve =
-    Section(Heading("h2", "Noise curve") + FigureElement(CurveFigure(data), CurveCaption(data)));
+    Section(Heading("h2", "Noise curve") + FigureOrSentence(CurveFigure(data), CurveCaption(data)));
   const std::string words = Section(WithHeading("What was found, and what to do", WarningBoxes(report.warnings)) +
                                     WithHeading("Quality of the fit", FitList(report)));
   return report.gain.value ? "<div class=\"two\">\n" + curve + words + "</div>\n"
@@ -110,7 +105,7 @@ CurvesOfChannels(const ChannelReports & reports)
   for (const Report & report : reports.channels)
   {
     const FigureData data = MakeFigureData(report);
-    figures += "<div>" + Heading("h3", report.channel) + FigureElement(CurveFigure(data), "") + "</div>\n";
+    figures += "<div>" + Heading("h3", report.channel) + FigureOrSentence(CurveFigure(data), "") + "</div>\n";
     hasResiduals = hasResiduals || !data.residuals.empty();
     spread = std::max(spread, data.residualSpread);
   }
@@ -136,13 +131,13 @@ SeriesAndNoise(const Report & report)
   const FigureData data = MakeFigureData(report);
   return Details("Illumination and motion",
                  MotionSummary(report),
-                 FigureElement(SeriesFigure(data),
-                               "The illumination of each frame relative to the mean, and the shift of the scene.")) +
+                 FigureOrSentence(SeriesFigure(data),
+                                  "The illumination of each frame relative to the mean, and the shift of the scene.")) +
          Details("Correlation of the noise",
                  report.noiseCorrelation ? report.noiseCorrelation->kind : "",
-                 FigureElement(CorrelationFigure(data),
-                               "Correlation coefficient of the noise of pixels x columns and y rows apart, or of "
-                               "frames. Of many lags, those that differ most from 0."));
+                 FigureOrSentence(CorrelationFigure(data),
+                                  "Correlation coefficient of the noise of pixels x columns and y rows apart, or of "
+                                  "frames. Of many lags, those that differ most from 0."));
 }
 
 std::string

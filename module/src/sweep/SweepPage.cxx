@@ -109,9 +109,10 @@ SweepFigure(const SweepSummary & summary, NumberOfRow number, const std::string 
     panel.Line(points.barX, points.barY, "error");
     panel.Points(points.x, points.y, "before", PlotMarker::Square);
   }
-  return "<figure>" + svg + "</svg>\n<figcaption>Squares: one for each channel, with 95 % intervals" +
-         (hasLines ? "; line: gain = constant × setting" : "") +
-         (summary.conversionSwitch ? "; dashed: the switch of the conversion gain" : "") + ".</figcaption></figure>\n";
+  return FigureElement(svg + "</svg>\n",
+                       std::string("Squares: one for each channel, with 95 % intervals") +
+                         (hasLines ? "; line: gain = constant × setting" : "") +
+                         (summary.conversionSwitch ? "; dashed: the switch of the conversion gain" : "") + ".");
 }
 
 std::string
