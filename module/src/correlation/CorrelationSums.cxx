@@ -291,9 +291,7 @@ CorrelationSums::CovarianceInBins(const TileSums & sums, const Lags & lags) cons
 Eigen::VectorXd
 CorrelationSums::StandardErrorsInBins(const Lags & lags) const
 {
-  const JackknifeEstimate shared =
-    Jackknife(m_Tiles, [&](const TileSums & sums) { return this->CovarianceInBins(sums, lags); });
-  return shared.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  return Jackknife(m_Tiles, [&](const TileSums & sums) { return this->CovarianceInBins(sums, lags); }).StandardErrors();
 }
 
 Eigen::VectorXd

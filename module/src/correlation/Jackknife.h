@@ -24,6 +24,11 @@ struct JackknifeEstimate
   {
     return std::sqrt(std::max(0.0, covariance(k, k)));
   }
+  Eigen::VectorXd
+  StandardErrors() const
+  {
+    return covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  }
 };
 
 /** Returns the values that \a figuresOf computes from the sums over all blocks, and their covariance. The covariance is

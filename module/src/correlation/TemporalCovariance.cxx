@@ -35,7 +35,8 @@ TimeCovarianceInBins(const CorrelationSums & sums, const TileSums & tiles, const
   Eigen::VectorXd shared(NoiseResiduals::IntensityBins);
   for (std::size_t b = 0; b < NoiseResiduals::IntensityBins; ++b)
   {
-    // The sum over all lags, less the variance of the residuals, of which the projection has removed slow noise.
+    // The sum over all lags, less the variance of the residuals. The projection has removed slow noise from the
+    // residuals.
     const Eigen::VectorXd covariance = sums.Autocovariance(tiles, mixing, b);
     shared(static_cast<Eigen::Index>(b)) = 2.0 * covariance.sum() - covariance(0) - 1.0;
   }
@@ -48,7 +49,7 @@ void
 FitTimeShapes(const CorrelationSums & sums, const Eigen::MatrixXd & mixing, NoiseCorrelation & found)
 {
   const auto     inBins = [&](const TileSums & tiles) { return TimeCovarianceInBins(sums, tiles, mixing); };
-  const auto     errors = Jackknife(sums.GetTiles(), inBins).covariance.diagonal().cwiseMax(0.0).cwiseSqrt().eval();
+  const auto     errors = Jackknife(sums.GetTiles(), inBins).StandardErrors();
   const auto     fits = FitAllShapes(sums, inBins, errors, sums.GetCodesDn2());
   const TileSums all = sums.Total();
   found.timeShapes =
@@ -59,14 +60,13 @@ FitTimeShapes(const CorrelationSums & sums, const Eigen::MatrixXd & mixing, Nois
 bool
 IsCorrelatedInTime(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients)
 {
-  if (!sums.TimeLags().empty() &&
-      CoefficientOfBrightPixels(sums).Exceeds(InCorrelation.leastTimeCoefficient, Significance.severalTests))
-  {
-    return true;
-  }
-  return std::any_of(coefficients.begin(), coefficients.end(), [](const LagCoefficient & lag) {
-    return lag.coefficient.Exceeds(InCorrelation.leastTimeCoefficient, Significance.severalTests);
-  });
+  const auto isLarge = [](const MeasuredNumber & coefficient) {
+    return coefficient.Exceeds(InCorrelation.leastTimeCoefficient, Significance.severalTests);
+  };
+  return std::any_of(coefficients.begin(),
+                     coefficients.end(),
+                     [&isLarge](const LagCoefficient & lag) { return isLarge(lag.coefficient); }) ||
+         (!sums.TimeLags().empty() && isLarge(CoefficientOfBrightPixels(sums)));
 }
 
 void
