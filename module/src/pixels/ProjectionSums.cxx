@@ -52,8 +52,7 @@ ProjectionSums::ProjectionSums(std::size_t         pixels,
   this->OnSlabs([&](auto & slabs) {
     for (std::size_t slab = m_FirstSlab; slab < m_LastSlab; ++slab)
     {
-      const std::size_t own = std::min(SlabPixels, pixels - slab * SlabPixels);
-      slabs[slab].resize(static_cast<Eigen::Index>((own + BlockPixels - 1) / BlockPixels * BlockPixels * series));
+      slabs[slab].resize(SizeOfSlab(slab, pixels, series));
     }
   });
   this->Clear(parallelFor); // by all threads, because the first use of the memory is slow
@@ -80,7 +79,7 @@ ProjectionSums::AddFramesTo(std::vector<Eigen::Array<TSum, Eigen::Dynamic, 1>> &
                             std::size_t                                          begin,
                             std::size_t                                          end)
 {
-  const auto at = [&](std::size_t p) { return slabs[p / SlabPixels].data() + this->IndexInSlab(p % SlabPixels, 0); };
+  const auto at = [&](std::size_t p) { return slabs[p / SlabPixels].data() + this->IndexInSlab(p, 0); };
   for (std::size_t p = begin; p < end && m_Series > 0;)
   {
     const std::size_t  next = std::min(end, (p / BlockPixels + 1) * BlockPixels);
@@ -149,8 +148,8 @@ ProjectionSums::Restore(std::istream & in)
 
 namespace
 {
-/** Returns the whole numbers of narrow sums. Their differences from \a total times the whole number that is nearest to
- * the mean are within 2^31, so that 32 bits give them.
+/** Returns the whole numbers of narrow sums. Their differences from \a total times the whole part of the mean are
+ * within 2^31, so that 32 bits give them.
  * \param total sum of the integer series over time, at most half the number of frames */
 void
 CompleteSums(const std::uint32_t * narrow, double total, const double * means, std::size_t pixels, double * sums)
@@ -174,7 +173,7 @@ ProjectionSums::CopyBlock(std::size_t           first,
                           const double *        means,
                           double *              sums) const
 {
-  const std::size_t place = this->IndexInSlab(first % SlabPixels, 0);
+  const std::size_t place = this->IndexInSlab(first, 0);
   if (m_Width == SumWidth::Wide && m_Series > 0)
   {
     std::copy_n(m_Wide[first / SlabPixels].data() + place, m_Series * BlockPixels, sums);

@@ -63,6 +63,21 @@ public:
                           std::size_t         lastSlab = std::numeric_limits<std::size_t>::max(),
                           SumWidth            width = SumWidth::Wide);
 
+  /** Returns the number of values of slab \a slab, whole blocks, in frames of \a pixels pixels with \a series
+   * components.
+   */
+  static Eigen::Index
+  SizeOfSlab(std::size_t slab, std::size_t pixels, std::size_t series)
+  {
+    const std::size_t own = std::min(SlabPixels, pixels - slab * SlabPixels);
+    return static_cast<Eigen::Index>((own + BlockPixels - 1) / BlockPixels * BlockPixels * series);
+  }
+  /** Returns the place in its slab of the value of pixel \a p in component \a j of \a series. */
+  static std::size_t
+  IndexInSlab(std::size_t p, std::size_t j, std::size_t series)
+  {
+    return (p % SlabPixels / BlockPixels * series + j) * BlockPixels + p % BlockPixels;
+  }
   /** Returns the number of slabs of frames of \a pixels pixels. */
   static std::size_t
   NumberOfSlabs(std::size_t pixels)
@@ -122,12 +137,12 @@ public:
   double &
   At(std::size_t p, std::size_t j)
   {
-    return m_Wide[p / SlabPixels].data()[this->IndexInSlab(p % SlabPixels, j)];
+    return m_Wide[p / SlabPixels].data()[this->IndexInSlab(p, j)];
   }
   const double &
   At(std::size_t p, std::size_t j) const
   {
-    return m_Wide[p / SlabPixels].data()[this->IndexInSlab(p % SlabPixels, j)];
+    return m_Wide[p / SlabPixels].data()[this->IndexInSlab(p, j)];
   }
 
   /** Copies the sums of \a pixels pixels of a block, from its first pixel \a first on, to sums[j BlockPixels + i] for
@@ -143,7 +158,7 @@ private:
   std::size_t
   IndexInSlab(std::size_t p, std::size_t j) const
   {
-    return (p / BlockPixels * m_Series + j) * BlockPixels + p % BlockPixels;
+    return IndexInSlab(p, j, m_Series);
   }
   /** Calls function(slabs), with the slabs of the width of this object. */
   template <typename TFunction>
@@ -205,8 +220,7 @@ public:
     if (m_Series > 0)
     {
       const std::size_t slab = first / ProjectionSums::SlabPixels;
-      const std::size_t own = std::min(ProjectionSums::SlabPixels, m_Pixels - slab * ProjectionSums::SlabPixels);
-      m_Slabs[slab].resize(static_cast<Eigen::Index>((own + BlockPixels - 1) / BlockPixels * BlockPixels * m_Series));
+      m_Slabs[slab].resize(ProjectionSums::SizeOfSlab(slab, m_Pixels, m_Series));
     }
   }
   /** Sets the coordinates of \a pixels pixels of a block, from its first pixel \a first on, to
@@ -232,7 +246,7 @@ private:
   std::size_t
   IndexInSlab(std::size_t p, std::size_t j) const
   {
-    return (p % ProjectionSums::SlabPixels / BlockPixels * m_Series + j) * BlockPixels + p % BlockPixels;
+    return ProjectionSums::IndexInSlab(p, j, m_Series);
   }
 
   std::size_t                 m_Pixels;
