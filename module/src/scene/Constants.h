@@ -23,6 +23,9 @@ struct SceneConstants
   double largestRatio{ 2.5 };
   /** That ratio to the median for the rougher half of the pixels, where motion adds much [1]. Chosen empirically. */
   double startRatioRough{ 30.0 };
+  /** Number of times that pixels are excluded and the model is fitted again. Chosen empirically: the last fit changes
+   * the model by less than the weights need. */
+  int roundsOfFit{ 5 };
   /** Ratio of the squared derivatives along both axes from which the variance of a pixel shows the motion along one of
    * them [1]. Chosen empirically. */
   double energyAlongAxis{ 4.0 };

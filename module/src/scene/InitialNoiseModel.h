@@ -75,23 +75,9 @@ struct InitialNoiseModel
   }
 };
 
-/** Returns the largest squared difference between the pixels before and after a pixel, along x and along y, among the
- * 3 x 3 pixels around pixel \a p of a \a mean of \a width columns [DN^2]. The pixel is at least StencilMargin pixels
- * from the border.
- *
- * The variance that motion by a standard deviation of one pixel adds to one pixel is at most their sum. An edge that is
- * sharper than a pixel lies within one pixel, which changes by the whole step; its central difference is half of it,
- * and so is that of the next pixel, which does not change at all. */
-SensorNoise_EXPORT std::array<double, 2>
-SquaredStepsNear(const double * mean, std::size_t width, std::size_t p);
-
 /** Fits the model. It starts from the medians of 32 intensity bins of the smoother half of the pixels. Then it excludes
- * pixels whose variance is far above the model and fits again, five times.
- *
- * If this excludes pixels that hold more than a tenth of the squared derivatives of the mean, but hardly any of the
- * smoother half of the pixels, it has excluded the motion itself, and the edges are sharper than a pixel. The fit then
- * starts from the motion that sums over 3 x 3 pixels show, and excludes the pixels whose variance is far above the
- * largest that motion explains. Throws NothingToMeasure if fewer than 100 pixels are usable. */
+ * pixels whose variance is far above the model and fits again, five times. Where edges are sharper than a pixel, the
+ * model is that of FitSharpScene(). Throws NothingToMeasure if fewer than 100 pixels are usable. */
 SensorNoise_EXPORT InitialNoiseModel
 FitInitialNoiseModel(const ReferenceFrame & frame);
 
