@@ -39,17 +39,6 @@ ReportOf(double gain, bool hasPhotons = true)
   }
   return EvaluateEmva1288(series, { 1.0, 12, "s" });
 }
-
-std::size_t
-CountOf(const std::string & text, const std::string & part)
-{
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-  {
-    ++count;
-  }
-  return count;
-}
 } // namespace
 
 TEST(SensorNoiseEmvaPage, HasTheResultsOfTheStandard)

@@ -19,6 +19,17 @@ Contains(const std::string & text, const std::string & part)
   return text.find(part) != std::string::npos;
 }
 
+inline std::size_t
+CountOf(const std::string & text, const std::string & part)
+{
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+  {
+    ++count;
+  }
+  return count;
+}
+
 /** "" if every tag is closed in its order, else what is wrong. */
 inline std::string
 FaultOfTags(const std::string & text)

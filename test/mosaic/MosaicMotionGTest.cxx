@@ -18,12 +18,24 @@
 using namespace sensornoise;
 using namespace sensornoise::test;
 
+namespace
+{
+constexpr std::size_t side = 256; // of the mosaic [pixel]
+
+/** Returns a camera with a mosaic, and a scene that vibrates with the standard deviations \a sdX and \a sdY [pixel]. */
+SimulationSettings
+VibratingMosaic(double flickerSd, double sdX, double sdY)
+{
+  SimulationSettings settings = FlickeringSettings(60);
+  settings.conditions = { flickerSd, sdX, sdY };
+  settings.flaws.filters.pattern = BayerPattern::RGGB;
+  return settings;
+}
+} // namespace
+
 TEST(MosaicMotion, OfAllPlanesIsThatOfTheSensor)
 {
-  const std::size_t  side = 256;
-  SimulationSettings settings = FlickeringSettings(60);
-  settings.conditions = { 0.01, 0.1, 0.05 };
-  settings.flaws.filters.pattern = BayerPattern::RGGB;
+  SimulationSettings settings = VibratingMosaic(0.01, 0.1, 0.05);
   for (const std::uint64_t seed : { 1U, 2U, 3U })
   {
     settings.seed = seed;
@@ -64,10 +76,7 @@ TEST(MosaicMotion, OfAllPlanesIsThatOfTheSensor)
 
 TEST(MosaicMotion, OfPlanesIsFoundWhereEdgesAreSharperThanTheirPixels)
 {
-  const std::size_t  side = 256;
-  SimulationSettings settings = FlickeringSettings(60);
-  settings.conditions = { 0.0088, 0.094, 0.38 };
-  settings.flaws.filters.pattern = BayerPattern::RGGB;
+  SimulationSettings settings = VibratingMosaic(0.0088, 0.094, 0.38);
   for (const std::uint64_t seed : { 1U, 2U, 3U })
   {
     settings.seed = seed;

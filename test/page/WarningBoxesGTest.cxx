@@ -14,20 +14,6 @@
 using namespace sensornoise;
 using namespace sensornoise::test;
 
-namespace
-{
-std::size_t
-CountOf(const std::string & text, const std::string & part)
-{
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-  {
-    ++count;
-  }
-  return count;
-}
-} // namespace
-
 TEST(SensorNoiseWarningBoxes, TheActionIsTheCommandAtTheEnd)
 {
   const auto expect = [](WarningCode code, const char * message, const char * finding, const char * action) {
