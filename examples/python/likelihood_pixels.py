@@ -14,7 +14,7 @@ DIAGONAL = [(step * y, step * x) for step in (1, 2) for y in (-1, 1) for x in (-
 
 
 class Pixels(NamedTuple):
-    """What the likelihood needs of each pixel: mean square, degrees of freedom, level and columns of the variance."""
+    """Input of the likelihood for each pixel: mean square, degrees of freedom, level and columns of the variance."""
 
     square: np.ndarray  # mean square that the temporal components leave [DN^2]
     dof: np.ndarray

@@ -131,8 +131,8 @@ struct RefinedConstants
    * than a tenth. */
   double errorOfMotion{ 0.2 };
   /** Fraction of the error of least squares by edges sharper than a pixel, see ScaleErrorsOf(), that is left in the
-   * motion by instruments [1]. Chosen on simulated mosaics: the motion of charts is wrong by half of it, that of
-   * textures by less than a tenth. */
+   * motion by instruments [1]. Chosen on simulated mosaics: the motion of charts is wrong by half of it, the motion
+   * of textures by less than a tenth. */
   double errorOfSharpEdges{ 0.5 };
   /** Largest fraction of the motion along one axis that may appear as motion along the other axis [1]. It applies where
    * the scene has one direction, and no motion along the first axis is detected. Chosen by its effect: equal motion

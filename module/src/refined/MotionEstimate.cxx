@@ -226,8 +226,8 @@ ScaleErrors(const ReestimatedComponents & reestimated, bool isSharp)
 }
 
 /** Returns the motion along \a axis, whose derivative is \a stencil: by instruments where they are available, else by
- * least squares. The systematic error is then that of ScaleErrorsOf(). With instruments it is a part of the difference
- * between both, and the rest of that error at edges sharper than a pixel. */
+ * least squares. \a scaleErrors are the relative systematic errors, see ScaleErrors(). With instruments a part of the
+ * difference between both methods is added. */
 AxisMotion
 MotionAlong(Eigen::Index                  axis,
             std::size_t                   stencil,

@@ -77,7 +77,7 @@ struct InitialNoiseModel
 
 /** Fits the model. It starts from the medians of 32 intensity bins of the smoother half of the pixels. Then it excludes
  * pixels whose variance is far above the model and fits again, five times. Where edges are sharper than a pixel, the
- * model is that of FitSharpScene(). Throws NothingToMeasure if fewer than 100 pixels are usable. */
+ * model comes from FitSharpScene(). Throws NothingToMeasure if fewer than 100 pixels are usable. */
 SensorNoise_EXPORT InitialNoiseModel
 FitInitialNoiseModel(const ReferenceFrame & frame);
 
