@@ -120,6 +120,14 @@ def half_noisier(random, electrons, ratio):
     return burst(expose(random, electrons, illumination(random), read_noise=read_noise), read_noise=None)
 
 
+def noise_grows(random, electrons, ratio):
+    """Returns a burst in which the read noise grows along a diagonal of the frame, from corner to corner by this
+    factor, as with the distance from a read-out or with the temperature."""
+    y, x = np.indices(SHAPE) / np.reshape(SHAPE, (2, 1, 1))
+    read_noise = READ_NOISE * ratio ** ((x + y) / 2)
+    return burst(expose(random, electrons, illumination(random), read_noise=read_noise), read_noise=None)
+
+
 def counting(random, electrons, highest):
     """Returns a burst of a photon-counting detector: whole photons from 0 on, without offset and read noise."""
     counts = expose(random, highest / ELECTRONS * electrons, illumination(random), gain=1.0, offset=0.0, read_noise=0.0)
@@ -161,6 +169,7 @@ SITUATIONS = (
     *(line(f"haze-{rms:g}", haze, rms) for rms in (0.05, 0.15)),
     *(line(f"fixed-pattern-{strength:g}", fixed_pattern, strength, expected=MAY_REFUSE) for strength in (0.5, 2.0)),
     *(line(f"half-noisier-{ratio:g}", half_noisier, ratio) for ratio in (1.3, 2.0)),
+    *(line(f"noise-grows-{ratio:g}", noise_grows, ratio) for ratio in (1.5, 3.0)),
     *(line(f"counting-{highest:g}", counting, highest) for highest in (30.0, 1000.0)),
     *(
         Situation(f"good/text-{highest:g}", lambda random, _electrons, highest=highest: text(random, highest))

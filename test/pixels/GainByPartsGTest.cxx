@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <gtest/gtest.h>
 #include <string>
@@ -104,6 +105,66 @@ TEST(SensorNoiseGainByParts, UnlikeReadNoiseIsNoGain)
   EXPECT_TRUE(found.places->DifferMuch());
   // 128 tiles per half with an error of 0.01 each determine 0.06 h within 0.001.
   EXPECT_NEAR(found.places->dark[1] - found.places->dark[0], 0.8, 0.8 * 0.1);
+}
+
+TEST(SensorNoiseGainByParts, ReadNoiseThatGrowsAcrossTheFrameIsASmoothFieldAndNoGain)
+{
+  const auto        darkAt = [](const TileExcess & tile) { return 0.8 * (tile.x + tile.y * tile.y - 5.0 / 6.0); };
+  const auto        excess = [&](const TileExcess & tile) { return (1.0 - tile.shotFraction) * darkAt(tile); };
+  const GainByParts found = CompareParts(TilesOf(excess));
+  ASSERT_TRUE(found.places);
+  EXPECT_EQ(found.places->partition, Partition::SmoothField);
+  EXPECT_EQ(found.places->size, 0.0);
+  EXPECT_FALSE(found.places->Differ());
+  EXPECT_TRUE(found.places->DifferMuch());
+  TileExcess near;
+  TileExcess far;
+  near.x = near.y = 0.1;
+  far.x = far.y = 0.9;
+  const double difference = found.places->RatioAt(far.x, far.y, 0, 0.0) - found.places->RatioAt(near.x, near.y, 0, 0.0);
+  // As in the test before, with 15 coefficients in place of 2 for 256 tiles: 7.5 times the variance.
+  EXPECT_NEAR(difference, darkAt(far) - darkAt(near), 0.3 * (darkAt(far) - darkAt(near)));
+}
+
+TEST(SensorNoiseGainByParts, ErrorsOfTheRatiosAreErrorsOfTheLine)
+{
+  // Each half of the frame has one level. With the dark variance D, an excess h of each half, known to s, and the
+  // levels a and b, the line through the two points has the gain's error sqrt(2) s D / (b - a).
+  constexpr double                d = 9.0;
+  constexpr double                a = 100.0;
+  constexpr double                b = 300.0;
+  constexpr double                s = 0.1;
+  const FrameGeometry             geometry{ 32, 32 };
+  std::vector<double>             mean(geometry.Pixels());
+  const std::vector<std::uint8_t> mask(geometry.Pixels(), 1);
+  for (std::size_t p = 0; p < mean.size(); ++p)
+  {
+    mean[p] = p % geometry.width < geometry.width / 2 ? a : b;
+  }
+  VarianceData data;
+  data.mean = mean.data();
+  data.mask = mask.data();
+  data.pixels = mean.size();
+  PartReference reference;
+  reference.blackDn = 60.0;
+  reference.line.gain = 0.5;
+  reference.line.intercept = d - reference.line.gain * reference.blackDn;
+  const double va = reference.line.At(a);
+  const double vb = reference.line.At(b);
+  reference.line.pivotDn = (a / (va * va) + b / (vb * vb)) / (1.0 / (va * va) + 1.0 / (vb * vb));
+
+  GainByParts parts;
+  PartGains & halves = parts.places.emplace();
+  halves.partition = Partition::LeftRight;
+  halves.excess = halves.dark = { 0.0, 0.0 };
+  halves.covariance = Eigen::Vector3d(1.0, s * s, s * s).asDiagonal(); // a gain that all have in common, and h
+  halves.meanOfTerms = Eigen::Vector3d(1.0, 0.5, 0.5);
+  const Eigen::Matrix2d covariance = CovarianceByRatios(parts, data, geometry, reference, SerialFor);
+  EXPECT_NEAR(covariance(0, 0), 2.0 * std::pow(s * d / (b - a), 2), 1e-12);
+  // The excess of both halves together does not matter: at the middle of the levels no variance changes.
+  const Eigen::Vector2d atMiddle(0.5 * (a + b), 1.0);
+  EXPECT_NEAR(atMiddle.dot(covariance * atMiddle), 0.0, 1e-9);
+  EXPECT_TRUE(CovarianceByRatios({}, data, geometry, reference, SerialFor).isZero(0.0));
 }
 
 TEST(SensorNoiseGainByParts, NamesOfPartsDiffer)

@@ -26,75 +26,103 @@ StandardDeviationsOf(double chi2, double dof)
   return (std::cbrt(chi2 / dof) - 1.0 + s) / std::sqrt(s);
 }
 
-/** Returns the standard deviations of chi-square by which \a count coefficients from \a first on differ from 0 or, with
- * \a fromTheLast, from the last of them. The \a count - 1 differences from the last are linearly independent. */
+/** Returns the standard deviations of chi-square by which the \a count coefficients from \a first on differ from those
+ * of a uniform sensor: for a smooth field, all except the constant are 0; for parts, all are equal. */
 double
-SignificanceOf(const PartRegression & fit, Eigen::Index first, Eigen::Index count, bool fromTheLast)
+SignificanceOf(const PartRegression & fit, Eigen::Index first, Eigen::Index count)
 {
-  const Eigen::Index rank = fromTheLast ? count - 1 : count;
+  const Eigen::Index rank = count - 1;
   Eigen::MatrixXd    contrast = Eigen::MatrixXd::Zero(rank, fit.theta.size());
   for (Eigen::Index k = 0; k < rank; ++k)
   {
-    contrast(k, first + k) = 1.0;
-    contrast(k, first + count - 1) -= fromTheLast ? 1.0 : 0.0;
+    contrast(k, first + k + (fit.IsSmooth() ? 1 : 0)) = 1.0;
+    contrast(k, first + count - 1) -= fit.IsSmooth() ? 0.0 : 1.0;
   }
   const Eigen::VectorXd difference = contrast * fit.theta;
   const Eigen::MatrixXd chance = contrast * fit.covariance * contrast.transpose();
   return StandardDeviationsOf(difference.dot(chance.ldlt().solve(difference)), static_cast<double>(rank));
 }
 
-/** Sets the gains of the parts relative to their pixel-weighted mean, and their significance. */
-void
-FillGains(PartGains & gains, const PartRegression & fit, const std::vector<TileExcess> & tiles)
+/** Returns the fraction of the pixels in each part. */
+Eigen::VectorXd
+SharesOf(Partition partition, const std::vector<TileExcess> & tiles)
 {
-  const auto            parts = static_cast<Eigen::Index>(KindOf(gains.partition).parts);
-  const Eigen::MatrixXd ofParts = fit.ToParts(tiles); // parts from coefficients
-  Eigen::VectorXd       share = Eigen::VectorXd::Zero(parts);
+  Eigen::VectorXd share = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(KindOf(partition).parts));
   for (const TileExcess & tile : tiles)
   {
-    share(static_cast<Eigen::Index>(PartOf(gains.partition, tile.x, tile.y, tile.phase))) += tile.pixels;
+    share(static_cast<Eigen::Index>(PartOf(partition, tile.x, tile.y, tile.phase))) += tile.pixels;
   }
-  gains.pixels.assign(share.data(), share.data() + parts);
-  share /= share.sum();
-  const Eigen::VectorXd relative = Eigen::VectorXd::Ones(parts) + ofParts * fit.theta;
-  const double          mean = share.dot(relative);
-  const Eigen::MatrixXd centred =
-    (ofParts - Eigen::VectorXd::Ones(parts) * (share.transpose() * ofParts)) / mean; // to first order
-  const Eigen::MatrixXd covariance = centred * fit.covariance * centred.transpose();
-  double                square = 0.0;
-  for (Eigen::Index k = 0; k < parts; ++k)
-  {
-    gains.excess.push_back(relative(k) / mean - 1.0);
-    gains.error.push_back(std::sqrt(std::max(0.0, covariance(k, k))));
-    square += share(k) * (gains.excess.back() * gains.excess.back() - covariance(k, k));
-  }
-  gains.size = std::sqrt(std::max(0.0, square));
-  if (fit.gains > 1)
-  {
-    gains.z = fit.IsSmooth() ? SignificanceOf(fit, 1, fit.gains - 1, false) : SignificanceOf(fit, 0, parts, true);
-  }
-  if (fit.darks > 1)
-  {
-    const Eigen::VectorXd dark = fit.theta.segment(fit.gains, parts);
-    const Eigen::VectorXd beyond =
-      (dark.array() - share.dot(dark)).square() - fit.covariance.diagonal().segment(fit.gains, parts).array();
-    gains.darkSize = std::sqrt(std::max(0.0, share.dot(beyond)));
-    gains.darkZ = SignificanceOf(fit, fit.gains, parts, true);
-  }
+  return share;
 }
 
+/** Deviations of a quantity of the parts, d or h of PartRegression, from its pixel-weighted mean. */
+struct Deviations
+{
+  Eigen::VectorXd ofParts;    ///< of each part [1]
+  Eigen::MatrixXd covariance; ///< of ofParts [1]
+  Eigen::VectorXd field;      ///< coefficients of a smooth field [1]; otherwise empty
+  double          size{ 0 };  ///< rms over the pixels, beyond chance [1]
+  double          z{ 0 };     ///< significance, in standard deviations of chi-square [1]
+};
+
+/** Returns the deviations of the quantity whose \a count coefficients start at \a first. \a unit is what the quantity
+ * is relative to: 1 plus its mean, or 1 [1]. */
+Deviations
+DeviationsOf(const PartRegression &  fit,
+             Eigen::Index            first,
+             Eigen::Index            count,
+             double                  unit,
+             const Eigen::VectorXd & share,
+             const Eigen::MatrixXd & ofParts)
+{
+  const Eigen::RowVectorXd mean = share.transpose() * ofParts;
+  const Eigen::MatrixXd    centred = (ofParts - Eigen::VectorXd::Ones(share.size()) * mean) / unit; // to first order
+  Deviations               found;
+  found.ofParts = centred * fit.theta;
+  found.covariance = centred * fit.covariance * centred.transpose();
+  found.size = std::sqrt(
+    std::max(0.0, share.dot((found.ofParts.array().square() - found.covariance.diagonal().array()).matrix())));
+  if (count > 1)
+  {
+    found.z = SignificanceOf(fit, first, count);
+    if (fit.IsSmooth())
+    {
+      found.field = fit.theta.segment(first, count);
+      found.field(0) -= mean * fit.theta;
+      found.field /= unit;
+    }
+  }
+  return found;
+}
+
+/** Returns the gains of the parts relative to their pixel-weighted mean, and their significance. */
 PartGains
 GainsOf(const PartRegression & fit, const std::vector<TileExcess> & tiles)
 {
   PartGains gains;
   gains.partition = fit.partition;
   gains.scale = fit.scale;
-  FillGains(gains, fit, tiles);
-  gains.dark.assign(fit.theta.data() + fit.gains, fit.theta.data() + fit.gains + fit.darks);
-  if (fit.IsSmooth())
-  {
-    gains.field = fit.theta.head(fit.gains);
-  }
+  Eigen::VectorXd share = SharesOf(fit.partition, tiles);
+  gains.pixels.assign(share.data(), share.data() + share.size());
+  share /= share.sum();
+  const Eigen::MatrixXd toGains = fit.ToParts(tiles, 0, fit.gains);
+  const Eigen::MatrixXd toDark = fit.ToParts(tiles, fit.gains, fit.darks);
+  const double          mean = 1.0 + share.dot(toGains * fit.theta);
+  const Deviations      excess = DeviationsOf(fit, 0, fit.gains, mean, share, toGains);
+  const Deviations      dark = DeviationsOf(fit, fit.gains, fit.darks, 1.0, share, toDark);
+  const Eigen::VectorXd error = excess.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  gains.excess.assign(excess.ofParts.data(), excess.ofParts.data() + share.size());
+  gains.error.assign(error.data(), error.data() + share.size());
+  gains.dark.assign(dark.ofParts.data(), dark.ofParts.data() + share.size());
+  gains.size = excess.size;
+  gains.z = excess.z;
+  gains.field = excess.field;
+  gains.darkSize = dark.size;
+  gains.darkZ = dark.z;
+  gains.darkField = dark.field;
+  gains.gains = fit.gains;
+  gains.covariance = fit.covariance.topLeftCorner(fit.gains + fit.darks, fit.gains + fit.darks);
+  gains.meanOfTerms = (share.transpose() * (toGains + toDark)).head(fit.gains + fit.darks).transpose();
   return gains;
 }
 
@@ -126,7 +154,7 @@ AreLevelsBetter(const std::vector<TileExcess> & tiles, double scale, double crit
 bool
 DiffersInAll(const PartRegression & fit)
 {
-  return fit.IsSmooth() || (fit.gains > 1 && fit.darks > 1);
+  return fit.gains > 1 && (fit.IsSmooth() || fit.darks > 1);
 }
 
 /** Returns whether the parts differ only in the dark and have a criterion that is clearly below the criterion of one
@@ -168,11 +196,15 @@ AddSimplerFits(std::vector<PartRegression> & fits, const std::vector<TileExcess>
   const std::size_t partitions = fits.size();
   for (std::size_t i = 0; i < partitions; ++i)
   {
-    const double parts = static_cast<double>(fits[i].gains);
-    const double saved = std::log(static_cast<double>(tiles.size())) * (parts - 1.0);
-    if (!fits[i].IsSmooth() && fits[i].Criterion(tiles, scale) - saved + InCommon.strongEvidence < uniform)
+    const double    parts = static_cast<double>(fits[i].gains);
+    const double    saved = std::log(static_cast<double>(tiles.size())) * (parts - 1.0);
+    const Partition partition = fits[i].partition;
+    if (fits[i].IsSmooth())
     {
-      const Partition partition = fits[i].partition;
+      fits.push_back(FitParts(partition, PartsDiffer::InTheDark, tiles));
+    }
+    else if (fits[i].Criterion(tiles, scale) - saved + InCommon.strongEvidence < uniform)
+    {
       fits.push_back(FitParts(partition, PartsDiffer::InGain, tiles));
       fits.push_back(FitParts(partition, PartsDiffer::InTheDark, tiles));
     }
@@ -194,7 +226,8 @@ FindBest(const std::vector<TileExcess> & tiles, Divided divided)
   {
     if (kind.divided == divided)
     {
-      fits.push_back(FitParts(kind.partition, PartsDiffer::InBoth, tiles));
+      const bool isSmooth = kind.partition == Partition::SmoothField;
+      fits.push_back(FitParts(kind.partition, isSmooth ? PartsDiffer::InGain : PartsDiffer::InBoth, tiles));
       scale = std::min(scale, fits.back().scale);
     }
   }
@@ -214,41 +247,7 @@ FindBest(const std::vector<TileExcess> & tiles, Divided divided)
   const bool isTold = gains.Differ() || gains.DarkVariancesDiffer();
   return isTold ? std::optional<PartGains>(std::move(gains)) : std::nullopt;
 }
-
-std::size_t
-PhaseOf(std::size_t x, std::size_t y)
-{
-  return LargestPeriod * (y % LargestPeriod) + x % LargestPeriod;
-}
 } // namespace
-
-double
-PartGains::RatioAt(double x, double y, std::size_t phase, double shotFraction) const
-{
-  const std::size_t part = PartOf(partition, x, y, phase);
-  const double      gain = field.size() > 0 ? PartRegression::FieldAt(x, y).dot(field) : excess[part];
-  return std::max(InCommon.leastVarianceRatio,
-                  1.0 + shotFraction * gain + (1.0 - shotFraction) * dark[part % dark.size()]);
-}
-
-bool
-PartGains::Differ() const
-{
-  return size > InParts.leastDifference && z > Significance.manyTests;
-}
-
-bool
-PartGains::DarkVariancesDiffer() const
-{
-  return darkSize > InCommon.leastDarkDifference && darkZ > Significance.severalTests;
-}
-
-bool
-PartGains::DifferMuch() const
-{
-  return ((this->Differ() && size > InParts.largeDifference) || this->DarkVariancesDiffer()) &&
-         scale < InParts.largestScatter;
-}
 
 GainByParts
 CompareParts(const PartTiles & tiles)
@@ -273,36 +272,6 @@ CompareFrameParts(const std::vector<TileExcess> & tiles)
 {
   std::optional<PartGains> found = FindBest(tiles, Divided::Frames);
   return found && found->Differ() ? found : std::nullopt;
-}
-
-std::vector<float>
-MapOfRatios(const GainByParts &         parts,
-            const std::vector<double> & mean,
-            const FrameGeometry &       geometry,
-            const PartReference &       reference,
-            const ParallelFor &         parallelFor)
-{
-  std::vector<float> ratios(mean.size(), 1.0F);
-  const auto         width = static_cast<double>(geometry.width);
-  const auto         height = static_cast<double>(geometry.height);
-  parallelFor(geometry.height, [&](std::size_t row) {
-    const double y = (static_cast<double>(row) + 0.5) / height;
-    for (std::size_t column = 0; column < geometry.width; ++column)
-    {
-      const std::size_t p = row * geometry.width + column;
-      const double      x = (static_cast<double>(column) + 0.5) / width;
-      const double      expected = reference.line.At(mean[p]);
-      const double      shot =
-        expected > 0.0 ? std::clamp(reference.line.gain * (mean[p] - reference.blackDn) / expected, 0.0, 1.0) : 0.0;
-      double ratio = 1.0;
-      for (const auto * const own : { &parts.places, &parts.phases })
-      {
-        ratio *= *own ? (*own)->RatioAt(x, y, PhaseOf(column, row), shot) : 1.0;
-      }
-      ratios[p] = static_cast<float>(ratio);
-    }
-  });
-  return ratios;
 }
 
 } // namespace sensornoise

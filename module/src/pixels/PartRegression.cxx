@@ -164,25 +164,25 @@ PartRegression::FieldAt(double x, double y)
 }
 
 Eigen::MatrixXd
-PartRegression::ToParts(const std::vector<TileExcess> & tiles) const
+PartRegression::ToParts(const std::vector<TileExcess> & tiles, Eigen::Index first, Eigen::Index count) const
 {
   const auto      parts = static_cast<Eigen::Index>(KindOf(partition).parts);
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(parts, theta.size());
-  if (gains == 1)
+  if (count == 1)
   {
-    matrix.col(0).setOnes();
+    matrix.col(first).setOnes();
     return matrix;
   }
   if (!this->IsSmooth())
   {
-    matrix.leftCols(parts).setIdentity();
+    matrix.middleCols(first, parts).setIdentity();
     return matrix;
   }
   Eigen::VectorXd pixels = Eigen::VectorXd::Constant(parts, 1e-9);
   for (const TileExcess & tile : tiles)
   {
     const auto part = static_cast<Eigen::Index>(PartOf(partition, tile.x, tile.y, tile.phase));
-    matrix.row(part).head(gains) += tile.pixels * FieldAt(tile.x, tile.y).transpose();
+    matrix.row(part).segment(first, count) += tile.pixels * FieldAt(tile.x, tile.y).transpose();
     pixels(part) += tile.pixels;
   }
   return pixels.cwiseInverse().asDiagonal() * matrix;
@@ -207,21 +207,23 @@ void
 PartRegression::FillTerms(const TileExcess & tile, Terms & terms) const
 {
   terms.clear();
-  if (this->IsSmooth())
-  {
-    const Eigen::VectorXd values = FieldAt(tile.x, tile.y);
-    for (Eigen::Index k = 0; k < gains; ++k)
+  const Eigen::VectorXd field = this->IsSmooth() ? FieldAt(tile.x, tile.y) : Eigen::VectorXd();
+  const auto            part = static_cast<Eigen::Index>(PartOf(partition, tile.x, tile.y, tile.phase));
+  const auto            add = [&](Eigen::Index first, Eigen::Index count, double fraction) {
+    if (count > 1 && this->IsSmooth())
     {
-      terms.emplace_back(k, tile.shotFraction * values(k));
+      for (Eigen::Index k = 0; k < count; ++k)
+      {
+        terms.emplace_back(first + k, fraction * field(k));
+      }
     }
-    terms.emplace_back(gains, 1.0 - tile.shotFraction);
-  }
-  else
-  {
-    const auto part = static_cast<Eigen::Index>(PartOf(partition, tile.x, tile.y, tile.phase));
-    terms.emplace_back(gains == 1 ? 0 : part, tile.shotFraction);
-    terms.emplace_back(gains + (darks == 1 ? 0 : part), 1.0 - tile.shotFraction);
-  }
+    else
+    {
+      terms.emplace_back(first + (count == 1 ? 0 : part), fraction);
+    }
+  };
+  add(0, gains, tile.shotFraction);
+  add(gains, darks, 1.0 - tile.shotFraction);
   if (stepDn && tile.levelDn > *stepDn)
   {
     terms.emplace_back(gains + darks + static_cast<Eigen::Index>(knotsDn.size()), 1.0);
@@ -249,11 +251,10 @@ FitParts(Partition partition, PartsDiffer differ, const std::vector<TileExcess> 
 {
   PartRegression fit;
   fit.partition = partition;
-  const bool isSmooth = partition == Partition::SmoothField;
   const auto parts =
-    isSmooth ? PartRegression::FieldAt(0.0, 0.0).size() : static_cast<Eigen::Index>(KindOf(partition).parts);
+    fit.IsSmooth() ? PartRegression::FieldAt(0.0, 0.0).size() : static_cast<Eigen::Index>(KindOf(partition).parts);
   fit.gains = differ == PartsDiffer::InTheDark ? 1 : parts;
-  fit.darks = isSmooth || differ == PartsDiffer::InGain ? 1 : parts;
+  fit.darks = differ == PartsDiffer::InGain ? 1 : parts;
   FitRobustly(tiles, fit);
   return fit;
 }

@@ -35,11 +35,11 @@ struct SensorNoise_EXPORT PartRegression
   double                scale{ 1.0 }; ///< dispersion of the tiles over their sampling error, 1 or more [1]
   bool                  isDetermined{ false };
 
-  /** Returns whether the gain is a smooth field over the frame. */
+  /** Returns whether what differs is a smooth field over the frame. */
   bool
   IsSmooth() const
   {
-    return partition == Partition::SmoothField && gains > 1;
+    return partition == Partition::SmoothField;
   }
 
   /** Returns the products of Legendre polynomials at a place of the frame, of a total degree up to 4. \a x and \a y are
@@ -47,9 +47,10 @@ struct SensorNoise_EXPORT PartRegression
   static Eigen::VectorXd
   FieldAt(double x, double y);
 
-  /** Returns the matrix that gives the excess of the gain of each part when it is multiplied by theta. */
+  /** Returns the matrix that gives a number for each part when it is multiplied by theta: the mean over the part of the
+   * quantity whose \a count coefficients start at \a first, d or h. */
   Eigen::MatrixXd
-  ToParts(const std::vector<TileExcess> & tiles) const;
+  ToParts(const std::vector<TileExcess> & tiles, Eigen::Index first, Eigen::Index count) const;
 
   /** Returns the Schwarz criterion: the robust loss with the dispersion \a common [1], plus the logarithm of the number
    * of tiles for each coefficient of the parts. The best model has the lowest criterion. */
@@ -70,7 +71,7 @@ enum class PartsDiffer : std::uint8_t
   InTheDark ///< variance without signal, as by the read noise
 };
 
-/** Fits the parts of \a partition. In a smooth field only the gain differs. */
+/** Fits the parts of \a partition. */
 SensorNoise_EXPORT PartRegression
 FitParts(Partition partition, PartsDiffer differ, const std::vector<TileExcess> & tiles);
 

@@ -167,10 +167,17 @@ CompareMeasuredParts(const ProjectedVariance &         projected,
   return CompareParts(MakePartTiles(data, projected.GetFrame().geometry, reference, parallelFor));
 }
 
+/** A line, and the parts by whose ratios the variance was divided for it; null: it was not divided. */
+struct LineOfParts
+{
+  FittedLine                 drawn;
+  std::optional<GainByParts> dividedBy;
+};
+
 /** Divides the variance by the ratios of parts whose gains differ much, so that their pixels are not rejected, and fits
  * the line of \a drawn again. Returns \a drawn unless most pixels then follow the line: other causes of differences
  * between parts, such as a non-linear response, are left to the fit. */
-FittedLine
+LineOfParts
 CorrectForParts(FittedLine                        drawn,
                 const PartReference &             reference,
                 const std::vector<std::uint8_t> & mask,
@@ -186,13 +193,17 @@ CorrectForParts(FittedLine                        drawn,
   }
   if (parts.Larger() == nullptr)
   {
-    return drawn;
+    return { std::move(drawn), std::nullopt };
   }
   const ReferenceFrame &  frame = drawn.projected.GetFrame();
   const ProjectedVariance divided =
     drawn.projected.WithRatios(MapOfRatios(parts, frame.mean, frame.geometry, reference, parallelFor));
   FittedLine again = FitFixedPointLine(divided, mask, drawn.line, parallelFor);
-  return again.line.isDetermined && AgreesWithLine(again.projected, mask, again.line) ? again : drawn;
+  if (again.line.isDetermined && AgreesWithLine(again.projected, mask, again.line))
+  {
+    return { std::move(again), std::move(parts) };
+  }
+  return { std::move(drawn), std::nullopt };
 }
 
 /** Corrects the slope for the noise of the means, and for the correlation of this noise with the variance, which skewed
@@ -225,8 +236,9 @@ struct StaticFit
 /** The pixels that were selected, and their line. */
 struct SelectedLine
 {
-  FittedLine     drawn;
-  StaticVariance found; ///< mask, use of the pixels, and classes are set
+  FittedLine                 drawn;
+  StaticVariance             found;     ///< mask, use of the pixels, and classes are set
+  std::optional<GainByParts> dividedBy; ///< parts by whose ratios the variance was divided; null: it was not
 };
 
 /** Selects the pixels of a static scene. The line of the flat classes rejects neighbourhoods, and then classes among
@@ -243,11 +255,14 @@ SelectStaticPixels(const ProjectedSquares &          squares,
   found.varianceInflation = premises.varianceInflation;
   found.pixelUse = std::move(pixelUse);
   found.mask = MaskOfFlatClasses(squares, usable, parallelFor);
-  FittedLine drawn = FitFirstLine({ squares, premises.slopeDn }, usable, found.mask, parallelFor);
+  FittedLine                 drawn = FitFirstLine({ squares, premises.slopeDn }, usable, found.mask, parallelFor);
+  std::optional<GainByParts> dividedBy;
   if (mayDivide && drawn.line.isDetermined)
   {
     const PartReference reference{ drawn.line, premises.blackDn, premises.varianceInflation };
-    drawn = CorrectForParts(std::move(drawn), reference, found.mask, parallelFor);
+    LineOfParts         ofParts = CorrectForParts(std::move(drawn), reference, found.mask, parallelFor);
+    drawn = std::move(ofParts.drawn);
+    dividedBy = std::move(ofParts.dividedBy);
   }
   bool isJudged = false;
   for (int round = 0; round < 2 && drawn.line.isDetermined && !isJudged; ++round)
@@ -259,7 +274,7 @@ SelectStaticPixels(const ProjectedSquares &          squares,
     isJudged = static_cast<double>(misfits) < InPixels.fewRejected * static_cast<double>(usable.size());
     drawn = FitFixedPointLine(projected, found.mask, judge.line, parallelFor);
   }
-  return { std::move(drawn), std::move(found) };
+  return { std::move(drawn), std::move(found), std::move(dividedBy) };
 }
 
 /** Computes FitStaticVariance() once. With \a mayDivide the variance may be divided by the ratios of parts. */
@@ -272,7 +287,8 @@ FitOnce(const ProjectedSquares &          squares,
         const ParallelFor &               parallelFor)
 {
   const auto [slopeDn, offsetDn, blackDn, varianceInflation] = premises;
-  auto [drawn, found] = SelectStaticPixels(squares, usable, std::move(pixelUse), premises, mayDivide, parallelFor);
+  auto [drawn, found, dividedBy] =
+    SelectStaticPixels(squares, usable, std::move(pixelUse), premises, mayDivide, parallelFor);
   const bool isDivided = drawn.projected.HasRatios();
   if (!drawn.line.isDetermined)
   {
@@ -309,6 +325,13 @@ FitOnce(const ProjectedSquares &          squares,
     found.instrumentalLine = settle(FitInstrumental(fit, data, frame));
   }
   CorrectForNoisyMeans(line, offsetDn, frame.frames);
+  if (dividedBy)
+  {
+    const PartReference   reference{ line, blackDn, varianceInflation };
+    const Eigen::Matrix2d byRatios = CovarianceByRatios(*dividedBy, data, frame.geometry, reference, parallelFor);
+    line.covariance += byRatios;
+    found.instrumentalLine.covariance += byRatios;
+  }
   found.line = line;
   std::vector<std::uint8_t> kept = found.mask;
   ForPixels(kept.size(), parallelFor, [&](std::size_t p) { kept[p] = trimmed[p] != 0 ? 0 : kept[p]; });
