@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <random>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -88,6 +89,26 @@ TEST(SensorNoiseRefinedWarnings, NotStatic)
                 return isThere ? 0.5 * (u + 100.0) : u;
               }),
               WarningCode::NotStatic);
+}
+
+TEST(SensorNoiseRefinedWarnings, NotStaticNamesTheLevelsOnBothSides)
+{
+  // A square, brighter than all else by 3000 DN, flickers by itself. Its dark surroundings are left out with it.
+  const Stack<Codes> stack = Changed([](std::size_t t, std::size_t x, std::size_t y, double u) {
+    const bool isThere = x > 20 && x < 60 && y > 20 && y < 60;
+    return isThere ? u + 3000.0 * (1.0 + 0.2 * std::sin(1.0 + static_cast<double>(t * t))) : u;
+  });
+  const Report       report = Measure(stack, {}).GetReport();
+  const auto         warning = std::find_if(report.warnings.begin(), report.warnings.end(), [](const Warning & own) {
+    return own.code == WarningCode::NotStatic;
+  });
+  ASSERT_NE(warning, report.warnings.end()) << MakeText(report);
+  const std::regex ranges("them have ([0-9.]+) to ([0-9.]+) DN; of the pixels used, ([0-9.]+) to ([0-9.]+) DN");
+  std::smatch      found;
+  ASSERT_TRUE(std::regex_search(warning->message, found, ranges)) << warning->message;
+  EXPECT_LT(std::stod(found[1]), std::stod(found[2])) << warning->message;
+  EXPECT_LT(std::stod(found[3]), std::stod(found[4])) << warning->message;
+  EXPECT_GT(std::stod(found[2]), std::stod(found[4])) << warning->message;
 }
 
 TEST(SensorNoiseRefinedWarnings, NoisyPixels)

@@ -3,6 +3,7 @@
 #include "refined/RefinedReport.h"
 
 #include "sensornoise/Settings.h"
+#include "base/Quantiles.h"
 #include "base/Text.h"
 #include "pixels/VarianceLine.h"
 #include "correlation/CorrelationEstimate.h"
@@ -15,14 +16,32 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sensornoise
 {
 
 namespace
 {
+/** Returns "80 to 120 DN": the range of nine tenths of the levels at the pixels of one use. */
+std::string
+RangeOfLevels(const RefinedResults & found, PixelUse use)
+{
+  std::vector<double> levels;
+  for (std::size_t p = 0; p < found.variance.pixelUse.size(); ++p)
+  {
+    if (found.variance.pixelUse[p] == static_cast<std::uint8_t>(use))
+    {
+      levels.push_back(found.scene.frame.mean[p]);
+    }
+  }
+  return levels.empty() ? "no level"
+                        : Rounded(Quantile(levels, 0.05)) + " to " + Rounded(Quantile(levels, 0.95)) + " DN";
+}
+
 void
 WarnOfScene(Report & report, const RefinedResults & found)
 {
@@ -67,7 +86,9 @@ WarnOfScene(Report & report, const RefinedResults & found)
   {
     report.Warn(WarningCode::NotStatic,
                 percent(found.variance.notStatic) +
-                  " of the pixels lie where something moves or changes, and are left out");
+                  " of the pixels lie where something moves or changes, and are left out. Nine tenths of them have " +
+                  RangeOfLevels(found, PixelUse::NotStatic) + "; of the pixels used, " +
+                  RangeOfLevels(found, PixelUse::Used));
   }
   if (static_cast<double>(found.scene.nearClip + found.scene.summary.clipped) > InRefined.reportedFraction * total)
   {
