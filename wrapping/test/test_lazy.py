@@ -296,7 +296,8 @@ OPEN = {
 
 @pytest.mark.parametrize("kind", OPEN)
 def test_memory_stays_flat(fresh, tmp_path, kind):
-    """100 frames have 50 MiB, 400 frames 200 MiB. ITK requests up to 64 frames at a time."""
+    """Frames that are added take a fraction of their size. ITK requests up to 64 frames at a time, and readers keep
+    memory that they freed: 56 MiB was seen with Zarr. Whole frames in memory would take all of their size, or more."""
     pytest.importorskip({"memmap": "numpy", "dask": "dask.array"}.get(kind, kind))
     stored = "zarr" if kind == "dask" else kind
     pytest.importorskip({"memmap": "numpy"}.get(stored, stored))
@@ -305,9 +306,10 @@ def test_memory_stays_flat(fresh, tmp_path, kind):
         "part = np.random.default_rng(1).integers(100, 1000, (50, 512, 512), dtype=np.uint16)\n"
     )
     code = PEAK + f"name = sys.argv[1]\nitk.estimate_sensor_noise({OPEN[kind]}, rolling_shutter='off'); print(peak())"
-    peaks = []
-    for count in (100, 400):
+    counts, peaks = (100, 700), []
+    for count in counts:
         name = tmp_path / f"{count}.npy"
         fresh(make + MAKE[stored], name, count)
         peaks.append(float(fresh(code, name)))
-    assert peaks[1] < 1.1 * peaks[0], peaks
+    added = (counts[1] - counts[0]) * 512 * 512 * 2 / 2**20  # [MiB]
+    assert peaks[1] - peaks[0] < 0.4 * added, (peaks, added)
