@@ -72,8 +72,10 @@ AddSweepOption(CLI::App & app, EstimateOptions & options)
       "--sweep",
       options.sweep,
       "a camera at all its settings, in place of FRAME: a folder with a folder for each of them (iso100, "
-      "iso200, gain2.5, gain6dB), whose dark frames are in its folder dark; or stacks, or frames that record "
-      "their ISO speed; or a table, file.csv, with the columns iso, gain or gain_db, then frames and dark. "
+      "iso200, gain2.5, gain6dB, or 10ms at one gain), whose dark frames are in its folder dark; or stacks, or frames "
+      "that record their ISO speed; or a table, file.csv, with the columns iso, gain, gain_db, exposure or "
+      "exposure_ms, "
+      "then frames and dark. "
       "--json writes the passport, from which export-noise-model makes every format. A setting that is in it, "
       "with the same files and options, is not measured again")
     ->expected(1, std::numeric_limits<int>::max())

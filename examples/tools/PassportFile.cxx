@@ -8,18 +8,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <stdexcept>
 
 namespace sensornoise::tools
 {
 namespace
 {
 using Json = nlohmann::json;
-
-Json
-JsonOf(const std::optional<NumberWithError> & number)
-{
-  return number ? Json{ { "value", number->value }, { "standard_error", number->standardError } } : Json();
-}
 
 template <typename T>
 Json
@@ -35,67 +30,6 @@ AsUtf8(const std::string & text)
   return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
 }
 
-/** Returns the numbers of all channels at a setting. */
-Json
-ChannelsOf(const SweepSummary & summary, const std::optional<double> & setting)
-{
-  Json channels = Json::array();
-  for (const SweepRow & row : summary.rows)
-  {
-    if (row.setting == setting)
-    {
-      channels.push_back({ { "channel", row.channel },
-                           { "gain", JsonOf(row.gain) },
-                           { "offset", JsonOf(row.offsetDn) },
-                           { "read_noise", JsonOf(row.readNoiseDn) },
-                           { "read_noise_electrons", JsonOf(row.readNoiseElectrons) },
-                           { "full_well_electrons", JsonOf(row.fullWellElectrons) },
-                           { "dynamic_range_db", JsonOf(row.dynamicRangeDb) } });
-    }
-  }
-  return channels;
-}
-
-Json
-LineOf(const SweepSummary & summary)
-{
-  Json parts = Json::array();
-  for (const GainLine::Part & part : summary.line.parts)
-  {
-    parts.push_back({ { "scale", JsonOf(part.scale) },
-                      { "lowest", part.lowest },
-                      { "highest", part.highest },
-                      { "settings", part.settings },
-                      { "reduced_chi2", part.reducedChi2 } });
-  }
-  Json deviations = Json::array();
-  for (std::size_t i = 0; i < summary.settings.size(); ++i)
-  {
-    deviations.push_back({ { "setting", summary.settings[i].setting },
-                           { "deviation", JsonOrNull(summary.line.deviation[i]) },
-                           { "leaves_line", static_cast<bool>(summary.line.isBeside[i]) } });
-  }
-  return { { "parts", parts }, { "deviations", deviations } };
-}
-
-Json
-SwitchOf(const SweepSummary & summary)
-{
-  const auto & found = summary.conversionSwitch;
-  return found ? Json{ { "below", found->below },
-                       { "above", found->above },
-                       { "gain_step", JsonOf(found->gainStep) },
-                       { "read_noise_step", JsonOf(found->readNoiseStep) } }
-               : Json();
-}
-
-Json
-AndroidOf(const SweepSummary & summary)
-{
-  return { { "model", summary.android ? Json::parse(summary.android->files.front().bytes) : Json() },
-           { "note", summary.android ? summary.android->note : summary.androidReason } };
-}
-
 const Json &
 MemberOf(const Json & record, const char * name, Json::value_t type, const std::string & file)
 {
@@ -106,6 +40,19 @@ MemberOf(const Json & record, const char * name, Json::value_t type, const std::
                       " as estimate-sensor-noise --sweep writes it; expected a whole passport");
   }
   return *found;
+}
+
+SettingKind
+KindIn(const Json & record, const std::string & file)
+{
+  try
+  {
+    return SettingKindOf(MemberOf(record, "setting", Json::value_t::string, file).get<std::string>());
+  }
+  catch (const std::invalid_argument & error)
+  {
+    throw UnfitReport("the passport " + file + ": " + error.what());
+  }
 }
 
 PassportEntry
@@ -147,7 +94,7 @@ ReadPassport(const std::string & file)
   }
   Passport passport;
   passport.name = file;
-  passport.isIso = MemberOf(record, "setting", Json::value_t::string, file) == "iso";
+  passport.kind = KindIn(record, file);
   for (const Json & entry : MemberOf(record, "settings", Json::value_t::array, file))
   {
     passport.entries.push_back(EntryOf(entry, file));
@@ -183,14 +130,14 @@ RangeOf(const Passport & passport, const ExportSettings & settings)
     return *a->setting < *b->setting;
   });
   MeasuredRange range;
-  range.isIso = passport.isIso;
+  range.kind = passport.kind;
   range.switchBetween = passport.switchBetween;
   for (const PassportEntry * const entry : measured)
   {
     const std::string name = passport.name.empty() ? entry->name : passport.name + " (" + entry->name + ")";
     range.noise.push_back(ReadCameraNoise(ValuesOfJson(name, entry->report), settings));
     range.settings.push_back(*entry->setting);
-    if (range.isIso)
+    if (range.kind == SettingKind::Iso)
     {
       range.noise.back().isoSpeed = entry->setting;
     }
@@ -215,7 +162,10 @@ UnmeasuredOf(const Passport & passport)
 std::string
 ToJson(const Passport & passport, const SweepSummary & summary)
 {
-  Json settings = Json::array();
+  Json        found = Json::parse(sensornoise::ToJson(summary));
+  Json &      model = found["android"]["model"];
+  std::size_t measured = 0;
+  Json        settings = Json::array();
   for (const PassportEntry & entry : passport.entries)
   {
     const bool isMeasured = entry.reason.empty();
@@ -224,18 +174,21 @@ ToJson(const Passport & passport, const SweepSummary & summary)
                          { "status", isMeasured ? "measured" : "failed" },
                          { "reason", isMeasured ? Json() : Json(AsUtf8(entry.reason)) },
                          { "options", AsUtf8(entry.options) },
-                         { "channels", isMeasured ? ChannelsOf(summary, entry.setting) : Json::array() },
+                         { "channels", isMeasured ? found["channels"][measured] : Json::array() },
                          { "report", entry.report } });
+    measured += isMeasured ? 1 : 0;
   }
+  model = model.is_string() ? Json::parse(model.get<std::string>()) : Json();
   const Json record{ { "schema", PassportSchema },
                      { "version", GetModuleVersion() },
-                     { "setting", passport.isIso ? "iso" : "gain" },
-                     { "camera", summary.camera.empty() ? Json() : Json(summary.camera) },
+                     { "setting", NameOf(passport.kind) },
+                     { "camera", found["camera"] },
                      { "settings", settings },
-                     { "gain_line", LineOf(summary) },
-                     { "conversion_gain_switch", SwitchOf(summary) },
-                     { "android", AndroidOf(summary) },
-                     { "findings", FindingsOf(summary) } };
+                     { "gain_line", found["gain_line"] },
+                     { "conversion_gain_switch", found["conversion_gain_switch"] },
+                     { "common_gain", found["common_gain"] },
+                     { "android", found["android"] },
+                     { "findings", found["findings"] } };
   return record.dump(1) + '\n';
 }
 

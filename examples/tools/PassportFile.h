@@ -32,7 +32,7 @@ struct PassportEntry
 struct Passport
 {
   std::string                              name; ///< of the file, for messages; "": it is not read from one
-  bool                                     isIso{ true };
+  SettingKind                              kind{ SettingKind::Iso };
   std::vector<PassportEntry>               entries;
   std::optional<std::pair<double, double>> switchBetween;
 };

@@ -8,16 +8,14 @@
 #include "tools/FileNames.h"
 #include "tools/LowerCase.h"
 #include "tools/SweepTable.h"
-#include "tools/TextColumns.h"
 #include "itkSensorNoiseFrameFiles.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <iterator>
 #include <map>
-#include <regex>
+#include <set>
 #include <stdexcept>
 
 namespace sensornoise::tools
@@ -32,7 +30,14 @@ struct FoundBurst
   SweepBurst                  burst;
   std::optional<NamedSetting> named;
   std::optional<double>       recordedIso;
+  std::optional<double>       recordedExposure; ///< [s]
 };
+
+std::optional<double>
+IfPositive(double number)
+{
+  return std::isfinite(number) && number > 0.0 ? std::optional<double>(number) : std::nullopt;
+}
 
 std::string
 NameOfPath(const fs::path & path)
@@ -58,11 +63,9 @@ FillBurst(const std::vector<std::string> & frames,
   {
     found.burst.files = ExpandNames(frames, !options.raw.empty());
     found.burst.dark = ExpandNames(dark, !options.raw.empty());
-    const double iso = OpenFirst(found.burst.files.front(), options).camera.isoSpeed;
-    if (std::isfinite(iso) && iso > 0.0)
-    {
-      found.recordedIso = iso;
-    }
+    const CameraSettings camera = OpenFirst(found.burst.files.front(), options).camera;
+    found.recordedIso = IfPositive(camera.isoSpeed);
+    found.recordedExposure = IfPositive(camera.exposureSeconds);
   }
   catch (const std::exception & error)
   {
@@ -101,38 +104,54 @@ FoldersIn(const std::string & folder)
   return folders;
 }
 
-/** Makes a burst of each stack, and of all single frames of one ISO speed. */
+/** Makes a burst of each stack, and of all single frames of one ISO speed; of one exposure if all have one ISO speed.
+ */
 std::vector<FoundBurst>
 BurstsOfFiles(const std::vector<std::string> & files, const EstimateOptions & options)
 {
-  std::vector<FoundBurst>      found;
-  std::map<double, FoundBurst> byIso;
+  std::vector<FoundBurst> found;
+  std::vector<FoundBurst> single; // frames
   for (const std::string & file : files)
   {
     const FrameList opened = OpenFirst(file, options);
-    const double    iso = opened.camera.isoSpeed;
-    const bool      hasIso = std::isfinite(iso) && iso > 0.0;
+    FoundBurst      each;
+    each.burst.name = NameOfPath(file);
+    each.burst.files = { file };
+    each.recordedIso = IfPositive(opened.camera.isoSpeed);
+    each.recordedExposure = IfPositive(opened.camera.exposureSeconds);
     if (opened.isStack)
     {
-      FoundBurst stack;
-      stack.burst.name = NameOfPath(file);
-      stack.burst.files = { file };
-      stack.named = SettingInName(fs::path(file).stem().string());
-      stack.recordedIso = hasIso ? std::optional<double>(iso) : std::nullopt;
-      found.push_back(stack);
+      each.named = SettingInName(fs::path(file).stem().string());
+      found.push_back(each);
       continue;
     }
-    if (!hasIso)
+    if (!each.recordedIso)
     {
       throw std::invalid_argument(file + " records no ISO speed (--sweep), so that its burst is not known; expected a "
                                          "folder for each setting, for instance iso800, or a table (.csv)");
     }
-    FoundBurst & burst = byIso[iso];
-    burst.burst.name = "ISO " + Text(iso);
-    burst.burst.files.push_back(file);
-    burst.recordedIso = iso;
+    single.push_back(each);
   }
-  std::transform(byIso.begin(), byIso.end(), std::back_inserter(found), [](const auto & each) { return each.second; });
+  const bool areExposures = std::all_of(single.begin(), single.end(), [&single](const FoundBurst & each) {
+    return each.recordedIso == single.front().recordedIso && each.recordedExposure;
+  });
+  std::map<double, FoundBurst> bySetting;
+  for (const FoundBurst & each : single)
+  {
+    const double setting = areExposures ? *each.recordedExposure : *each.recordedIso;
+    FoundBurst & burst = bySetting.emplace(setting, each).first->second;
+    burst.burst.name = SettingText(areExposures ? SettingKind::Exposure : SettingKind::Iso, setting);
+    if (burst.burst.files != each.burst.files)
+    {
+      burst.burst.files.push_back(each.burst.files.front());
+    }
+  }
+  const bool isOneExposure = areExposures && bySetting.size() == 1;
+  for (auto & [setting, burst] : bySetting)
+  {
+    burst.burst.name = isOneExposure ? SettingText(SettingKind::Iso, *burst.recordedIso) : burst.burst.name;
+    found.push_back(burst);
+  }
   return found;
 }
 
@@ -178,39 +197,57 @@ BurstsOf(const std::vector<std::string> & names, const EstimateOptions & options
   return found;
 }
 
-/** Returns whether the settings are ISO speeds. Throws std::invalid_argument if there are gains, too. */
+/** Returns whether the bursts record one ISO speed and exposures that differ. */
 bool
-AreIso(const std::vector<FoundBurst> & bursts)
+RecordExposures(const std::vector<FoundBurst> & bursts)
 {
-  const FoundBurst * gain = nullptr;
-  const FoundBurst * iso = nullptr;
+  std::set<double> exposures;
   for (const FoundBurst & each : bursts)
   {
-    if (each.named)
+    if (!each.recordedIso || each.recordedIso != bursts.front().recordedIso || !each.recordedExposure)
     {
-      (each.named->isIso ? iso : gain) = &each;
+      return false;
     }
+    exposures.insert(*each.recordedExposure);
   }
-  if (gain != nullptr && iso != nullptr)
+  return exposures.size() > 1 && exposures.size() == bursts.size();
+}
+
+/** Returns what the settings are. Throws std::invalid_argument if they are of several kinds. */
+SettingKind
+KindOfSettings(const std::vector<FoundBurst> & bursts)
+{
+  const FoundBurst * first = nullptr;
+  for (const FoundBurst & each : bursts)
   {
-    throw std::invalid_argument("--sweep: " + gain->burst.name + " has a gain and " + iso->burst.name +
-                                " an ISO speed; expected settings of one kind");
+    if (each.named && first != nullptr && each.named->kind != first->named->kind)
+    {
+      throw std::invalid_argument("--sweep: " + first->burst.name + " is " +
+                                  SettingText(first->named->kind, first->named->value) + " and " + each.burst.name +
+                                  " is " + SettingText(each.named->kind, each.named->value) +
+                                  "; expected settings of one kind");
+    }
+    first = each.named && first == nullptr ? &each : first;
   }
-  return gain == nullptr;
+  return first != nullptr ? first->named->kind : RecordExposures(bursts) ? SettingKind::Exposure : SettingKind::Iso;
 }
 
 /** Decides on the setting of a burst. */
 void
-SetSetting(FoundBurst & found, bool isIso)
+SetSetting(FoundBurst & found, SettingKind kind)
 {
-  constexpr double sameIso = 0.01; // relative; ISO speeds are a quarter apart or more
-  if (isIso && found.recordedIso)
+  constexpr double sameSetting = 0.01; // relative; ISO speeds and exposures are a quarter apart or more
+  const auto       recorded = kind == SettingKind::Iso        ? found.recordedIso
+                              : kind == SettingKind::Exposure ? found.recordedExposure
+                                                              : std::nullopt;
+  if (recorded)
   {
-    found.burst.setting = found.recordedIso;
-    if (found.named && std::abs(found.named->value / *found.recordedIso - 1.0) > sameIso)
+    found.burst.setting = recorded;
+    if (found.named && std::abs(found.named->value / *recorded - 1.0) > sameSetting)
     {
-      found.burst.reason = "its files record ISO " + Text(*found.recordedIso) + ", but ISO " +
-                           Text(found.named->value) + " was given; expected the same. Correct the name or the table";
+      found.burst.reason = "its files record " + SettingText(kind, *recorded) + ", but " +
+                           SettingText(kind, found.named->value) +
+                           " was given; expected the same. Correct the name or the table";
     }
     return;
   }
@@ -222,7 +259,24 @@ SetSetting(FoundBurst & found, bool isIso)
   if (found.burst.reason.empty())
   {
     found.burst.reason = "its setting is not known: neither the files record an ISO speed, nor does the name hold one. "
-                         "Name it for instance iso800 or gain2.5, or give a table (.csv)";
+                         "Name it for instance iso800, gain2.5 or 10ms, or give a table (.csv)";
+  }
+}
+
+/** Gives the bursts of exposures that record another ISO speed than the first one a reason: their gain differs. */
+void
+RequireOneGain(std::vector<FoundBurst> & bursts)
+{
+  const auto first =
+    std::find_if(bursts.begin(), bursts.end(), [](const FoundBurst & each) { return each.recordedIso.has_value(); });
+  for (FoundBurst & each : bursts)
+  {
+    if (each.recordedIso && each.recordedIso != first->recordedIso && each.burst.reason.empty())
+    {
+      each.burst.reason = "its files record ISO " + Text(*each.recordedIso) + ", and the files of " +
+                          first->burst.name + " ISO " + Text(*first->recordedIso) +
+                          "; expected exposures at one ISO speed";
+    }
   }
 }
 
@@ -245,32 +299,6 @@ RefuseRepeated(std::vector<SweepBurst> & bursts)
 }
 } // namespace
 
-std::optional<NamedSetting>
-SettingInName(const std::string & name)
-{
-  static const std::regex iso("(?:^|.*[^a-z])iso[ _-]*([0-9]+(?:\\.[0-9]+)?)(?:[^0-9.].*)?");
-  static const std::regex gain("(?:^|.*[^a-z])gain[ _]*([+-]?[0-9]+(?:\\.[0-9]+)?)[ _]*(db)?(?:[^0-9.].*)?");
-  static const std::regex number("[0-9]+(?:\\.[0-9]+)?");
-  const std::string       text = LowerCase(name);
-  std::smatch             found;
-  NamedSetting            setting;
-  if (std::regex_match(text, found, iso))
-  {
-    setting.value = NumberOf(found[1].str()).value_or(0.0);
-  }
-  else if (std::regex_match(text, found, gain))
-  {
-    setting.isIso = false;
-    const double value = NumberOf(found[1].str()).value_or(0.0);
-    setting.value = found[2].matched ? GainOfDecibels(value) : value;
-  }
-  else if (std::regex_match(text, number))
-  {
-    setting.value = NumberOf(text).value_or(0.0);
-  }
-  return std::isfinite(setting.value) && setting.value > 0.0 ? std::optional<NamedSetting>(setting) : std::nullopt;
-}
-
 SweepPlan
 FindBursts(const std::vector<std::string> & names, const EstimateOptions & options)
 {
@@ -281,10 +309,14 @@ FindBursts(const std::vector<std::string> & names, const EstimateOptions & optio
                                 "; expected a folder with a folder for each setting, or a table (.csv)");
   }
   SweepPlan plan;
-  plan.isIso = AreIso(found);
+  plan.kind = KindOfSettings(found);
+  if (plan.kind == SettingKind::Exposure)
+  {
+    RequireOneGain(found);
+  }
   for (FoundBurst & each : found)
   {
-    SetSetting(each, plan.isIso);
+    SetSetting(each, plan.kind);
     plan.bursts.push_back(each.burst);
   }
   std::stable_sort(plan.bursts.begin(), plan.bursts.end(), [](const SweepBurst & a, const SweepBurst & b) {

@@ -267,7 +267,7 @@ RunSweep(const EstimateOptions & options)
   }
   Passport     passport;
   SweepSummary summary;
-  passport.isIso = plan.isIso;
+  passport.kind = plan.kind;
   for (const SweepBurst & burst : plan.bursts)
   {
     passport.entries.push_back(MeasureBurst(options, burst, stored));

@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace sensornoise::tools
 {
@@ -21,8 +23,9 @@ namespace
 struct SweepTableColumns
 {
   std::size_t                setting{ 0 };
-  bool                       isIso{ false };
+  SettingKind                kind{ SettingKind::Iso };
   bool                       isDecibels{ false };
+  double                     unit{ 1.0 }; ///< of the numbers: 0.001 for milliseconds
   std::size_t                frames{ 0 };
   std::optional<std::size_t> dark;
 };
@@ -39,22 +42,29 @@ PlaceOf(const std::vector<std::string> & header, const std::string & name)
 SweepTableColumns
 ColumnsOf(const std::vector<std::string> & header, const std::string & where)
 {
-  SweepTableColumns          columns;
-  std::optional<std::size_t> setting;
-  for (const char * const name : { "iso", "gain", "gain_db" })
+  SweepTableColumns                                      columns;
+  std::optional<std::size_t>                             setting;
+  const std::vector<std::pair<std::string, SettingKind>> names{ { "iso", SettingKind::Iso },
+                                                                { "gain", SettingKind::Gain },
+                                                                { "gain_db", SettingKind::Gain },
+                                                                { "exposure", SettingKind::Exposure },
+                                                                { "exposure_ms", SettingKind::Exposure } };
+  for (const auto & [name, kind] : names)
   {
     if (const auto place = PlaceOf(header, name))
     {
       setting = place;
-      columns.isIso = name == std::string("iso");
-      columns.isDecibels = name == std::string("gain_db");
+      columns.kind = kind;
+      columns.isDecibels = name == "gain_db";
+      columns.unit = name == "exposure_ms" ? 1e-3 : 1.0;
       break;
     }
   }
   const auto frames = PlaceOf(header, "frames");
   if (!setting || !frames)
   {
-    throw std::runtime_error(where + " has no column " + (setting ? "frames" : "iso, gain or gain_db") +
+    throw std::runtime_error(where + " has no column " +
+                             (setting ? "frames" : "iso, gain, gain_db, exposure or exposure_ms") +
                              "; expected a header such as iso,frames,dark");
   }
   columns.setting = *setting;
@@ -71,8 +81,8 @@ RowOf(const std::vector<std::string> & cells,
 {
   const std::optional<double> number = NumberOf(cells[columns.setting]);
   SweepTableRow               row;
-  row.setting.isIso = columns.isIso;
-  row.setting.value = columns.isDecibels ? GainOfDecibels(number.value_or(0.0)) : number.value_or(0.0);
+  row.setting.kind = columns.kind;
+  row.setting.value = columns.isDecibels ? GainOfDecibels(number.value_or(0.0)) : number.value_or(0.0) * columns.unit;
   if (!number || !(row.setting.value > 0.0) || !std::isfinite(row.setting.value))
   {
     throw std::runtime_error(where + " has the setting \"" + cells[columns.setting].substr(0, 40) +
@@ -88,12 +98,6 @@ RowOf(const std::vector<std::string> & cells,
   return row;
 }
 } // namespace
-
-double
-GainOfDecibels(double decibels)
-{
-  return std::pow(10.0, decibels / 20.0);
-}
 
 std::vector<SweepTableRow>
 ReadSweepTable(const std::string & file)

@@ -3,7 +3,7 @@
 #ifndef SweepTable_h
 #define SweepTable_h
 
-#include "tools/SweepFiles.h"
+#include "sweep/SettingName.h"
 
 #include <string>
 #include <vector>
@@ -19,14 +19,11 @@ struct SweepTableRow
   std::string  dark;   ///< the same; "": none
 };
 
-/** Returns 10^(decibels / 20), the factor of a gain in dB. */
-double
-GainOfDecibels(double decibels);
-
-/** Reads the table of --sweep: a header with the columns iso, gain or gain_db, frames and, if there are dark frames,
- * dark; then a line for each setting. Columns are separated by commas, semicolons or tabs. Empty lines and lines that
- * begin with # are skipped. Names become relative to the folder of the table. Throws std::runtime_error, which names
- * the line, if the file cannot be read, a column is missing, or a setting is no number or not above 0. */
+/** Reads the table of --sweep: a header with the columns iso, gain, gain_db, exposure or exposure_ms, frames and, if
+ * there are dark frames, dark; then a line for each setting. Columns are separated by commas, semicolons or tabs. Empty
+ * lines and lines that begin with # are skipped. Names become relative to the folder of the table. Throws
+ * std::runtime_error, which names the line, if the file cannot be read, a column is missing, or a setting is no number
+ * or not above 0. */
 std::vector<SweepTableRow>
 ReadSweepTable(const std::string & file);
 

@@ -3,7 +3,6 @@
 // Writes the noise model of a report of estimate-sensor-noise in the format of another program:
 //   export-noise-model report.json --format dng --output noise_profile.txt
 
-#include "base/Text.h"
 #include "sweep/NoiseInterpolation.h"
 #include "tools/ErrorSentence.h"
 #include "tools/ExportOptions.h"
@@ -48,47 +47,6 @@ ReadBytes(const std::string & file)
   return { std::istreambuf_iterator<char>(stream), {} };
 }
 
-/** Returns whether a format takes several settings. */
-bool
-TakesSeveral(const std::string & name)
-{
-  const auto & formats = sensornoise::ExportFormats();
-  return std::any_of(formats.begin(), formats.end(), [&name](const auto & format) {
-    return name == format.name && format.takesSeveral;
-  });
-}
-
-/** Throws ExportError: a format of one setting needs one of the passport's. */
-[[noreturn]] void
-RefuseWithoutSetting(const ExportOptions & options, const sensornoise::MeasuredRange & range)
-{
-  std::string list;
-  for (const double setting : range.settings)
-  {
-    list += (list.empty() ? "" : ", ") + sensornoise::Text(setting);
-  }
-  throw sensornoise::ExportError("the passport " + options.reports.front() + " has the settings " + list + "; " +
-                                 options.format + " takes one. Choose a setting (--setting).");
-}
-
-/** Returns the settings of a passport that are exported, and adds a sentence to the \a note if one is interpolated. */
-std::vector<CameraNoise>
-SettingsOfPassport(const ExportOptions & options, std::string & note)
-{
-  const auto range = RangeOf(ReadPassport(options.reports.front()), options.settings);
-  if (options.setting)
-  {
-    const auto noise = sensornoise::InterpolateNoise(range, *options.setting);
-    note = SentenceOf(noise);
-    return { noise.noise };
-  }
-  if (range.noise.size() != 1 && !TakesSeveral(options.format))
-  {
-    RefuseWithoutSetting(options, range);
-  }
-  return range.noise;
-}
-
 /** Returns the settings that are exported: one of each report, or those of a passport. */
 std::vector<CameraNoise>
 ReadSettings(const ExportOptions & options, std::string & note)
@@ -96,7 +54,8 @@ ReadSettings(const ExportOptions & options, std::string & note)
   const bool isPassport = options.reports.size() == 1 && IsPassport(ReadJsonFile(options.reports.front()));
   if (isPassport)
   {
-    return SettingsOfPassport(options, note);
+    const auto range = RangeOf(ReadPassport(options.reports.front()), options.settings);
+    return sensornoise::ChooseSettings(range, options.format, options.setting, options.reports.front(), note);
   }
   if (options.setting)
   {

@@ -91,7 +91,7 @@ TEST(SweepSummary, FitsAndroidsModelToIsoSpeeds)
   }
   EXPECT_EQ(SummariseSweep(range).android->files[0].bytes, ExportNoise("android", range.noise).files[0].bytes);
   EXPECT_TRUE(Contains(MakeText(SummariseSweep(range)), "Android's noise model: The fitted variance differs"));
-  range.isIso = false;
+  range.kind = SettingKind::Gain;
   EXPECT_FALSE(SummariseSweep(range).android);
   EXPECT_EQ(SummariseSweep(range).androidReason, "");
 }

@@ -136,6 +136,34 @@ TEST_F(EstimateSweepTool, MeasuresEachSettingAsByItself)
   EXPECT_EQ(passport["gain_line"]["parts"][0]["settings"], 3);
 }
 
+// The bursts have one gain: at all exposures, or with another one at the last.
+TEST_F(EstimateSweepTool, TestsTheGainsOfExposures)
+{
+  MakeSetting("cam/10ms", 0.5, 1);
+  MakeSetting("cam/20ms", 0.5, 2);
+  MakeSetting("cam/exposure0.04s", 0.5, 3);
+  ASSERT_EQ(Run("--sweep cam --json p.json --plot p.html"), 0) << m_Message;
+  EXPECT_TRUE(Says("The gain is the same at all 3 exposures: (0.")) << m_Output;
+  const nlohmann::json passport = Passport();
+  EXPECT_EQ(passport["setting"], "exposure");
+  EXPECT_EQ(passport["gain_line"]["parts"].size(), 0U);
+  EXPECT_EQ(passport["settings"][2]["setting"], 0.04);
+  const nlohmann::json & common = passport["common_gain"][0];
+  EXPECT_EQ(common["is_same"], true);
+  EXPECT_NEAR(common["gain"]["value"].get<double>(), 0.5, 3.0 * common["gain"]["standard_error"].get<double>());
+  EXPECT_EQ(Export("p.json --format fits --setting 0.02"), 0) << m_Message;
+  EXPECT_EQ(Export("p.json --format fits --setting 0.03"), 3);
+  EXPECT_TRUE(Says("nothing is interpolated between exposures")) << m_Message;
+
+  WriteText("t.csv",
+            "exposure_ms,frames,dark\n10,cam/10ms,cam/10ms/dark\n20,cam/20ms,cam/20ms/dark\n"
+            "30,iso100,iso100/dark\n");
+  MakeSetting("iso100", 1.0, 4);
+  ASSERT_EQ(Run("--sweep t.csv --json q.json"), 0) << m_Message;
+  EXPECT_TRUE(Says("Warning: the gain is not the same at all exposures: at exposure 0.03 s it is (")) << m_Output;
+  EXPECT_EQ(Passport("q.json")["common_gain"][0]["is_same"], false);
+}
+
 #ifdef SENSORNOISE_OPENSSL
 TEST_F(EstimateSweepTool, MeasuresAgainOnlyWhatChanged)
 {
@@ -203,7 +231,7 @@ TEST_F(EstimateSweepTool, ReadsATableOfGains)
   WriteText("t.csv", "iso,frames\n100\n");
   IsRefusedSweep("--sweep t.csv", { "line 2 of t.csv", "1 columns", "expected 2" });
   WriteText("t.csv", "speed,frames\n100,x\n");
-  IsRefusedSweep("--sweep t.csv", { "line 1 of t.csv", "iso, gain or gain_db" });
+  IsRefusedSweep("--sweep t.csv", { "line 1 of t.csv", "iso, gain, gain_db, exposure or exposure_ms" });
   WriteText("t.csv", "iso,frames\n");
   IsRefusedSweep("--sweep t.csv", { "t.csv", "no line with a setting" });
   IsRefusedSweep("--sweep none.csv", { "none.csv", "cannot be read" });
@@ -244,7 +272,7 @@ TEST_F(EstimateSweepTool, TakesStacksByTheirNames)
   EXPECT_EQ(passport["settings"][1]["setting"], 2.0);
   EXPECT_NEAR(passport["gain_line"]["parts"][0]["scale"]["value"].get<double>(), 0.5, 0.01);
   std::filesystem::rename(Path("gain1.mha"), Path("iso100.mha"));
-  IsRefusedSweep("--sweep iso100.mha cam_gain2.0_5ms.mha", { "a gain", "an ISO speed", "one kind" });
+  IsRefusedSweep("--sweep iso100.mha cam_gain2.0_5ms.mha", { "is gain 2", "is ISO 100", "one kind" });
 }
 
 TEST_F(EstimateSweepTool, RefusesWhatMakesNoSense)

@@ -22,6 +22,9 @@ struct SweepConstants
   /** Smallest relative deviation of a gain from the line, and smallest step of gain / setting, that counts [1]: three
    * times the largest rounding of a nominal ISO speed. */
   double leastGainDeviation{ 0.05 };
+  /** Smallest relative deviation of a gain from the gains at other exposures that counts [1]. The exposure changes no
+   * amplifier; 1 % is the accuracy that is asked of a gain. */
+  double leastCommonGainDeviation{ 0.01 };
   /** Smallest drop of the read noise in electrons, relative to it, that is a switch of the conversion gain [1]. A
    * switch changes the conversion gain by a factor of 1.5 or more; a tenth is far below what it does to the read noise.
    */

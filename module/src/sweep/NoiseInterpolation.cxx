@@ -208,7 +208,7 @@ InterpolateChannel(const NoiseBetween & between, std::size_t channel)
 std::string
 SettingWords(const MeasuredRange & range, double setting)
 {
-  return (range.isIso ? "ISO " : "the gain ") + Text(setting);
+  return (range.kind == SettingKind::Iso ? "" : "the ") + SettingText(range.kind, setting);
 }
 
 /** Throws ExportError unless the setting can be interpolated. */
@@ -245,6 +245,11 @@ InterpolateNoise(const MeasuredRange & range, double setting)
     }
   }
   RequireInside(range, setting);
+  if (range.kind == SettingKind::Exposure)
+  {
+    throw ExportError(SettingWords(range, setting) +
+                      " was not measured; nothing is interpolated between exposures. Choose a measured one.");
+  }
   const NoiseBetween between(range, setting);
   between.RequireSameChannels();
   InterpolatedNoise made{ between.Below(), between.SettingBelow(), between.SettingAbove() };
@@ -259,7 +264,7 @@ InterpolateNoise(const MeasuredRange & range, double setting)
   made.noise.name += " at " + SettingWords(range, setting);
   made.noise.blackLevelDn = level(&CameraNoise::blackLevelDn);
   made.noise.whiteLevelDn = level(&CameraNoise::whiteLevelDn);
-  made.noise.isoSpeed = range.isIso ? std::optional<double>(setting) : std::nullopt;
+  made.noise.isoSpeed = range.kind == SettingKind::Iso ? std::optional<double>(setting) : std::nullopt;
   for (std::size_t channel = 0; channel < made.noise.channels.size(); ++channel)
   {
     made.noise.channels[channel] = InterpolateChannel(between, channel);
@@ -285,6 +290,36 @@ SentenceOf(const InterpolatedNoise & noise)
   }
   return "The noise is interpolated between the measured settings " + Text(noise.below) + " and " + Text(noise.above) +
          (gains.empty() ? "." : ": gain " + gains + " DN/e-.");
+}
+
+std::vector<CameraNoise>
+ChooseSettings(const MeasuredRange &         range,
+               const std::string &           format,
+               const std::optional<double> & setting,
+               const std::string &           passport,
+               std::string &                 note)
+{
+  if (setting)
+  {
+    const InterpolatedNoise chosen = InterpolateNoise(range, *setting);
+    note = SentenceOf(chosen);
+    return { chosen.noise };
+  }
+  const auto & formats = ExportFormats();
+  const bool   takesSeveral = std::any_of(formats.begin(), formats.end(), [&format](const ExportFormat & each) {
+    return format == each.name && each.takesSeveral;
+  });
+  if (range.noise.size() == 1 || takesSeveral)
+  {
+    return range.noise;
+  }
+  std::string list;
+  for (const double each : range.settings)
+  {
+    list += (list.empty() ? "" : ", ") + Text(each);
+  }
+  throw ExportError("the passport " + passport + " has the settings " + list + "; " + format +
+                    " takes one. Choose a setting (--setting).");
 }
 
 } // namespace sensornoise

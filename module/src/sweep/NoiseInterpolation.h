@@ -21,7 +21,7 @@ struct MeasuredRange
   std::vector<CameraNoise>                 noise;         ///< of one camera, with the same channels
   std::vector<double>                      settings;      ///< of each of noise, in ascending order
   std::optional<std::pair<double, double>> switchBetween; ///< settings between which the conversion gain is switched
-  bool                                     isIso{ true }; ///< the settings are ISO speeds
+  SettingKind                              kind{ SettingKind::Iso };
 };
 
 /** The noise at a setting that was not measured. */
@@ -48,6 +48,17 @@ InterpolateNoise(const MeasuredRange & range, double setting);
  */
 SensorNoise_EXPORT std::string
 SentenceOf(const InterpolatedNoise & noise);
+
+/** Returns the settings that a format of ExportNoise() is made of: the noise at a \a setting, measured or interpolated;
+ * without one all measured settings. Adds SentenceOf() to \a note. Throws ExportError as InterpolateNoise(), and if the
+ * format takes one setting, none is given and several were measured. \a passport is the name of the range in this
+ * error. */
+SensorNoise_EXPORT std::vector<CameraNoise>
+ChooseSettings(const MeasuredRange &         range,
+               const std::string &           format,
+               const std::optional<double> & setting,
+               const std::string &           passport,
+               std::string &                 note);
 
 } // namespace sensornoise
 

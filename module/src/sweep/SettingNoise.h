@@ -3,7 +3,11 @@
 #ifndef sensornoise_sweep_SettingNoise_h
 #define sensornoise_sweep_SettingNoise_h
 
+#include "SensorNoiseExport.h"
+
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace sensornoise
@@ -16,10 +20,30 @@ struct NumberWithError
   double standardError{ 0.0 };
 };
 
+/** What the settings of a sweep are. */
+enum class SettingKind : std::uint8_t
+{
+  Iso,     ///< ISO speeds
+  Gain,    ///< gains of the amplifier as factors
+  Exposure ///< exposure times [s] at one gain
+};
+
+/** Returns "iso", "gain" or "exposure". */
+SensorNoise_EXPORT const char *
+NameOf(SettingKind kind);
+
+/** Returns the kind with this name. Throws std::invalid_argument for any other name. */
+SensorNoise_EXPORT SettingKind
+SettingKindOf(const std::string & name);
+
+/** Returns "ISO 800", "gain 2" or "exposure 0.01 s". */
+SensorNoise_EXPORT std::string
+SettingText(SettingKind kind, double setting);
+
 /** Gain and read noise of a camera at one setting of its amplification. */
 struct SettingNoise
 {
-  double                         setting{ 0.0 };     ///< ISO speed, or gain as a factor, above 0 [1]
+  double                         setting{ 0.0 };     ///< ISO speed, gain as a factor [1], or exposure time [s]; above 0
   std::optional<NumberWithError> gain;               ///< g [DN/e-], above 0; none: not identified
   std::optional<NumberWithError> readNoiseElectrons; ///< sigma / g [e-], above 0; none: not identified
 };

@@ -22,6 +22,12 @@ namespace
 constexpr double figureHeight = 320.0; // [unit of the figure]
 constexpr double axisBelow = 46.0;     // height of the ticks and the name of the axis [unit of the figure]
 
+const char *
+NameOfAxis(SettingKind kind)
+{
+  return kind == SettingKind::Iso ? "ISO speed" : kind == SettingKind::Gain ? "gain setting" : "exposure [s]";
+}
+
 using NumberOfRow = std::optional<NumberWithError> SweepRow::*;
 
 /** Points with bars of 95 % intervals, as decimal logarithms. */
@@ -99,7 +105,7 @@ SweepFigure(const SweepSummary & summary, NumberOfRow number, const std::string 
                    { left, 26.0, FigureWidth - left - 12.0, figureHeight - 26.0 - axisBelow },
                    x,
                    y,
-                   summary.isIso ? "ISO speed" : "gain setting",
+                   NameOfAxis(summary.kind),
                    Escaped(name));
     DrawSwitch(panel, summary, y);
     if (hasLines)
@@ -146,7 +152,7 @@ UnmeasuredTable(const SweepSummary & summary)
   for (const UnmeasuredSetting & each : summary.unmeasured)
   {
     rows += "<tr><th scope=\"row\" class=\"label\">" +
-            Escaped(each.setting ? SweepSettingText(summary, *each.setting) : each.name) + "</th><td>" +
+            Escaped(each.setting ? SettingText(summary.kind, *each.setting) : each.name) + "</th><td>" +
             Escaped(each.reason) + "</td></tr>\n";
   }
   return rows.empty() ? ""

@@ -127,6 +127,30 @@ MeanOf(const CameraNoise & noise, const std::set<std::string> & channels, const 
   return NumberWithError{ mean, mean * std::sqrt(squares) / count };
 }
 
+/** Tests and pools the gains of each channel. */
+void
+FindCommonGains(SweepSummary & summary)
+{
+  std::vector<std::string>                         channels; // in their order
+  std::map<std::string, std::vector<SettingNoise>> settings; // of each channel
+  for (const SweepRow & row : summary.rows)
+  {
+    if (settings.count(row.channel) == 0)
+    {
+      channels.push_back(row.channel);
+    }
+    settings[row.channel].push_back({ row.setting, row.gain, row.readNoiseElectrons });
+  }
+  for (const std::string & channel : channels)
+  {
+    if (auto common = FindCommonGain(settings[channel]))
+    {
+      common->channel = channel;
+      summary.commonGains.push_back(*common);
+    }
+  }
+}
+
 void
 FitAndroid(const MeasuredRange & range, SweepSummary & summary)
 {
@@ -162,7 +186,7 @@ SweepSummary
 SummariseSweep(const MeasuredRange & range, const std::vector<UnmeasuredSetting> & unmeasured)
 {
   SweepSummary summary;
-  summary.isIso = range.isIso;
+  summary.kind = range.kind;
   summary.unmeasured = unmeasured;
   for (std::size_t i = 0; i < range.noise.size(); ++i)
   {
@@ -174,9 +198,16 @@ SummariseSweep(const MeasuredRange & range, const std::vector<UnmeasuredSetting>
     }
   }
   summary.settings = MeanOverChannels(range);
+  if (range.kind == SettingKind::Exposure)
+  {
+    summary.line.deviation.resize(summary.settings.size());
+    summary.line.isBeside.resize(summary.settings.size(), false);
+    FindCommonGains(summary);
+    return summary;
+  }
   summary.conversionSwitch = FindGainSwitch(summary.settings);
   summary.line = FitGainLine(summary.settings, summary.conversionSwitch);
-  if (range.isIso && range.noise.size() > 1)
+  if (range.kind == SettingKind::Iso && range.noise.size() > 1)
   {
     FitAndroid(range, summary);
   }

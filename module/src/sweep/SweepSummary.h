@@ -4,6 +4,7 @@
 #define sensornoise_sweep_SweepSummary_h
 
 #include "SensorNoiseExport.h"
+#include "sweep/CommonGain.h"
 #include "sweep/GainLine.h"
 #include "sweep/NoiseInterpolation.h"
 #include "sweep/SettingNoise.h"
@@ -42,12 +43,13 @@ struct UnmeasuredSetting
 struct SweepSummary
 {
   std::string                    camera; ///< maker and model; "": not known
-  bool                           isIso{ true };
+  SettingKind                    kind{ SettingKind::Iso };
   std::vector<SweepRow>          rows; ///< by setting, then by channel
   std::vector<UnmeasuredSetting> unmeasured;
   std::vector<SettingNoise>      settings; ///< means over the channels, see MeanOverChannels()
   std::optional<GainSwitch>      conversionSwitch;
-  GainLine                       line;
+  GainLine                       line;          ///< no part for exposures
+  std::vector<CommonGain>        commonGains;   ///< of each channel; empty unless the settings are exposures
   std::optional<NoiseExport>     android;       ///< ExportAndroid(); none: androidReason says why
   std::string                    androidReason; ///< "" for gains, and for fewer than two ISO speeds
 };
@@ -59,7 +61,7 @@ SensorNoise_EXPORT std::vector<SettingNoise>
 MeanOverChannels(const MeasuredRange & range);
 
 /** Returns the numbers, the line and the switch of the measured settings, and of two ISO speeds or more the fit of
- * Android's noise model. */
+ * Android's noise model. Exposures have no line and no switch: their gains are tested for equality, and pooled. */
 SensorNoise_EXPORT SweepSummary
 SummariseSweep(const MeasuredRange & range, const std::vector<UnmeasuredSetting> & unmeasured = {});
 
@@ -67,8 +69,14 @@ SummariseSweep(const MeasuredRange & range, const std::vector<UnmeasuredSetting>
 SensorNoise_EXPORT std::string
 MakeText(const SweepSummary & summary);
 
-/** Returns sentences about the line of the gains, the settings that leave it, the switch of the conversion gain, and
- * Android's noise model. */
+/** Returns what was found as JSON, the members of a passport beside its reports: `camera`, `gain_line`,
+ * `conversion_gain_switch`, `common_gain`, `android` and `findings`; and `channels`, a list for each measured setting
+ * with the numbers of its channels. The `model` of `android` is a text, the JSON of its file. */
+SensorNoise_EXPORT std::string
+ToJson(const SweepSummary & summary);
+
+/** Returns sentences about the line of the gains, the settings that leave it, the switch of the conversion gain, the
+ * common gain of exposures, and Android's noise model. */
 SensorNoise_EXPORT std::vector<std::string>
 FindingsOf(const SweepSummary & summary);
 

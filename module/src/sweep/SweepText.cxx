@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sweep/SweepText.h"
 
+#include "base/LowerCase.h"
 #include "base/Text.h"
 #include "report/ReportTable.h"
 #include "sweep/Constants.h"
@@ -18,6 +19,13 @@ namespace sensornoise
 {
 namespace
 {
+/** Returns the name of the settings as a column of the table. */
+const char *
+NameOfColumn(SettingKind kind)
+{
+  return kind == SettingKind::Iso ? "ISO" : kind == SettingKind::Gain ? "gain" : "exposure [s]";
+}
+
 std::string
 CellOf(const std::optional<NumberWithError> & number)
 {
@@ -53,8 +61,8 @@ std::string
 PartSentence(const SweepSummary & summary, const GainLine::Part & part)
 {
   return "The gain is (" + Measured(part.scale.value, part.scale.standardError) + ") DN/e- x " +
-         (summary.isIso ? "ISO" : "gain setting") + " from " + Text(part.lowest) + " to " + Text(part.highest) + " (" +
-         std::to_string(part.settings) + " settings).";
+         (summary.kind == SettingKind::Iso ? "ISO" : "gain setting") + " from " + Text(part.lowest) + " to " +
+         Text(part.highest) + " (" + std::to_string(part.settings) + " settings).";
 }
 
 std::string
@@ -72,8 +80,8 @@ SwitchSentence(const SweepSummary & summary)
     signs += (signs.empty() ? "" : ", and ") + std::string("gain over setting changes by the factor ") +
              Measured(found.gainStep->value, found.gainStep->standardError);
   }
-  return "The conversion gain is switched between " + SweepSettingText(summary, found.below) + " and " +
-         SweepSettingText(summary, found.above) + ": " + signs + ". The step is above " +
+  return "The conversion gain is switched between " + SettingText(summary.kind, found.below) + " and " +
+         SettingText(summary.kind, found.above) + ": " + signs + ". The step is above " +
          Rounded(Significance.severalTests) + " standard errors.";
 }
 
@@ -90,18 +98,33 @@ LineSentences(const SweepSummary & summary)
                      "the " +
                        std::to_string(gains) + " settings on it. Check the settings of the bursts.";
 }
-} // namespace
-
+/** Returns whether the gains of a channel at all exposures are equal, and their mean. */
 std::string
-SweepSettingText(const SweepSummary & summary, double setting)
+CommonGainSentence(const CommonGain & common)
 {
-  return (summary.isIso ? "ISO " : "gain ") + Text(setting);
+  const std::string channel = common.channel == "mono" ? "The gain" : "The gain of channel " + common.channel;
+  const std::string mean = "(" + Measured(common.gain.value, common.gain.standardError) + ") DN/e-";
+  const std::string setting = SettingText(SettingKind::Exposure, common.setting);
+  const std::string deviation =
+    "(" + Measured(100.0 * std::abs(common.deviation.value), 100.0 * common.deviation.standardError) + ") %" +
+    (common.deviation.value > 0.0 ? " above" : " below");
+  const std::string count = std::to_string(common.settings);
+  if (common.isSame)
+  {
+    return channel + " is the same at all " + count + " exposures: " + mean + ", their weighted mean. At " + setting +
+           " it is " + deviation + " the others.";
+  }
+  return "Warning: " + LowerCase(channel.substr(0, 1)) + channel.substr(1) + " is not the same at all exposures: at " +
+         setting + " it is " + deviation + " the others. The weighted mean of all " + count + " is " + mean +
+         ", with an error that holds their scatter. Record all bursts at one gain, without saturation, or leave this "
+         "exposure out.";
 }
+} // namespace
 
 SweepCells
 SweepCellsOf(const SweepSummary & summary)
 {
-  SweepCells cells{ { summary.isIso ? "ISO" : "gain",
+  SweepCells cells{ { NameOfColumn(summary.kind),
                       "channel",
                       "gain g [DN/e-]",
                       "offset mu [DN]",
@@ -135,7 +158,15 @@ FindingsOf(const SweepSummary & summary)
   {
     findings.push_back(PartSentence(summary, part));
   }
-  if (summary.line.parts.empty())
+  for (const CommonGain & common : summary.commonGains)
+  {
+    findings.push_back(CommonGainSentence(common));
+  }
+  if (summary.kind == SettingKind::Exposure && summary.commonGains.empty())
+  {
+    findings.push_back("Whether the gain is the same at all exposures needs two settings with a gain.");
+  }
+  if (summary.kind != SettingKind::Exposure && summary.line.parts.empty())
   {
     findings.push_back(LineSentences(summary));
   }
@@ -144,7 +175,7 @@ FindingsOf(const SweepSummary & summary)
     if (summary.line.isBeside[i])
     {
       const double deviation = *summary.line.deviation[i];
-      findings.push_back(SweepSettingText(summary, summary.settings[i].setting) + " leaves the line: its gain is " +
+      findings.push_back(SettingText(summary.kind, summary.settings[i].setting) + " leaves the line: its gain is " +
                          Percent(std::abs(deviation)) + (deviation > 0.0 ? " above" : " below") +
                          " it. Extended settings do so, whose digital numbers are scaled in another way.");
     }
@@ -193,7 +224,7 @@ MakeText(const SweepSummary & summary)
   for (const UnmeasuredSetting & each : summary.unmeasured)
   {
     text += "not measured: " +
-            (each.setting ? SweepSettingText(summary, *each.setting) + " (" + each.name + ")" : each.name) + ": " +
+            (each.setting ? SettingText(summary.kind, *each.setting) + " (" + each.name + ")" : each.name) + ": " +
             each.reason + '\n';
   }
   for (const std::string & finding : FindingsOf(summary))

@@ -23,10 +23,6 @@ using SweepCells = std::vector<SweepCellRow>;
 SweepCells
 SweepCellsOf(const SweepSummary & summary);
 
-/** Returns "ISO 800" or "gain 2". */
-std::string
-SweepSettingText(const SweepSummary & summary, double setting);
-
 /** Returns the camera and how many settings were measured. */
 std::string
 SweepTitle(const SweepSummary & summary);

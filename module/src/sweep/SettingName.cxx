@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/SettingName.h"
+
+#include "base/LowerCase.h"
+
+#include <cmath>
+#include <locale>
+#include <regex>
+#include <sstream>
+
+namespace sensornoise
+{
+namespace
+{
+/** Returns the number that digits with a point are. */
+double
+NumberOfDigits(const std::string & digits)
+{
+  std::istringstream stream(digits);
+  stream.imbue(std::locale::classic());
+  double number = 0.0;
+  stream >> number;
+  return number;
+}
+
+/** Returns the seconds of a unit of time: "us", "ms" or "s". */
+double
+SecondsOf(const std::string & unit)
+{
+  return unit == "us" ? 1e-6 : unit == "ms" ? 1e-3 : 1.0;
+}
+} // namespace
+
+double
+GainOfDecibels(double decibels)
+{
+  return std::pow(10.0, decibels / 20.0);
+}
+
+std::optional<NamedSetting>
+SettingInName(const std::string & name)
+{
+  static const std::regex iso("(?:^|.*[^a-z])iso[ _-]*([0-9]+(?:\\.[0-9]+)?)(?:[^0-9.].*)?");
+  static const std::regex gain("(?:^|.*[^a-z])gain[ _]*([+-]?[0-9]+(?:\\.[0-9]+)?)[ _]*(db)?(?:[^0-9.].*)?");
+  static const std::regex exposure(
+    "(?:^|(?:.*[^a-z])?exp(?:osure)?[ _-]*)([0-9]+(?:\\.[0-9]+)?)[ _]*(us|ms|s)(?:[^a-z0-9.].*)?");
+  static const std::regex number("[0-9]+(?:\\.[0-9]+)?");
+  const std::string       text = LowerCase(name);
+  std::smatch             found;
+  NamedSetting            setting;
+  if (std::regex_match(text, found, iso))
+  {
+    setting.value = NumberOfDigits(found[1].str());
+  }
+  else if (std::regex_match(text, found, gain))
+  {
+    setting.kind = SettingKind::Gain;
+    const double value = NumberOfDigits(found[1].str());
+    setting.value = found[2].matched ? GainOfDecibels(value) : value;
+  }
+  else if (std::regex_match(text, found, exposure))
+  {
+    setting.kind = SettingKind::Exposure;
+    setting.value = NumberOfDigits(found[1].str()) * SecondsOf(found[2].str());
+  }
+  else if (std::regex_match(text, number))
+  {
+    setting.value = NumberOfDigits(text);
+  }
+  return std::isfinite(setting.value) && setting.value > 0.0 ? std::optional<NamedSetting>(setting) : std::nullopt;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_sweep_SettingName_h
+#define sensornoise_sweep_SettingName_h
+
+#include "SensorNoiseExport.h"
+#include "sweep/SettingNoise.h"
+
+#include <optional>
+#include <string>
+
+namespace sensornoise
+{
+
+/** A setting that a name or a table gives. */
+struct NamedSetting
+{
+  SettingKind kind{ SettingKind::Iso };
+  double      value{ 0.0 }; ///< ISO speed, gain as a factor, or exposure time [s]
+};
+
+/** Returns 10^(decibels / 20), the factor of a gain in dB. */
+SensorNoise_EXPORT double
+GainOfDecibels(double decibels);
+
+/** Returns the setting in the name of a folder or a stack: "iso800", "ISO 800", "800" (an ISO speed), "gain2.5",
+ * "gain6dB", which is a factor of 2, "exposure10ms", "exp0.5s", or "10ms". Letters may stand before and behind
+ * "iso800", "gain2.5" and "exposure10ms". Empty if there is none, or it is not above 0. */
+SensorNoise_EXPORT std::optional<NamedSetting>
+SettingInName(const std::string & name);
+
+} // namespace sensornoise
+
+#endif
