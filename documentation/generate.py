@@ -46,7 +46,7 @@ GROUPS = {
         "VibrationCovarianceEstimator",
     ],
     "Before and after a denoiser": ["GeneralizedAnscombeImageFilter", "InverseGeneralizedAnscombeImageFilter"],
-    "Exports": ["NoiseModelExporter"],
+    "Exports": ["NoiseModelExporter", "NoiseProfileChecker", "SensorNoiseSweep"],
     "Files and planes": [
         "SensorNoiseFrameListSource",
         "SensorNoiseImageIO",
