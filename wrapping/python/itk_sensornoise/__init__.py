@@ -37,6 +37,8 @@ from ._estimators import (
     vibration_covariance_estimator,
 )
 from ._export import NoiseExport, export_formats, export_noise_model
+from ._passport import Passport
+from ._profile import check_noise_profile
 from ._protocol import NoiseReport
 from ._quantity import Quantity
 from ._rawpy import raw_metadata
@@ -46,6 +48,7 @@ from ._single_image import single_image_noise_estimator
 from ._source import sensor_noise_frame_list_source
 from ._stabilise import generalized_anscombe_image_filter, inverse_generalized_anscombe_image_filter
 from ._sums import SensorNoiseSums
+from ._sweep import estimate_sweep
 
 __all__ = [
     "ChannelReports",
@@ -55,14 +58,17 @@ __all__ = [
     "NoiseExport",
     "NoiseModelCheck",
     "NoiseReport",
+    "Passport",
     "Quantity",
     "Report",
     "SensorNoiseSums",
     "__version__",
     "check_noise_model",
+    "check_noise_profile",
     "compare",
     "denoise_with_noise_model",
     "estimate_sensor_noise",
+    "estimate_sweep",
     "evaluate_emva1288",
     "export_formats",
     "export_noise_model",

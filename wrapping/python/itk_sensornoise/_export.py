@@ -5,7 +5,7 @@
 import functools
 import json
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,15 +17,7 @@ from ._errors import itk_errors
 from ._names import is_name
 from ._pictures import write_file
 from ._types import FileName, ItkObject
-
-# What the sentences of the library call the parameters, and their names here.
-_PARAMETERS = {
-    "--black": "black=",
-    "--white": "white=",
-    "--channel": "reports.channel(name).export()",
-    "--dark": "dark=",
-    "--offset": "offset=",
-}
+from ._values import in_python, set_values
 
 
 @dataclass(frozen=True)
@@ -179,28 +171,17 @@ def export_noise_model(
         with itk_errors():
             exporter.Export(format)
     except ValueError as error:
-        raise type(error)(_in_python(str(error))) from None
-    made = _result(exporter, format)
+        raise type(error)(in_python(str(error))) from None
+    made = export_of(exporter, format)
     if output is not None:
         made.write(output)
     return made
 
 
-def _in_python(sentence: str) -> str:
-    """Replaces the options of the program in a sentence by the parameters of Python."""
-    for option, parameter in _PARAMETERS.items():
-        sentence = sentence.replace(option, parameter)
-    return sentence
-
-
 def _add(exporter: ItkObject, report: Mapping[str, Any], name: str) -> None:
     if not isinstance(report, Mapping):
         raise _options.refuse_type("reports", report, "a report, or a sequence of reports")
-    for pointer, value in _flat(report, ""):
-        if isinstance(value, str):
-            exporter.SetText(pointer, value)
-        else:
-            exporter.SetNumber(pointer, value)
+    set_values(exporter, report)
     exporter.AddReport(name)
 
 
@@ -213,21 +194,8 @@ def _set_maps(exporter: ItkObject, maps: Mapping[str, np.ndarray]) -> None:
         exporter.SetMaps(*(itk.image_from_array(np.ascontiguousarray(maps[name], float)) for name in names))
 
 
-def _flat(value: Any, pointer: str) -> Iterator[tuple[str, str | float]]:
-    """Yields the numbers and texts of a record, each with its JSON Pointer."""
-    if isinstance(value, Mapping):
-        for name, member in value.items():
-            yield from _flat(member, f"{pointer}/{name}")
-    elif isinstance(value, list):
-        for number, item in enumerate(value):
-            yield from _flat(item, f"{pointer}/{number}")
-    elif isinstance(value, str):
-        yield pointer, value
-    elif isinstance(value, (int, float)) and not isinstance(value, bool):
-        yield pointer, float(value)
-
-
-def _result(exporter: ItkObject, format: str) -> NoiseExport:
+def export_of(exporter: ItkObject, format: str) -> NoiseExport:
+    """The files that an object of ITK has exported."""
     # SWIG makes a str of std::string; bytes that are no UTF-8 are surrogates.
     files = {
         exporter.GetFileName(index): exporter.GetFileBytes(index).encode("utf-8", "surrogateescape")

@@ -8,8 +8,10 @@ from types import FunctionType
 
 _NEW = (
     "check_noise_model",
+    "check_noise_profile",
     "denoise_with_noise_model",
     "estimate_sensor_noise",
+    "estimate_sweep",
     "evaluate_emva1288",
     "simulate_sensor_noise",
 )

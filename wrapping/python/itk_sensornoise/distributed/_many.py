@@ -90,8 +90,8 @@ def estimate_many(
     KeyboardInterrupt
         Ctrl-C. After this and all other errors, what was measured is in `output`; the same call goes on.
     """
-    _require_settings(settings)
-    _require_client(client)
+    require_settings(settings, _NOT_OF_MANY)
+    require_client(client)
     lines, table = _files_of(output)
     defaults = {name: each.default for name, each in inspect.signature(estimate_sensor_noise).parameters.items()}
     record = {} if lines is None else settings_record(settings, defaults)
@@ -104,7 +104,7 @@ def estimate_many(
             opened.callback(lambda: write_parquet(journal.all_rows(), table))
         rows: dict[str, list[Row]] = {}
         todo = _not_measured(listed, journal, record, rows)
-        for name, outcome in _here(todo, settings) if client is None else _by_workers(client, todo, settings):
+        for name, outcome in outcomes_of(client, todo, settings):
             report = None if outcome.report is None else json.loads(outcome.report)
             entry = Entry(name=name, settings=record, reason=outcome.reason, report=report)
             if journal is not None:
@@ -122,6 +122,13 @@ def _not_measured(
         rows[name] = found or []
         if found is None:
             yield name, frames
+
+
+def outcomes_of(
+    client: "distributed.Client | None", todo: Iterator[tuple[str, Source]], settings: dict[str, Any]
+) -> Iterator[tuple[str, Outcome]]:
+    """Measures sources, by the workers of a client or one after the other, and yields each result as it comes."""
+    return _here(todo, settings) if client is None else _by_workers(client, todo, settings)
 
 
 def _here(todo: Iterator[tuple[str, Source]], settings: dict[str, Any]) -> Iterator[tuple[str, Outcome]]:
@@ -210,14 +217,16 @@ def _outcome(future: "distributed.Future", watch: Watch) -> Outcome:
     return outcome
 
 
-def _require_settings(settings: dict[str, Any]) -> None:
-    known = [name for name in inspect.signature(estimate_sensor_noise).parameters if name not in _NOT_OF_MANY]
+def require_settings(settings: dict[str, Any], not_of_many: tuple[str, ...]) -> None:
+    """Raises TypeError for a keyword that is no setting of estimate_sensor_noise(), or one of `not_of_many`."""
+    known = [name for name in inspect.signature(estimate_sensor_noise).parameters if name not in not_of_many]
     for name in settings:
         if name not in known:
             raise InvalidTypeError(f"{name} is no setting of many sources; expected some of {', '.join(known)}")
 
 
-def _require_client(client: Any) -> None:
+def require_client(client: Any) -> None:
+    """Raises TypeError or ValueError unless it is None or a client that waits."""
     if client is None:
         return
     if not (hasattr(client, "submit") and hasattr(client, "nthreads")):

@@ -4,14 +4,24 @@
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from typing import TypeAlias
 
 from .._errors import InvalidTypeError
 from .._names import is_name
 from .._types import Frames
 
+
+@dataclass(frozen=True)
+class Burst:
+    """Frames with dark frames of their own, or None."""
+
+    frames: Frames | Callable[[], Frames]
+    dark: Frames | None
+
+
 # What estimate_sensor_noise() takes, or a function without arguments that returns it, called where it is measured.
-Source: TypeAlias = Frames | Callable[[], Frames]
+Source: TypeAlias = Frames | Callable[[], Frames] | Burst
 Sources: TypeAlias = Mapping[str, Source] | Iterable[tuple[str, Source] | Source]
 
 _EXPECTED = "a mapping of names to frames, or an iterable of file names, lists of these, or pairs (name, frames)"

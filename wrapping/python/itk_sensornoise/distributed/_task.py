@@ -13,6 +13,7 @@ from .._errors import InvalidTypeError, InvalidValueError, OutOfMemoryError
 from .._estimate import estimate_sensor_noise
 from .._types import Frames
 from ._memory import memory_of_task
+from ._sources import Burst
 
 
 class Outcome(NamedTuple):
@@ -26,6 +27,9 @@ def measure(source: Any, settings: dict[str, Any], memory_of: Callable[[Any], in
     """Measures frames, or what a function without arguments returns. `memory_of`: the memory_limit for them, unless the
     settings have one."""
     try:
+        if isinstance(source, Burst):
+            settings = {**settings, "dark": source.dark}
+            source = source.frames
         frames = source() if callable(source) else source
         if memory_of is not None and settings.get("memory_limit") is None:
             settings = {**settings, "memory_limit": memory_of(frames)}

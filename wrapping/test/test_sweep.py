@@ -1,0 +1,191 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Tests a camera over its settings: the passport, its exports, and how it goes on."""
+
+import json
+import pickle
+from pathlib import Path
+
+import itk
+import itk_sensornoise as sn
+import numpy as np
+import pytest
+
+ISO_SPEEDS = (100.0, 200.0, 400.0)
+SCHEMA = Path(__file__).resolve().parents[2] / "documentation" / "passport.schema.json"
+
+
+def simulated(gain, seed, dark=False):
+    """Returns frames of a camera with a read noise of 3 electrons."""
+    light = {"dark": True} if dark else {"electrons": 3000 / gain, "flicker_sd": 0.05}
+    camera = {"size": (64, 64), "frames": 24, "offset": 100, "gain": gain, "read_noise": 3 * gain}
+    return sn.simulate_sensor_noise(**camera, **light, seed=seed)[0]
+
+
+@pytest.fixture(scope="module")
+def bursts():
+    return {iso: simulated(0.005 * iso, number) for number, iso in enumerate(ISO_SPEEDS)}
+
+
+@pytest.fixture(scope="module")
+def dark():
+    return {iso: simulated(0.005 * iso, 90 + number, True) for number, iso in enumerate(ISO_SPEEDS)}
+
+
+@pytest.fixture(scope="module")
+def passport(bursts, dark):
+    return sn.estimate_sweep(bursts, dark=dark, bayer="none")
+
+
+@pytest.fixture
+def camera(bursts, dark, tmp_path):
+    """Writes the bursts into a folder for each setting."""
+    for iso, frames in bursts.items():
+        folder = tmp_path / "camera" / f"iso{iso:g}"
+        (folder / "dark").mkdir(parents=True)
+        itk.imwrite(itk.image_from_array(frames), str(folder / "light.mha"))
+        itk.imwrite(itk.image_from_array(dark[iso]), str(folder / "dark" / "dark.mha"))
+    return tmp_path / "camera"
+
+
+def test_each_setting_is_measured_as_by_itself(passport, bursts, dark):
+    assert [entry["setting"] for entry in passport["settings"]] == list(ISO_SPEEDS)
+    for iso in ISO_SPEEDS:
+        report = sn.estimate_sensor_noise(bursts[iso], dark=dark[iso], bayer="none")
+        assert passport.report(iso) == report
+        gain = report["gain"]
+        assert abs(gain["value"] - 0.005 * iso) < max(0.01 * 0.005 * iso, 3 * gain["standard_error"])
+    (part,) = passport["gain_line"]["parts"]
+    assert part["settings"] == 3 and passport["conversion_gain_switch"] is None
+    assert "3 of 3 settings measured" in str(passport) and "The gain is (0.0050" in str(passport)
+    assert "<figure>" in passport.to_html() and repr(passport) == "<Passport: a camera, 3 of 3 settings measured>"
+    assert pickle.loads(pickle.dumps(passport)) == passport == sn.Passport.from_json(passport.to_json())
+    with pytest.raises(KeyError, match="800 was not measured; expected one of 100, 200, 400"):
+        passport.report(800)
+
+
+def test_it_agrees_with_its_schema(passport):
+    jsonschema = pytest.importorskip("jsonschema")
+    validator = jsonschema.Draft202012Validator(json.loads(SCHEMA.read_text(encoding="utf-8")))
+    bad = sn.estimate_sweep({100: "no such file", 200: simulated(1.0, 1)}, bayer="none")
+    for record in (passport, bad):
+        assert [f"{found.json_path}: {found.message[:200]}" for found in validator.iter_errors(dict(record))] == []
+
+
+def test_every_export_is_made_of_it(passport, tmp_path):
+    report = passport.report(200)
+    for format in ("ndsafir", "pyme", "fits", "lsst"):
+        expected = report.export(format, white=4095).files
+        assert passport.export(format, setting=200, white=4095).files == expected
+    between = passport.export("fits", tmp_path / "header.txt", setting=300)
+    assert "interpolated between the measured settings 200 and 400" in between.note
+    assert (tmp_path / "header.txt").read_text() == between.text
+    android = json.loads(passport.export("android", black=100, white=4095).text)
+    assert android["noise_model_A"] == pytest.approx([0.005 / 3995], rel=0.05)
+    with pytest.raises(ValueError, match=r"fits takes one\. Choose a setting \(setting=\)"):
+        passport.export("fits")
+    with pytest.raises(ValueError, match="ISO 800 is outside of the measured settings"):
+        passport.export("fits", setting=800)
+
+
+def test_a_folder_gives_the_record_of_the_tool(camera, tool, tmp_path):
+    found = sn.estimate_sweep(camera, bayer="none", output=tmp_path / "passport.json")
+    assert sn.Passport.from_json(tmp_path / "passport.json") == found
+    tool(
+        "estimate-sensor-noise",
+        "--sweep",
+        str(camera),
+        "--bayer",
+        "none",
+        "--json",
+        str(tmp_path / "t.json"),
+        "--quiet",
+    )
+    expected = sn.Passport.from_json(tmp_path / "t.json")
+    for name in ("setting", "camera", "gain_line", "conversion_gain_switch", "common_gain", "android", "findings"):
+        assert found[name] == expected[name], name
+    for entry, other in zip(found["settings"], expected["settings"], strict=True):
+        assert entry["channels"] == other["channels"]
+        assert (entry["name"], entry["setting"], entry["status"]) == (other["name"], other["setting"], other["status"])
+
+
+def test_it_goes_on_where_it_was_interrupted(bursts, tmp_path):
+    output = tmp_path / "passport.json"
+    asked = []
+
+    def frames(iso):
+        def read():
+            asked.append(iso)
+            return bursts[iso]
+
+        return read
+
+    first = {iso: frames(iso) for iso in ISO_SPEEDS[:2]}
+    sn.estimate_sweep(first, output=output, bayer="none")
+    whole = sn.estimate_sweep({**first, 400.0: frames(400.0)}, output=output, bayer="none")
+    assert asked == [100.0, 200.0, 400.0]
+    assert whole == sn.estimate_sweep(bursts, bayer="none") | {"settings": whole["settings"]}
+    sn.estimate_sweep(first, output=output, bayer="none", bit_depth=16)
+    assert asked == [100.0, 200.0, 400.0, 100.0, 200.0]  # other options
+
+
+def test_a_bad_burst_is_an_entry_with_its_reason(bursts):
+    found = sn.estimate_sweep({**bursts, 800: np.zeros((24, 64, 64), np.uint16), 1600: "no such file"}, bayer="none")
+    assert [entry["status"] for entry in found["settings"]] == ["measured"] * 3 + ["failed"] * 2
+    assert found["settings"][3]["reason"] and "no such file" in found["settings"][4]["reason"]
+    assert "3 of 5 settings measured" in str(found)
+
+
+def test_the_gains_of_exposures_are_tested_and_pooled(bursts, dark):
+    same = {0.01: bursts[100.0], 0.02: simulated(0.5, 7), 0.04: simulated(0.5, 8)}
+    found = sn.estimate_sweep(same, kind="exposure", bayer="none")
+    (common,) = found["common_gain"]
+    assert common["is_same"] and abs(common["gain"]["value"] - 0.5) < 4 * common["gain"]["standard_error"]
+    assert (
+        found["findings"][0].startswith("The gain is the same at all 3 exposures") and not found["gain_line"]["parts"]
+    )
+    other = sn.estimate_sweep({**same, 0.08: bursts[200.0]}, kind="exposure", bayer="none")
+    assert not other["common_gain"][0]["is_same"]
+    assert other["findings"][0].startswith("Warning: the gain is not the same at all exposures: at exposure 0.08 s")
+
+
+def test_names_hold_the_settings(bursts, tmp_path):
+    for name in ("10ms", "exposure0.02s", "dark", ".hidden"):
+        (tmp_path / name).mkdir()
+    np.save(tmp_path / "10ms" / "a.npy", bursts[100.0])
+    np.save(tmp_path / "exposure0.02s" / "a.npy", simulated(0.5, 9))
+    found = sn.estimate_sweep(tmp_path, bayer="none")
+    assert (found["setting"], [entry["setting"] for entry in found["settings"]]) == ("exposure", [0.01, 0.02])
+    (tmp_path / "iso100").mkdir()
+    with pytest.raises(ValueError, match=r"10ms \(exposure\), iso100 \(iso\); expected settings of one kind"):
+        sn.estimate_sweep(tmp_path)
+
+
+def test_a_client_measures_the_same(passport, bursts, dark):
+    distributed = pytest.importorskip("distributed")
+    with distributed.Client(processes=False, n_workers=1, threads_per_worker=2, dashboard_address=None) as client:
+        assert sn.estimate_sweep(bursts, client, dark=dark, bayer="none") == passport
+
+
+@pytest.mark.parametrize(
+    ("sources", "options", "said"),
+    [
+        (3, {}, "sources is of type int; expected a mapping"),
+        ("no such folder", {}, "is no folder; expected a mapping"),
+        ({0: "a.mha"}, {}, "a setting is 0; expected a number above 0"),
+        ({"iso": "a.mha"}, {}, "a setting is 'iso'"),
+        ({1: "a.mha"}, {"dark": {2: "b.mha"}}, "dark has the setting 2"),
+        ({1: "a.mha"}, {"kind": "shutter"}, "kind is 'shutter'; expected 'iso' or 'gain' or 'exposure'"),
+        ({1: "a.mha"}, {"maps": True}, "maps is no setting"),
+        ({1: "a.mha"}, {"method": "published"}, "method is no setting"),
+        ({1: "a.mha"}, {"client": 3}, "client is of type int"),
+        ({1: "a.mha"}, {"output": 3}, "output is 3"),
+    ],
+)
+def test_wrong_use_is_told(sources, options, said, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises((TypeError, ValueError), match=said):
+        sn.estimate_sweep(sources, **options)
+    (tmp_path / "other.json").write_text("{}")
+    with pytest.raises(ValueError, match=r"other\.json is no passport"):
+        sn.estimate_sweep({1: "a.mha"}, output="other.json")
