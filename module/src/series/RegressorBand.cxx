@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "series/RegressorBand.h"
 
-#include "base/Eigen.h"
 #include "base/Simd.h"
 #include "base/Stencils.h"
 #include "series/Constants.h"
@@ -21,90 +20,6 @@ namespace sensornoise
 
 namespace
 {
-/** Factors of the products that are summed over a group. */
-struct GroupFactors
-{
-  const FrameRegressors::WeightedColumns * columns; ///< columns of the pixels, group by group
-  const std::uint32_t *                    order;   ///< places of the pixels in a series
-  const double *                           series;  ///< RegressorBand::Together series
-  std::size_t                              pixels;  ///< distance from one series to the next
-};
-
-/** Computes the sums over the pixels of \a group for a few columns at a time, so that the sums stay in registers. */
-void
-MultiplyGroupAnywhere(const RegressorBand::Group & group, const GroupFactors & of, RegressorBand::Sums & sums)
-{
-  constexpr std::size_t part = 4;
-  using Columns = Eigen::Matrix<double, part, 1>;
-  for (std::size_t first = 0; first < sums[0].size(); first += part)
-  {
-    Eigen::Matrix<double, part, RegressorBand::Together> sum;
-    sum.setZero();
-    for (std::size_t i = group.begin; i < group.end; ++i)
-    {
-      const double * const                                    v = of.series + of.order[i];
-      const Eigen::Matrix<double, 1, RegressorBand::Together> values(
-        v[0], v[of.pixels], v[2 * of.pixels], v[3 * of.pixels]);
-      sum.noalias() += Eigen::Map<const Columns>(of.columns[i].data() + first) * values;
-    }
-    for (std::size_t k = 0; k < RegressorBand::Together; ++k)
-    {
-      Eigen::Map<Columns>(sums[k].data() + first) = sum.col(static_cast<Eigen::Index>(k));
-    }
-  }
-}
-
-#if defined(SENSORNOISE_AVX2)
-/** Does the same with AVX2 vectors of four: the products and sums are the same, in the same order, and so are the bits.
- * The target has no fused multiplication and addition, which would round differently. */
-__attribute__((target("avx2"))) void
-MultiplyGroupAvx2(const RegressorBand::Group & group, const GroupFactors & of, RegressorBand::Sums & sums)
-{
-  using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
-  constexpr std::size_t part = 2; // vectors of columns: with four series their sums take half of the registers
-  for (std::size_t first = 0; first < sums[0].size(); first += 4 * part)
-  {
-    Four sum[RegressorBand::Together][part] = {};
-    for (std::size_t i = group.begin; i < group.end; ++i)
-    {
-      const auto * const   columns = reinterpret_cast<const Four *>(of.columns[i].data() + first);
-      const double * const values = of.series + of.order[i];
-      for (std::size_t k = 0; k < RegressorBand::Together; ++k)
-      {
-        for (std::size_t j = 0; j < part; ++j)
-        {
-          sum[k][j] += columns[j] * values[k * of.pixels];
-        }
-      }
-    }
-    for (std::size_t k = 0; k < RegressorBand::Together; ++k)
-    {
-      std::copy_n(sum[k], part, reinterpret_cast<Four *>(sums[k].data() + first));
-    }
-  }
-}
-#endif
-
-/** Returns the fastest function for this processor. */
-auto
-FindMultiplyGroup()
-{
-#if defined(SENSORNOISE_AVX2)
-  return HasAvx2() ? MultiplyGroupAvx2 : MultiplyGroupAnywhere;
-#else
-  return MultiplyGroupAnywhere;
-#endif
-}
-
-/** Computes the sums over the pixels of \a group of their columns times the values of the series, with the SIMD
- * instructions of the processor. The bits are the same on all processors. */
-void
-MultiplyGroup(const RegressorBand::Group & group, const GroupFactors & of, RegressorBand::Sums & sums)
-{
-  static const auto multiply = FindMultiplyGroup();
-  multiply(group, of, sums);
-}
-
 /** Computes the derivatives of MotionStencils() at \a count pixels from \a mean on. Each fills a row of \a rows; the
  * rows are \a stride numbers apart. The derivatives are computed one after the other, so that each loop is vectorized.
  */
@@ -273,7 +188,8 @@ RegressorBand::FillColumns()
 void
 RegressorBand::MultiplyGroupBy(std::size_t group, const double * series)
 {
-  MultiplyGroup(m_Groups[group], { m_Columns.data(), m_Order.data(), series, m_Pixels }, m_Sums[group]);
+  const Group & pixels = m_Groups[group];
+  MultiplyGroup({ m_Columns.data(), m_Order.data(), series, m_Pixels, pixels.begin, pixels.end }, m_Sums[group]);
 }
 
 } // namespace sensornoise

@@ -6,8 +6,8 @@
 #include "SensorNoiseExport.h"
 #include "base/Simd.h"
 #include "series/FrameRegressors.h"
+#include "series/GroupProducts.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -28,7 +28,7 @@ public:
   static constexpr std::size_t Together = FramesTogether; // number of series whose sums stay in registers
 
   /** Sums of one group: sums[series][column]. */
-  using Sums = std::array<FrameRegressors::WeightedColumns, Together>;
+  using Sums = GroupSums;
 
   /** The pixels of one class in one cell of the band. */
   struct Group
