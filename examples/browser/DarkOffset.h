@@ -73,6 +73,7 @@ MeasureDark(const Burst &                       dark,
       dark, 0, progress, [&](const TPixel * frames, std::size_t count) { parts.front().AddFrames(frames, count); });
   }
   std::vector<KnownOffset> offsets;
+  offsets.reserve(parts.size());
   for (DarkPart<TPixel> & part : parts)
   {
     offsets.push_back(MeasureDarkFrames<TPixel>(std::move(part.moments), codes, {}, SerialFor, part.drift));

@@ -15,7 +15,6 @@
 #include "tools/ErrorSentence.h"
 
 #include <algorithm>
-#include <emscripten.h>
 #include <exception>
 #include <fstream>
 #include <memory>
@@ -26,8 +25,15 @@
 #include <variant>
 #include <vector>
 
-// Reports the progress to the page: the number of the pass, from 0, and the fraction of it that is done.
+// Reports the progress to the page: the number of the pass, from 0, and the fraction of it that is done. Other
+// compilers than Emscripten only check this file.
+#if defined(__EMSCRIPTEN__)
+#  include <emscripten.h>
 EM_JS(void, TellProgress, (unsigned int pass, double fraction), { Module["onProgress"](pass, fraction); });
+#else
+extern "C" void
+TellProgress(unsigned int pass, double fraction);
+#endif
 
 namespace
 {
@@ -272,7 +278,7 @@ AnswerTo(const json & request)
 
 /** Returns the answer to a request of the page as a JSON record; {"error": sentence} if there is none. The text is
  * valid until the next call. */
-extern "C" EMSCRIPTEN_KEEPALIVE const char *
+extern "C" const char *
 AnswerPage(const char * request)
 {
   static std::string text;
