@@ -25,6 +25,7 @@ if(SensorNoise_BUILD_EXAMPLES OR BUILD_TESTING)
 endif()
 find_package(ITK 5.2.1 REQUIRED COMPONENTS ${_modules})
 include(${ITK_USE_FILE})
+include(cmake/ClangHeaders.cmake)
 find_package(ZLIB REQUIRED) # the same as ITK's: the module ITKZLIB of an installed ITK may stand for the system's
 
 add_subdirectory(module)

@@ -14,6 +14,8 @@ if(SensorNoise_WARNINGS_AS_ERRORS)
     "$<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:-Wnon-virtual-dtor;-Woverloaded-virtual>"
     # Formats of printf that no compiler checks; class templates whose arguments are deduced by accident.
     "$<$<COMPILE_LANG_AND_ID:CXX,Clang,AppleClang>:-Wformat-nonliteral;-Wctad-maybe-unsupported>"
+    # Of C++, GCC's -Wconversion does not have it.
+    "$<$<COMPILE_LANG_AND_ID:CXX,Clang,AppleClang>:-Wno-sign-conversion>"
     # Conditions copied from one line to the next. GCC 12 takes for uninitialised what inlined CLI11 and std::optional guard.
     "$<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wduplicated-cond;-Wlogical-op;-Wno-maybe-uninitialized>")
   # Not here: -Wpedantic, as ITK 5.4 demands the semicolon after itkNewMacro(Self) that it objects to with ITK 5.2

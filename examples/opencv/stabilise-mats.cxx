@@ -75,8 +75,9 @@ ReadVideo([[maybe_unused]] const std::string & name)
   constexpr std::size_t most = 100;
   cv::VideoCapture      video = OpenVideo(name);
   const bool            isLeftAsItIs = video.set(cv::CAP_PROP_CONVERT_RGB, 0.0);
-  const bool            isImages = video.get(cv::CAP_PROP_BACKEND) == cv::CAP_IMAGES; // does not change the pixels
-  std::vector<cv::Mat>  frames;
+  // Does not change the pixels.
+  const bool           isImages = static_cast<int>(video.get(cv::CAP_PROP_BACKEND)) == cv::CAP_IMAGES;
+  std::vector<cv::Mat> frames;
   for (cv::Mat frame; frames.size() < most && video.read(frame); frame = cv::Mat())
   {
     if (!isLeftAsItIs && !isImages && frame.channels() != 1)

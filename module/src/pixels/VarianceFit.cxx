@@ -295,7 +295,7 @@ VarianceFit::FillErrors()
     WX3,
     WX4,
     WXXR,
-    Kept,
+    KeptPixels,
     W,
     WXX,
     Sums
@@ -322,7 +322,7 @@ VarianceFit::FillErrors()
     m_Line.curvatureTilt = a;
     m_Line.curvatureLift = b;
   }
-  m_Line.trimmedFraction = (pixels - s[Kept]) / pixels;
+  m_Line.trimmedFraction = (pixels - s[KeptPixels]) / pixels;
   m_Line.isDetermined = std::isfinite(m_Line.gain) && m_Line.covariance.allFinite();
 }
 
