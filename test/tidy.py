@@ -21,8 +21,12 @@ import time
 
 # Of the compiler's flags, those that say what a source means.
 KEPT = ("-D", "-I", "-std=")
-# Extra semicolons: cmake/Warnings.cmake.
-WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wno-extra-semi")
+# Those that cmake/Warnings.cmake asks of Clang, and -Wpedantic without extra semicolons, which ITK 5.4 demands.
+WARNINGS = (
+    *("-Wall", "-Wextra", "-Wpedantic", "-Wno-extra-semi", "-Wshadow", "-Wconversion", "-Wno-sign-conversion"),
+    *("-Wold-style-cast", "-Wcast-qual", "-Wnon-virtual-dtor", "-Woverloaded-virtual"),
+    *("-Wformat-nonliteral", "-Wctad-maybe-unsupported"),
+)
 
 # Debian's ITK 5.2 says so to every compiler but GCC, and can be read all the same.
 OTHER_COMPILER = "error: Unsupported compiler [clang-diagnostic-error]"

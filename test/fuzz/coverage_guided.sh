@@ -39,7 +39,8 @@ folder=build/coverage-guided
 rm -rf "$folder"
 mkdir -p "$folder"/{findings,logs}
 
-flags=(-std=c++17 -O1 -g1 -Wall -Wextra -fsanitize=address -fsanitize=undefined -fsanitize=float-cast-overflow
+flags=(-std=c++17 -O1 -g1 -Werror -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wformat-nonliteral
+  -Wctad-maybe-unsupported -D_GLIBCXX_ASSERTIONS -fsanitize=address -fsanitize=undefined -fsanitize=float-cast-overflow
   -fno-sanitize-recover=all -Imodule/src -Imodule/include "-I$folder")
 
 install_clang() {
