@@ -25,6 +25,15 @@ INPUTS = {
         *("python3-minor-versions", "manylinux-platforms", "macosx-deployment-target", "test-notebooks"),
     },
 }
+# The inputs of the other actions that are used here, by the action.yml of each.
+STEP_INPUTS = {
+    "actions/cache@v4": {"path", "key", "restore-keys"},
+    "actions/checkout@v4": set(),
+    "actions/deploy-pages@v4": set(),
+    "actions/setup-python@v5": {"python-version"},
+    "actions/upload-artifact@v4": {"name", "path"},
+    "actions/upload-pages-artifact@v3": {"path"},
+}
 ACTION = "InsightSoftwareConsortium/ITKRemoteModuleBuildTestPackageAction"
 
 
@@ -53,8 +62,27 @@ def test_workflow_says_that_it_was_not_run_and_calls_what_exists(file):
             continue
         for step in job["steps"]:
             assert ("run" in step) != ("uses" in step)
+            if "uses" in step:
+                assert set(step.get("with", {})) <= STEP_INPUTS[step["uses"]]
             for script in re.findall(r"bash (\S+)", step.get("run", "")):
                 assert (ROOT / script).is_file()
+
+
+def test_workflow_builds_by_a_preset_that_exists():
+    presets = {one["name"] for one in json.loads((ROOT / "CMakePresets.json").read_text())["configurePresets"]}
+    named = re.findall(r"--preset (\w+)", "".join(file.read_text() for file in WORKFLOWS))
+    assert named
+    assert set(named) <= presets
+
+
+@pytest.mark.parametrize("name", ["bug.yml", "question.yml"])
+def test_issue_form_has_what_the_host_asks_for(name):
+    form = yaml.safe_load((ROOT / ".github" / "ISSUE_TEMPLATE" / name).read_text())
+    assert {"name", "description", "body"} <= set(form)
+    fields = [part for part in form["body"] if part["type"] != "markdown"]
+    assert fields
+    assert all(part["type"] in ("input", "textarea") and part["attributes"]["label"] for part in fields)
+    assert len({part["id"] for part in fields}) == len(fields)
 
 
 def test_workflow_builds_the_modules_that_the_tests_need():
