@@ -18,7 +18,9 @@ sensornoise_use_ccache "$here"
 cmake -S "$here" --preset coverage >"$folder/configure.log" 2>&1 || { cat "$folder/configure.log" >&2; exit 1; }
 cmake --build "$folder"
 find "$folder" -name '*.gcda' -delete # what an earlier run counted
-ctest --test-dir "$folder" --output-on-failure -j "$(nproc)" "$@"
+status=0
+ctest --test-dir "$folder" --output-on-failure -j "$(nproc)" "$@" || status=$? # the figure is printed all the same
 "$venv/bin/gcovr" --root "$here" --filter "$here/module/" --filter "$here/filters/" --filter "$here/examples/tools/" \
   --gcov-ignore-parse-errors --print-summary --html-details "$folder/report/index.html" --json-summary "$folder/report/summary.json" \
-  --fail-under-line "${SENSORNOISE_LEAST_COVERAGE:-80}" "$folder"
+  --fail-under-line "${SENSORNOISE_LEAST_COVERAGE:-80}" "$folder" || status=$?
+exit "$status"
