@@ -166,6 +166,19 @@ def test_page_is_whole_and_shows_an_example(chrome, address, width, scheme, scre
         chrome.picture(screenshots / f"browser-page-{width}-{scheme}.png")
 
 
+def test_picture_of_the_documentation(chrome, address, tmp_path, screenshots):
+    """`-k documentation --screenshots documentation` writes browser.png: the page with the report of its example."""
+    page = Page(chrome, address, 1000, "light")
+    assert page.measure("example")["gain"]["status"] == "identified"
+    page.wait("part('report').contentDocument.querySelector('.verdict')")
+    file = (screenshots or tmp_path) / "browser.png"
+    chrome.picture(file, 0, 1136)  # to the end of the first figure
+    pillow = pytest.importorskip("PIL.Image")
+    with pillow.open(file) as image:
+        image.convert("RGB").quantize(64).save(file, optimize=True)
+    assert file.stat().st_size < 100_000
+
+
 def test_one_file_works_from_the_disk(chrome):
     page = Page(chrome, SITE / "sensor-noise.html")
     assert page.measure("example")["gain"]["status"] == "identified"
