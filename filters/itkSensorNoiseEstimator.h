@@ -402,6 +402,12 @@ public:
     return sensornoise::CatalogueAsJson();
   }
 
+  /** Returns why a method cannot use a setting, as the end of "the method published ...": "fits all levels"; "" if it
+   * can. \a method is "refined", "published" or "single-image", \a setting "offset", "dark", "level_range", "exposures"
+   * or "maps"; another setting throws. */
+  static std::string
+  ReasonUnused(const std::string & method, const std::string & setting);
+
   /** Compares the noise of the stack with a noise model at each level, as JSON, schema "itk-sensornoise-check/1", or as
    * a readable table. The corrected variance of the stack is compared with the variance slope [DN/e-] and the total
    * intercept [DN^2] of another report. The read noise [e-] and the quantization step [DN] of that report help to
@@ -567,6 +573,9 @@ private:
   GetInputRecord() const;
   sensornoise::NoiseModelCheck
   CheckModel(double varianceSlope, double totalIntercept, double readNoiseElectrons, double quantisationStep) const;
+  /** Throws std::invalid_argument if the method cannot use what was given. */
+  void
+  RequireUsedSettings() const;
   bool
   HasLevelRange() const;
   sensornoise::PublishedSettings

@@ -7,6 +7,7 @@
 #include "browser/BurstMemory.h"
 #include "browser/DarkOffset.h"
 #include "moments/MosaicLevels.h"
+#include "report/StackSettings.h"
 #include "sensornoise/MosaicMethod.h"
 #include "sensornoise/PublishedMethod.h"
 #include "sensornoise/RefinedMethod.h"
@@ -227,11 +228,13 @@ RequireMethod(const BurstOptions & options, bool hasDark)
   {
     throw std::invalid_argument("an offset and dark frames were given; expected one of them");
   }
-  if (options.method != "refined" && (hasDark || hasOffset))
+  if (hasOffset)
   {
-    throw std::invalid_argument(std::string(hasOffset ? "the offset" : "dark frames") +
-                                " cannot be used by the method " + options.method +
-                                ": leave it out, or choose the method refined");
+    RequireUsed(options.method, "offset", "the offset");
+  }
+  if (hasDark)
+  {
+    RequireUsed(options.method, "dark", "dark frames");
   }
 }
 } // namespace

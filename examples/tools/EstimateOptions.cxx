@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/EstimateOptions.h"
 
+#include "report/StackSettings.h"
 #include "sensornoise/Settings.h"
 #include "tools/EstimateOptionList.h"
 #include "tools/ExposureList.h"
@@ -60,32 +61,54 @@ ReadNumbers(const std::string & option,
   return numbers;
 }
 
+/** Calls a check of the library. What it throws becomes an error of the option. */
+template <typename TCheck>
+void
+CheckOption(const std::string & option, TCheck check)
+{
+  try
+  {
+    check();
+  }
+  catch (const std::invalid_argument & error)
+  {
+    throw CLI::ValidationError(option, error.what());
+  }
+}
+
+/** Throws if the method cannot use the setting of this option. */
+void
+RequireUsedBy(const std::string & method, const std::string & option, const std::string & setting)
+{
+  if (const std::string reason = ReasonUnused(method, setting); !reason.empty())
+  {
+    throw CLI::ValidationError(
+      option, "the method " + method + " " + reason + "; leave the option out, or set --method refined");
+  }
+}
+
 void
 ReadCodes(EstimateOptions & options, const EstimateTexts & texts)
 {
+  CodeSettings codes;
   if (texts.bitDepth != "auto")
   {
-    options.bitDepth = ReadNumbers<unsigned int>("--bit-depth", texts.bitDepth, ',', 1, "auto or 1 to 16")[0];
-    if (options.bitDepth < 1 || options.bitDepth > 16)
-    {
-      throw CLI::ValidationError("--bit-depth", texts.bitDepth + " is not auto or a number from 1 to 16");
-    }
+    codes.bitDepth = ReadNumbers<int>("--bit-depth", texts.bitDepth, ',', 1, "auto or 1 to 16")[0];
+    CheckOption("--bit-depth", [&codes] { ValidateCodeSettings(codes); });
+    options.bitDepth = static_cast<unsigned int>(*codes.bitDepth);
   }
   if (!texts.step.empty())
   {
     options.step = ReadNumbers<double>("--step", texts.step, ',', 1, "one number above 0")[0];
-    if (!(options.step > 0.0))
-    {
-      throw CLI::ValidationError("--step", texts.step + " is not a positive number");
-    }
+    codes.quantisationStepDn = options.step;
+    CheckOption("--step", [&codes] { ValidateCodeSettings(codes); });
   }
   if (!texts.clip.empty())
   {
     const auto levels = ReadNumbers<double>("--clip", texts.clip, ',', 2, "LOW,HIGH");
-    if (levels[0] >= levels[1])
-    {
-      throw CLI::ValidationError("--clip", texts.clip + " ends below its beginning; expected LOW,HIGH with LOW < HIGH");
-    }
+    codes.clipLowDn = levels[0];
+    codes.clipHighDn = levels[1];
+    CheckOption("--clip", [&codes] { ValidateCodeSettings(codes); });
     options.clipLow = levels[0];
     options.clipHigh = levels[1];
   }
@@ -99,16 +122,8 @@ ReadLevelRange(EstimateOptions & options, const std::string & text)
     return;
   }
   const auto levels = ReadNumbers<double>("--level-range", text, ',', 2, "LOW,HIGH");
-  if (!(levels[0] < levels[1]))
-  {
-    throw CLI::ValidationError("--level-range", text + " holds no level; expected LOW,HIGH with LOW < HIGH");
-  }
-  if (options.method != "refined")
-  {
-    throw CLI::ValidationError("--level-range",
-                               text + " was given and the method " + options.method +
-                                 " fits all levels; leave it out, or set --method refined");
-  }
+  CheckOption("--level-range", [&levels] { ValidateLevelRange({ levels[0], levels[1] }); });
+  RequireUsedBy(options.method, "--level-range", "level_range");
   options.levelRange = { levels[0], levels[1] };
 }
 
@@ -131,12 +146,7 @@ ReadExposuresOf(EstimateOptions & options)
   {
     return;
   }
-  if (options.method != "refined" && options.method != "emva1288")
-  {
-    throw CLI::ValidationError("--exposures",
-                               "the method " + options.method +
-                                 " does not measure the linearity; leave the exposures out, or set --method refined");
-  }
+  RequireUsedBy(options.method, "--exposures", "exposures");
   options.exposures = ReadExposures(options.exposuresText);
 }
 
@@ -150,23 +160,17 @@ ReadOffset(EstimateOptions & options, const EstimateTexts & texts)
     options.offset = numbers[0];
     options.offsetStandardError = hasError ? numbers[1] : 0.0;
   }
-  if (options.method == "published" && (!texts.offset.empty() || !options.dark.empty()))
+  if (!texts.offset.empty())
   {
-    throw CLI::ValidationError(texts.offset.empty() ? "--dark" : "--offset",
-                               "the method published finds the offset from the flicker alone; leave it out, or set "
-                               "--method refined");
+    RequireUsedBy(options.method, "--offset", "offset");
   }
-  if (options.method == "single-image" && (!texts.offset.empty() || !options.dark.empty()))
+  if (!options.dark.empty())
   {
-    throw CLI::ValidationError(texts.offset.empty() ? "--dark" : "--offset",
-                               "the method single-image measures slope and intercept of the variance and uses no "
-                               "offset; leave it out, or set --method refined");
+    RequireUsedBy(options.method, "--dark", "dark");
   }
-  if (options.method == "single-image" && !options.maps.empty())
+  if (!options.maps.empty())
   {
-    throw CLI::ValidationError("--maps",
-                               "the method single-image has no maps over time; leave the folder out, or set --method "
-                               "refined");
+    RequireUsedBy(options.method, "--maps", "maps");
   }
 }
 
@@ -181,10 +185,7 @@ ReadRollingShutter(EstimateOptions & options, const std::string & text)
   {
     options.rollingShutter = RollingShutter::Fixed;
     options.sigmaRows = ReadNumbers<double>("--rolling-shutter", text, ',', 1, "auto, off or a number of rows")[0];
-    if (!(options.sigmaRows > 0.0))
-    {
-      throw CLI::ValidationError("--rolling-shutter", text + " is not auto, off or a positive number of rows");
-    }
+    CheckOption("--rolling-shutter", [&options] { ValidateShutterRows(options.sigmaRows); });
   }
 }
 

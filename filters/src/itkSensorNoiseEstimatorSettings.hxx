@@ -177,26 +177,18 @@ SensorNoiseEstimator<TStack>::VerifyInputInformation() const
     itkExceptionMacro("the mask has the region " << mask->GetLargestPossibleRegion() << "but the frames have "
                                                  << this->GetFrameRegion());
   }
-  const TStack * dark = this->GetDark();
-  const bool     hasOffset = !std::isnan(m_Offset);
-  if (m_Method == MethodEnum::Published && (dark != nullptr || hasOffset))
-  {
-    itkExceptionMacro(
-      "" << (hasOffset ? "the offset" : "dark frames") << " cannot be used by the method published, "
-         << "which finds the offset from the flicker alone: leave it out, or set the method to refined");
-  }
-  if (m_Method == MethodEnum::Published && this->HasLevelRange())
-  {
-    itkExceptionMacro("the range of levels " << m_LevelRangeLow << " to " << m_LevelRangeHigh
-                                             << " DN cannot be used by the method published, which fits all levels: "
-                                             << "leave it out, or set the method to refined");
-  }
-  if (m_Method == MethodEnum::Published && !m_Exposures.empty())
-  {
-    itkExceptionMacro("exposures cannot be used by the method published, which does not measure the linearity: "
-                      << "leave them out, or set the method to refined");
-  }
-  WithItkErrors(this, [&] { sensornoise::RequireExposuresOfFrames(m_Exposures, region.GetSize(2)); });
+  WithItkErrors(this, [&] {
+    this->RequireUsedSettings();
+    if (m_Method == MethodEnum::Refined)
+    {
+      this->MakeRefinedSettings().Validate();
+    }
+    else
+    {
+      this->MakePublishedSettings().Validate();
+    }
+    sensornoise::RequireExposuresOfFrames(m_Exposures, region.GetSize(2));
+  });
   if (m_Method == MethodEnum::Published && m_MemoryLimit > 0 &&
       static_cast<double>(m_MemoryLimit) < bytesPerPixel * pixels)
   {
@@ -204,11 +196,12 @@ SensorNoiseEstimator<TStack>::VerifyInputInformation() const
                       << sensornoise::TextOfBytes(static_cast<double>(m_MemoryLimit)) << "; expected at least "
                       << sensornoise::TextOfBytes(bytesPerPixel * pixels) << " for the method published");
   }
+  const TStack * dark = this->GetDark();
   if (dark == nullptr)
   {
     return;
   }
-  if (hasOffset)
+  if (!std::isnan(m_Offset))
   {
     itkExceptionMacro("the offset " << m_Offset << " DN and dark frames were given; expected one of them");
   }
@@ -219,6 +212,36 @@ SensorNoiseEstimator<TStack>::VerifyInputInformation() const
     itkExceptionMacro("the dark frames have " << size[0] << " x " << size[1] << " pixels, but the frames have "
                                               << frame[0] << " x " << frame[1]);
   }
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::RequireUsedSettings() const
+{
+  const std::string method = this->GetMethodName();
+  if (!std::isnan(m_Offset))
+  {
+    sensornoise::RequireUsed(method, "offset", "the offset");
+  }
+  if (this->GetDark() != nullptr)
+  {
+    sensornoise::RequireUsed(method, "dark", "dark frames");
+  }
+  if (this->HasLevelRange())
+  {
+    sensornoise::RequireUsed(method, "level_range", "a range of levels");
+  }
+  if (!m_Exposures.empty())
+  {
+    sensornoise::RequireUsed(method, "exposures", "exposures");
+  }
+}
+
+template <typename TStack>
+std::string
+SensorNoiseEstimator<TStack>::ReasonUnused(const std::string & method, const std::string & setting)
+{
+  return sensornoise::ReasonUnused(method, setting);
 }
 
 template <typename TStack>

@@ -44,10 +44,7 @@ VibrationMaskImageFilter<TFrame>::VerifyPreconditions() const
   {
     itkExceptionMacro("NumberOfFrames is " << m_NumberOfFrames << "; expected the number of frames, at least 2");
   }
-  if (!(m_Level > 0.0 && m_Level < 1.0))
-  {
-    itkExceptionMacro("Level is " << m_Level << "; expected a probability between 0 and 1");
-  }
+  WithItkErrors(this, [this] { sensornoise::ChiSquare2Quantile(m_Level); });
 }
 
 template <typename TFrame>

@@ -94,6 +94,7 @@ TEST(SensorNoiseEstimatorLevelRange, WrongUseIsRefused)
   EXPECT_SAYS(errorOf(2500.0, 500.0, "refined"), "from 2500");
   EXPECT_SAYS(errorOf(2500.0, 500.0, "refined"), "expected the lower level first");
   EXPECT_SAYS(errorOf(std::numeric_limits<double>::quiet_NaN(), 500.0, "refined"), "expected the lower level first");
-  EXPECT_SAYS(errorOf(500.0, 2500.0, "published"), "500 to 2500 DN cannot be used by the method published");
+  EXPECT_SAYS(errorOf(500.0, 2500.0, "published"),
+              "a range of levels cannot be used by the method published, which fits all levels");
   EXPECT_SAYS(errorOf(500.0, 2500.0, "published"), "set the method to refined");
 }

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -63,4 +64,38 @@ TEST(SensorNoiseStackSettings, ASelectionIsNotedWhereThereIsOne)
                        { "roi_height", 80.0 },
                        { "frame_range_first", 7.0 },
                        { "frame_range_end", 41.0 } }));
+}
+
+TEST(SensorNoiseStackSettings, WhatAMethodCannotUseIsRefusedWithItsReason)
+{
+  for (const std::string setting : { "offset", "dark", "level_range", "exposures", "maps" })
+  {
+    EXPECT_EQ(ReasonUnused("refined", setting), "");
+    EXPECT_NO_THROW(RequireUsed("refined", setting, "it"));
+    EXPECT_NE(ReasonUnused("single-image", setting), "");
+    EXPECT_EQ(ReasonUnused("published", setting).empty(), setting == "maps");
+  }
+  EXPECT_THROW(ReasonUnused("refined", "offsets"), std::invalid_argument);
+  try
+  {
+    RequireUsed("published", "level_range", "a range of levels");
+    FAIL();
+  }
+  catch (const std::invalid_argument & error)
+  {
+    EXPECT_STREQ(error.what(),
+                 "a range of levels cannot be used by the method published, which fits all levels: leave out what was "
+                 "given, or set the method to refined");
+  }
+}
+
+TEST(SensorNoiseStackSettings, RangesExcludeTheirBounds)
+{
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  EXPECT_NO_THROW(ValidateLevelRange({ 5.0, 6.0 }));
+  EXPECT_THROW(ValidateLevelRange({ 5.0, 5.0 }), std::invalid_argument);
+  EXPECT_THROW(ValidateLevelRange({ 5.0, infinite }), std::invalid_argument);
+  EXPECT_NO_THROW(ValidateShutterRows(1e5));
+  EXPECT_THROW(ValidateShutterRows(0.0), std::invalid_argument);
+  EXPECT_THROW(ValidateShutterRows(1.1e5), std::invalid_argument);
 }

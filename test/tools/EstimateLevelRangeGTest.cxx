@@ -92,9 +92,9 @@ TEST_F(EstimateLevelRangeTool, WrongUseIsRefused)
   const std::string stack = Write("s.mha", MakeBurst().GetPointer());
   IsRefused(stack + " --level-range 500", { "--level-range", "\"500\" holds 1 number", "expected LOW,HIGH" });
   IsRefused(stack + " --level-range 500,high", { "--level-range", "\"high\"", "not a number" });
-  IsRefused(stack + " --level-range 500,500", { "--level-range", "500,500 holds no level", "LOW < HIGH" });
+  IsRefused(stack + " --level-range 500,500", { "--level-range", "from 500 to 500 DN", "lower level first" });
   IsRefused(stack + " --level-range 500,2000 --method published",
-            { "--level-range", "500,2000 was given", "published", "--method refined" });
+            { "--level-range", "published fits all levels", "--method refined" });
 }
 
 TEST_F(EstimateLevelRangeTool, ARangeWithoutPixelsGivesNoEstimate)

@@ -72,7 +72,7 @@ TEST_F(EstimateMistakes, FormsOfNumbersAreSaid)
              { "--roi asks for 40 x 40 pixels from 50,50", "the stack has 64 x 64 pixels", "expected a part of it" });
   IsAnswered(stack + " --frames 0:100", { "--frames asks for frames 0 to 99", "24 frames, counted from 0" });
   IsAnswered(stack + " --offset 100+-1", { "expected VALUE or VALUE,ERROR" });
-  IsAnswered(stack + " --clip 4095,0", { "--clip: 4095,0 ends below its beginning", "LOW < HIGH" });
+  IsAnswered(stack + " --clip 4095,0", { "--clip: the clip levels are 4095 and 0 DN", "low < high" });
   IsAnswered(stack + " --memory-limit 4", { "the memory limit is 4 bytes" });
 }
 

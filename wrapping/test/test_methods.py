@@ -87,7 +87,7 @@ def test_an_excess_noise_factor_is_divided_out_of_the_gain(burst):
     for name in ("variance_slope", "intercept", "total_intercept", "offset", "read_noise"):
         assert report[name] == plain[name]
     for factor in (0.5, -1, "2", float("nan")):
-        with pytest.raises(ValueError, match="excess_noise_factor is .*; expected a number of 1 or more"):
+        with pytest.raises(ValueError, match="excess.noise.factor is .*; expected a number of 1 or more"):
             itk.estimate_sensor_noise(burst, excess_noise_factor=factor)
 
 
@@ -122,7 +122,7 @@ WRONG = {
         "exposures were given and the method is 'published'",
     ),
     "few exposures": ({"exposures": [1, 2, 3]}, "there are 3 exposures, but 60 frames"),
-    "two exposures": ({"exposures": [1, 2] * 30}, "exposures is [1, 2, 1, 2"),
+    "two exposures": ({"exposures": [1, 2] * 30}, "the exposures have 2 different values; expected at least 3"),
     "an exposure": ({"exposures": 5}, "exposures is 5; expected one finite number for each frame"),
     "both": ({"offset": 3, "dark": True}, "offset and dark were given; expected one of them"),
     "published offset": ({"offset": 3, "method": "published"}, "offset was given and the method is 'published'"),
@@ -132,7 +132,10 @@ WRONG = {
         "level_range was given and the method is 'published'",
     ),
     "one level": ({"level_range": 500}, "level_range is 500; expected (low, high), two levels with low < high [DN]"),
-    "levels turned round": ({"level_range": (9, 3)}, "level_range is (9, 3); expected (low, high)"),
+    "levels turned round": (
+        {"level_range": (9, 3)},
+        "the range of levels is from 9 to 3 DN; expected the lower level first",
+    ),
     "text": ({"offset": "much"}, "offset is 'much'; expected a finite number or (number, standard error) [DN]"),
     "no number": ({"offset": float("nan")}, "offset is nan; expected a finite number"),
     "no frames": ({"dark": []}, "dark is an empty list; expected at least 1 frame"),

@@ -25,10 +25,9 @@ PublishedSettings::Validate() const
     throw std::invalid_argument("the dark and bright quantiles are " + Text(darkQuantile) + " and " +
                                 Text(brightQuantile) + "; expected 0 <= dark < bright <= 1");
   }
-  if (rollingShutter == RollingShutter::Fixed && !(sigmaRows > 0.0 && sigmaRows <= 1e5))
+  if (rollingShutter == RollingShutter::Fixed)
   {
-    throw std::invalid_argument("sigma_y of the rolling shutter is " + Text(sigmaRows) +
-                                " rows; expected a positive number, at most 100000");
+    ValidateShutterRows(sigmaRows);
   }
   if (shutterAxis > 1)
   {

@@ -25,11 +25,9 @@ RefinedSettings::Validate() const
   ValidateCodeSettings(codes);
   ValidateExposures(exposures);
   ValidateExcessNoiseFactor(excessNoiseFactor);
-  if (levelRangeDn && !(levelRangeDn->lowDn < levelRangeDn->highDn && std::isfinite(levelRangeDn->lowDn) &&
-                        std::isfinite(levelRangeDn->highDn)))
+  if (levelRangeDn)
   {
-    throw std::invalid_argument("the range of levels is from " + Text(levelRangeDn->lowDn) + " to " +
-                                Text(levelRangeDn->highDn) + " DN; expected the lower level first, both finite");
+    ValidateLevelRange(*levelRangeDn);
   }
   if (offset &&
       !(std::isfinite(offset->valueDn) && std::isfinite(offset->standardErrorDn) && offset->standardErrorDn >= 0.0))

@@ -145,6 +145,63 @@ ValidateExcessNoiseFactor(double factor)
 }
 
 void
+ValidateLevelRange(const LevelRange & range)
+{
+  if (!(range.lowDn < range.highDn && std::isfinite(range.lowDn) && std::isfinite(range.highDn)))
+  {
+    throw std::invalid_argument("the range of levels is from " + Text(range.lowDn) + " to " + Text(range.highDn) +
+                                " DN; expected the lower level first, both finite");
+  }
+}
+
+void
+ValidateShutterRows(double rows)
+{
+  if (!(rows > 0.0 && rows <= 1e5))
+  {
+    throw std::invalid_argument("sigma_y of the rolling shutter is " + Text(rows) +
+                                " rows; expected a positive number, at most 100000");
+  }
+}
+
+std::string
+ReasonUnused(const std::string & method, const std::string & setting)
+{
+  const bool isPublished = method == "published";
+  const bool isSingleImage = method == "single-image";
+  if (setting == "offset" || setting == "dark")
+  {
+    return isPublished     ? "finds the offset from the flicker alone"
+           : isSingleImage ? "measures slope and intercept of the variance and uses no offset"
+                           : "";
+  }
+  if (setting == "level_range")
+  {
+    return isPublished || isSingleImage ? "fits all levels" : "";
+  }
+  if (setting == "exposures")
+  {
+    return isPublished || isSingleImage ? "does not measure the linearity" : "";
+  }
+  if (setting == "maps")
+  {
+    return isSingleImage ? "has no maps over time" : "";
+  }
+  throw std::invalid_argument("the setting is \"" + setting +
+                              "\"; expected offset, dark, level_range, exposures or maps");
+}
+
+void
+RequireUsed(const std::string & method, const std::string & setting, const std::string & words)
+{
+  if (const std::string reason = ReasonUnused(method, setting); !reason.empty())
+  {
+    throw std::invalid_argument(words + " cannot be used by the method " + method + ", which " + reason +
+                                ": leave out what was given, or set the method to refined");
+  }
+}
+
+void
 DivideExcessNoise(Report & report, double factor)
 {
   if (factor == 1.0)

@@ -50,6 +50,28 @@ NoteSelection(Report & report, const StackSelection & selection);
 SensorNoise_EXPORT void
 ValidateExcessNoiseFactor(double factor);
 
+/** Throws std::invalid_argument unless both bounds are finite and the lower one is below the upper one. */
+SensorNoise_EXPORT void
+ValidateLevelRange(const LevelRange & range);
+
+/** Throws std::invalid_argument unless sigma_y of a rolling shutter, \a rows [rows], is above 0 and at most 1e5. */
+SensorNoise_EXPORT void
+ValidateShutterRows(double rows);
+
+/** Returns why a method cannot use a setting, as the end of "the method published ...": "fits all levels". Returns ""
+ * if it can.
+ * \param method "refined", "published" or "single-image"
+ * \param setting "offset", "dark", "level_range", "exposures" or "maps"
+ *
+ * Throws std::invalid_argument for another name of a setting. */
+SensorNoise_EXPORT std::string
+ReasonUnused(const std::string & method, const std::string & setting);
+
+/** Throws std::invalid_argument if the method cannot use the setting, see ReasonUnused(). \a words are the setting in
+ * the message: "the offset". */
+SensorNoise_EXPORT void
+RequireUsed(const std::string & method, const std::string & setting, const std::string & words);
+
 /** Divides the gain by the excess noise factor F = \a factor [1].
  *
  * A random amplification by M on average gives N electrons the level M N and the variance F M^2 N. The slope of the

@@ -15,7 +15,7 @@ from ._names import expand
 from ._nan_frames import warn_of_nan_frames
 from ._progress import at_work
 from ._report import Report
-from ._settings import Settings, open_dark, prepare
+from ._settings import Settings, open_dark, prepare, require_used
 from ._single_image import as_frames
 from ._types import FileName, Frame, Frames, ItkObject, Progress, Roi
 from ._update import update
@@ -249,11 +249,7 @@ def estimate_sensor_noise(
     settings.check(dark, ("refined", "published", "single-image"))
     if method == "single-image":
         frames = as_frames(frames)
-        if maps:
-            raise ValueError(
-                "maps were given and the method is 'single-image', which has no maps over time; "
-                "expected no maps, or 'refined'"
-            )
+        require_used(method, ["maps"] if maps else [])
     folder = None if maps is None or isinstance(maps, bool) else maps_folder(maps)
     frames, dark = expand(frames), expand(dark, "dark")
     if folder is not None:

@@ -11,7 +11,7 @@ import numpy as np
 from . import _options
 from ._arrays import as_mask
 from ._bayer import set_pattern
-from ._errors import InvalidTypeError
+from ._errors import InvalidTypeError, itk_errors
 from ._frames import Stack, crop, frame_image, open_dumps, open_frames
 from ._names import is_name
 from ._source import read_image
@@ -41,14 +41,19 @@ class Settings:
     threads: int | None = None
 
     def check(self, dark: object, methods: Sequence[str] = ("refined", "published")) -> None:
-        """Raises ValueError for settings that are wrong whatever the frames are. `methods`: those that are possible."""
+        """Raises TypeError or ValueError for values that are no settings, and for those that the method cannot use.
+        `methods`: those that are possible. The library checks the ranges, before a pixel is read."""
         _options.one_of("method", self.method, list(methods))
-        _check_what_is_known(self.method, self.offset, dark)
         if self.level_range is not None:
-            _level_range(self.level_range, self.method)
+            _level_range(self.level_range)
         if self.exposures is not None:
-            _exposures(self.exposures, self.method)
+            _exposures(self.exposures)
         _excess_noise_factor(self.excess_noise_factor)
+        known = {"offset": self.offset, "dark": dark}
+        if all(value is not None for value in known.values()):
+            raise ValueError("offset and dark were given; expected one of them")
+        given = {**known, "level_range": self.level_range, "exposures": self.exposures}
+        require_used(self.method, [name for name, value in given.items() if value is not None])
         _ = self.span
 
     @property
@@ -127,29 +132,28 @@ def _set_burst(estimator: ItkObject, settings: Settings, dark: Stack | None, fra
     if dark is not None:
         estimator.SetDark(dark.image)
     if settings.level_range is not None:
-        low, high = _level_range(settings.level_range, settings.method)
+        low, high = _level_range(settings.level_range)
         estimator.SetLevelRangeLow(low)
         estimator.SetLevelRangeHigh(high)
     if settings.exposures is not None:
-        estimator.SetExposures(_exposures_of(settings, *frames))
+        with itk_errors():
+            estimator.SetExposures(_exposures_of(settings, *frames))
     _set_flicker(estimator, settings)
 
 
-_WITHOUT_OFFSET = {
-    "published": "finds the offset from the flicker alone",
-    "single-image": "measures slope and intercept of the variance and uses no offset",
-}
+def require_used(method: str, given: Sequence[str]) -> None:
+    """Raises ValueError for the first name of a setting that the method cannot use."""
+    if method == "refined" or not given:
+        return
+    import itk
 
-
-def _check_what_is_known(method: str, offset: object, dark: object) -> None:
-    given = [name for name, value in (("offset", offset), ("dark", dark)) if value is not None]
-    if given and method != "refined":
-        raise ValueError(
-            f"{given[0]} was given and the method is {method!r}, which {_WITHOUT_OFFSET[method]}; "
-            f"expected no {given[0]}, or 'refined'"
-        )
-    if len(given) > 1:
-        raise ValueError("offset and dark were given; expected one of them")
+    for name in given:
+        reason = itk.SensorNoiseEstimator[itk.Image[itk.US, 3]].ReasonUnused(method, name)
+        if reason:
+            were = "were" if name.endswith("s") else "was"
+            raise ValueError(
+                f"{name} {were} given and the method is {method!r}, which {reason}; expected no {name}, or 'refined'"
+            )
 
 
 def _set_offset(estimator: ItkObject, offset: float | tuple[float, float]) -> None:
@@ -162,48 +166,28 @@ def _set_offset(estimator: ItkObject, offset: float | tuple[float, float]) -> No
     estimator.SetOffsetStandardError(error)
 
 
-def _level_range(level_range: tuple[float, float], method: str) -> tuple[float, float]:
-    expected = "(low, high), two levels with low < high [DN]"
-    low, high = _options.numbers("level_range", level_range, 2, expected)
-    if not low < high:
-        raise _options.refuse("level_range", level_range, expected)
-    if method != "refined":
-        raise ValueError(
-            f"level_range was given and the method is {method!r}, which fits all levels; "
-            "expected no level_range, or 'refined'"
-        )
+def _level_range(level_range: tuple[float, float]) -> tuple[float, float]:
+    low, high = _options.numbers("level_range", level_range, 2, "(low, high), two levels with low < high [DN]")
     return low, high
 
 
 def _excess_noise_factor(factor: float) -> float:
-    expected = "a number of 1 or more: 2 for an EMCCD"
-    number = _options.number("excess_noise_factor", factor, expected)
-    if number < 1.0:
-        raise _options.refuse("excess_noise_factor", factor, expected)
-    return number
+    return _options.number("excess_noise_factor", factor, "a number of 1 or more: 2 for an EMCCD")
 
 
-def _exposures(exposures: Sequence[float], method: str) -> list[float]:
-    """The exposures of all frames. Raises ValueError for what no stack can have."""
+def _exposures(exposures: Sequence[float]) -> list[float]:
+    """The exposures of all frames."""
     expected = "one finite number for each frame, 0 (a dark frame) or more, with at least 3 different values"
     try:
         count = len(exposures)
     except TypeError:
         raise _options.refuse_type("exposures", exposures, expected) from None
-    numbers = _options.numbers("exposures", exposures, count, expected)
-    if min(numbers, default=-1.0) < 0 or len(set(numbers)) < 3:
-        raise _options.refuse("exposures", exposures, expected)
-    if method != "refined":
-        raise ValueError(
-            f"exposures were given and the method is {method!r}, which does not measure the linearity; "
-            "expected no exposures, or 'refined'"
-        )
-    return numbers
+    return _options.numbers("exposures", exposures, count, expected)
 
 
 def _exposures_of(settings: Settings, frames: int, total: int | None) -> list[float]:
     """The exposures of the `frames` that are measured, cut by `frame_range`; `total`: all frames; None: not known."""
-    numbers = _exposures(() if settings.exposures is None else settings.exposures, settings.method)
+    numbers = _exposures(() if settings.exposures is None else settings.exposures)
     least = total or (settings.span[1] if settings.span is not None else frames)
     if len(numbers) < least or len(numbers) > (total or len(numbers)):
         also = "" if settings.span is None else ", also for those that frame_range leaves out"
