@@ -187,6 +187,25 @@ TEST_F(TiffTiles, WhatTheirTagsMustSayIsRequired)
   isRefused({ { 279, { 4, { 8 } } } }, "has tags of strips and of tiles; expected one of both");
 }
 
+// What is read of a file is in proportion to its frames: 4 times their pixels, and 2^20 = 1024 x 1024 more.
+TEST_F(TiffTiles, FarAboveTheFrameAreRefused)
+{
+  TiffOf tiff = Tiled(1024, 1024);
+  tiff.compression = 8;
+  IsRead<std::uint16_t>(tiff, FramePixel::UnsignedShort); // 1024 x 1024 <= 4 x 777 + 2^20
+  tiff.tileWidth = 1027;
+  IsRead<std::uint16_t>(tiff, FramePixel::UnsignedShort); // 3072 pixels above 2^20, of 3108
+  tiff.tileWidth = 1028;
+  IsRefused("a.tif",
+            tiff.Bytes(),
+            { "its tiles have a size of 1028 x 1024 pixels, far above a frame of 37 x 21; expected at most 4 times" });
+  tiff = Tiled();
+  tiff.width = 1;
+  tiff.height = 1;
+  tiff.pages.assign(3, { { 322, { 4, { 8192 } } }, { 323, { 4, { 8192 } } } }); // 128 MiB a page
+  IsRefused("a.tif", tiff.Bytes(), { "8192 x 8192 pixels, far above a frame of 1 x 1" });
+}
+
 TEST_F(TiffTiles, OutsideOfTheFileAreRefused)
 {
   IsRefused(

@@ -12,6 +12,12 @@ namespace
 {
 // A tile of 4096 x 4096 pixels of 8 bytes: chosen empirically, above the tiles that programs write. A reader holds one.
 constexpr std::uint64_t MaximumTileBytes = std::uint64_t{ 1 } << 27;
+// Tiles are filled up at the right and at the bottom. Where a frame is not smaller than a tile, the tiles have fewer
+// than twice its columns and twice its rows.
+constexpr std::uint64_t MaximumFilling = 4;
+// A frame may be smaller than its one tile. Writers choose 256 x 256 (libtiff, GDAL) or 512 x 512 pixels
+// (cloud-optimized GeoTIFF) by default; this is a tile of 1024 x 1024.
+constexpr std::uint64_t MaximumExtraPixels = std::uint64_t{ 1 } << 20;
 
 void
 RequireGrey(const TiffTags & tags)
@@ -147,15 +153,29 @@ ReadSubfileType(const TiffTags & tags, TiffPage & page)
   page.isReduced = (type & 5) != 0 || oldType == 2;
 }
 
+/** Throws FileError for tiles that need memory and time out of proportion to the frame, whose pixels fit into 64 bits.
+ */
 void
 RequireSizeOfTiles(const TiffTags & tags, const TiffPage & page)
 {
-  const std::optional<std::uint64_t> pixels = CheckedProduct(page.chunks.width, page.chunks.rows);
-  if (page.chunks.isTiled && (!pixels || *pixels > MaximumTileBytes / SizeOf(page.pixel)))
+  if (!page.chunks.isTiled)
   {
-    tags.Refuse("its tiles have a size of " + std::to_string(page.chunks.width) + " x " +
-                std::to_string(page.chunks.rows) + " pixels; expected at most " +
-                std::to_string(MaximumTileBytes / SizeOf(page.pixel)) + " pixels");
+    return;
+  }
+  const std::string tiles = "its tiles have a size of " + std::to_string(page.chunks.width) + " x " +
+                            std::to_string(page.chunks.rows) + " pixels";
+  const std::optional<std::uint64_t> pixels = CheckedProduct(page.chunks.width, page.chunks.rows);
+  if (!pixels || *pixels > MaximumTileBytes / SizeOf(page.pixel))
+  {
+    tags.Refuse(tiles + "; expected at most " + std::to_string(MaximumTileBytes / SizeOf(page.pixel)) + " pixels");
+  }
+  const std::optional<std::uint64_t> all = CheckedProduct(*pixels, page.chunks.Count());
+  const std::uint64_t                frame = page.width * page.height;
+  if (!all || (*all > MaximumExtraPixels && (*all - MaximumExtraPixels - 1) / MaximumFilling >= frame))
+  {
+    tags.Refuse(tiles + ", far above a frame of " + std::to_string(page.width) + " x " + std::to_string(page.height) +
+                "; expected at most " + std::to_string(MaximumFilling) + " times the pixels of the frame, and " +
+                std::to_string(MaximumExtraPixels) + " more, in all tiles together");
   }
 }
 
