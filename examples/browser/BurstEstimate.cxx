@@ -5,8 +5,8 @@
 #include "files/PixelTypes.h"
 #include "browser/BurstChunks.h"
 #include "browser/BurstMemory.h"
-#include "browser/DarkOffset.h"
 #include "moments/MosaicLevels.h"
+#include "mosaic/DarkFrameSums.h"
 #include "report/StackSettings.h"
 #include "sensornoise/MosaicMethod.h"
 #include "sensornoise/PublishedMethod.h"
@@ -84,8 +84,12 @@ FindOffsets(const Burst &                 burst,
   }
   else if (dark != nullptr)
   {
-    const auto pattern = mosaic ? std::optional(mosaic->pattern) : std::nullopt;
-    const auto measured = MeasureDark<TPixel>(*dark, pattern, CodesOf(burst, options), progress);
+    auto sums = mosaic ? DarkFrameSums<TPixel>(MosaicGeometry{ dark->geometry, mosaic->pattern })
+                       : DarkFrameSums<TPixel>(dark->geometry);
+    ForChunks<TPixel>(*dark, 0, progress, [&sums](const TPixel * frames, std::size_t count) {
+      sums.AddFrames(frames, count, SerialFor);
+    });
+    const auto measured = sums.Measure(CodesOf(burst, options), SerialFor);
     std::copy(measured.begin(), measured.end(), offsets.begin());
   }
   else if (std::isfinite(burst.camera.opticalBlackDn + burst.camera.opticalBlackErrorDn))

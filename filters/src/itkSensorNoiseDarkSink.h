@@ -19,14 +19,10 @@
 #define itkSensorNoiseDarkSink_h
 
 #include "itkSensorNoiseStackSink.h"
-#include "base/Simd.h"
-#include "sensornoise/Parallel.h"
+#include "mosaic/DarkFrameSums.h"
 #include "mosaic/MosaicGeometry.h"
 #include "sensornoise/Settings.h"
-#include "moments/DarkFrames.h"
-#include "moments/TemporalMoments.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -78,7 +74,7 @@ public:
   void
   SetMosaic(const sensornoise::MosaicGeometry & geometry)
   {
-    m_Planes.emplace(geometry);
+    m_Mosaic = geometry;
     this->Modified();
   }
 
@@ -94,18 +90,11 @@ public:
     });
   }
 
-  /** Returns offset and read noise of the frames that were read, see sensornoise::MeasureDarkFrames(): one result per
-   * plane in the order of BayerPlanes, or one for frames that are no mosaics. Call it once, as it consumes the sums. */
+  /** Returns offset and read noise of the frames that were read. \see sensornoise::DarkFrameSums::Measure */
   std::vector<sensornoise::KnownOffset>
   Measure(const sensornoise::CodeSettings & codes)
   {
-    std::vector<sensornoise::KnownOffset> offsets;
-    for (Part & part : m_Parts)
-    {
-      offsets.push_back(sensornoise::MeasureDarkFrames<PixelType>(
-        std::move(part.moments), codes, part.usedPixels, this->GetParallelFor(), part.drift));
-    }
-    return offsets;
+    return m_Sums->Measure(codes, this->GetParallelFor());
   }
 
 protected:
@@ -120,66 +109,27 @@ protected:
   void
   StartPasses() override
   {
-    m_Parts.clear();
-    if (!m_Planes)
+    if (m_Mosaic)
     {
-      const SizeValueType pixels = this->GetFrameRegion().GetNumberOfPixels();
-      m_Parts.emplace_back(m_UsedPixels, pixels);
+      m_Sums.emplace(*m_Mosaic, m_UsedPixels);
       return;
     }
-    const sensornoise::MosaicGeometry & geometry = m_Planes->GetGeometry();
-    for (const sensornoise::BayerPlane plane : sensornoise::BayerPlanes)
-    {
-      m_Parts.emplace_back(geometry.Take(m_UsedPixels, plane), geometry.Plane().Pixels());
-    }
+    const auto size = this->GetFrameRegion().GetSize();
+    m_Sums.emplace(sensornoise::FrameGeometry{ size[0], size[1] }, m_UsedPixels);
   }
   void
   ProcessFrames(unsigned int, const PixelType * frames, SizeValueType, SizeValueType count) override
   {
-    const sensornoise::ParallelFor parallelFor = this->GetParallelFor();
-    if (!m_Planes)
-    {
-      m_Parts.front().AddFrames(frames, count, parallelFor);
-      return;
-    }
-    m_Planes->ForPlanes(frames, count, parallelFor, [&](std::size_t k, const PixelType * plane, std::size_t now) {
-      m_Parts[k].AddFrames(plane, now, parallelFor);
-    });
+    m_Sums->AddFrames(frames, count, this->GetParallelFor());
   }
   void
   EndPass(unsigned int) override
   {}
 
 private:
-  /** Sums over the frames, or over one plane of the frames. */
-  struct Part
-  {
-    Part(std::vector<std::uint8_t> used, std::size_t numberOfPixels)
-      : usedPixels(std::move(used))
-      , pixels(numberOfPixels)
-      , moments(numberOfPixels)
-      , drift(numberOfPixels, usedPixels)
-    {}
-
-    void
-    AddFrames(const PixelType * frames, std::size_t count, const sensornoise::ParallelFor & parallelFor)
-    {
-      sensornoise::ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
-        moments.AddFrames(frames, pixels, count, begin, end);
-      });
-      moments.AdvanceFrames(count);
-      drift.AddFrames(frames, count, parallelFor);
-    }
-
-    std::vector<std::uint8_t>               usedPixels;
-    std::size_t                             pixels;
-    sensornoise::TemporalMoments<PixelType> moments;
-    sensornoise::DarkDrift                  drift;
-  };
-
-  std::vector<std::uint8_t>                          m_UsedPixels;
-  std::optional<sensornoise::PlaneFrames<PixelType>> m_Planes; // null: not a mosaic
-  std::vector<Part>                                  m_Parts;
+  std::vector<std::uint8_t>                            m_UsedPixels;
+  std::optional<sensornoise::MosaicGeometry>           m_Mosaic; // null: not a mosaic
+  std::optional<sensornoise::DarkFrameSums<PixelType>> m_Sums;   // null: no frame was read
 };
 
 } // namespace itk

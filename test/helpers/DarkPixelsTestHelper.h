@@ -5,8 +5,7 @@
 
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Settings.h"
-#include "moments/DarkFrames.h"
-#include "moments/TemporalMoments.h"
+#include "mosaic/DarkFrameSums.h"
 #include "simulation/Random.h"
 #include "helpers/StackTestHelper.h"
 
@@ -92,17 +91,12 @@ MeasureDarkStack(const Stack<TPixel> &             stack,
                  const ParallelFor &               parallelFor = SerialFor,
                  std::size_t                       chunk = 1000)
 {
-  const std::size_t       pixels = stack.width * stack.height;
-  TemporalMoments<TPixel> moments(pixels);
-  DarkDrift               drift(pixels, mask);
+  DarkFrameSums<TPixel> sums(FrameGeometry{ stack.width, stack.height }, mask);
   for (std::size_t first = 0; first < stack.frames; first += chunk)
   {
-    const std::size_t count = std::min(chunk, stack.frames - first);
-    moments.AddFrames(stack.Frame(first), pixels, count, 0, pixels);
-    moments.AdvanceFrames(count);
-    drift.AddFrames(stack.Frame(first), count, parallelFor);
+    sums.AddFrames(stack.Frame(first), std::min(chunk, stack.frames - first), parallelFor);
   }
-  return MeasureDarkFrames<TPixel>(std::move(moments), {}, mask, parallelFor, drift);
+  return sums.Measure({}, parallelFor).front();
 }
 
 /** The middle value. */
