@@ -30,10 +30,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
 
-import numpy as np
-
 sys.path.insert(0, str(Path(__file__).parent / "fuzz"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "examples" / "python"))
 from frame_files import all_cases
+from frame_stacks import read_frames, write_stack
 from fuzz_files import damage, undamaged_frames, write
 from known import known_cases
 
@@ -71,8 +71,7 @@ OPTIONS = {
     "no-local-light": "--rolling-shutter off",
 }
 SAME = {"threads": "refined", "limit": "refined"}  # results that are equal within one program
-TYPES = {"uint8": "u1", "int16": "<i2", "float32": "<f4", "float64": "<f8"}
-META_TYPES = {"u1": "MET_UCHAR", "<u2": "MET_USHORT", "<i2": "MET_SHORT", "<f4": "MET_FLOAT", "<f8": "MET_DOUBLE"}
+TYPES = ("uint8", "int16", "float32", "float64")  # beside uint16
 
 
 @dataclass(frozen=True)
@@ -96,30 +95,14 @@ def simulate(tools: str, name: str, options: str) -> None:
         raise RuntimeError(f"{name}: {done.stderr.decode()}")
 
 
-def values_of(name: str) -> np.ndarray:
-    """The values (t, y, x) of a stack of simulate-sensor-noise."""
-    content = Path(name).read_bytes()
-    start = content.index(b"LOCAL\n") + 6
-    header = dict(line.split(" = ", 1) for line in content[:start].decode("ascii").splitlines())
-    shape = [int(size) for size in header["DimSize"].split()][::-1]
-    return np.frombuffer(content, "<u2", offset=start).reshape(shape)
-
-
-def write_stack(name: str, values: np.ndarray, kind: str) -> None:
-    sizes = " ".join(map(str, values.shape[::-1]))
-    header = f"ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nDimSize = {sizes}\n"
-    header += f"ElementType = {META_TYPES[kind]}\nElementDataFile = LOCAL\n"
-    Path(name).write_bytes(header.encode("ascii") + values.astype(kind).tobytes())
-
-
 def stack_calls(tools: str, folder: str) -> Iterator[Call]:
     for name, options in STACKS.items():
         simulate(tools, f"{folder}/{name}.mha", options)
         for option, words in OPTIONS.items():
             yield Call(f"stacks/{name}/{option}", folder, (f"{name}.mha",), tuple(words.split()))
-    values = values_of(f"{folder}/texture.mha").astype(int)
-    for name, kind in TYPES.items():
-        write_stack(f"{folder}/{name}.mha", values // 16 if name == "uint8" else values, kind)
+    values = read_frames(f"{folder}/texture.mha")[0]
+    for name in TYPES:
+        write_stack(f"{folder}/{name}.mha", (values // 16 if name == "uint8" else values).astype(name))
         for method in ("refined", "published"):
             yield Call(f"types/{name}/{method}", folder, (f"{name}.mha",), ("--method", method))
     simulate(tools, f"{folder}/mosaic.mha", "--reference texture --frames 30 --bayer GRBG --transmission 0.6,1,0.5")

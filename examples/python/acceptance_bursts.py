@@ -12,8 +12,8 @@ from acceptance_emva import system_gain
 from acceptance_lines import CAMERA, expected_of, simulator_options, stream_of
 from acceptance_programs import ProgramError, run
 from acceptance_stacks import judge
+from frame_stacks import read_frames, write_frames
 
-DATA = b"ElementDataFile = LOCAL\n"  # last line of the header of a MetaImage; the pixels follow
 DIP_DEPTH = 0.12  # decrease of the illumination in the middle of a dip [1]
 # Standard deviation of the Gaussian dip, in units of the frame width. It is so wide that the dip resembles flicker.
 DIP_RADIUS = 0.6
@@ -22,21 +22,6 @@ OTHER_GAIN = 1.5  # gain of a frame with another gain, over the gain of the burs
 # Electrons of a frame whose shot noise is below the rounding; it gives the mean of the pixels of a burst.
 NOISELESS_ELECTRONS = 1e9
 COMPARED_QUANTITIES = ("gain", "offset", "read_noise")
-
-
-def read_frames(name):
-    """Returns the frames (t, y, x) of a stack that simulate-sensor-noise wrote, and the bytes in front of them."""
-    content = Path(name).read_bytes()
-    start = content.index(DATA) + len(DATA)
-    header = dict(line.split(" = ", 1) for line in content[:start].decode("ascii").splitlines())
-    if header["ElementType"] != "MET_USHORT" or header["CompressedData"] != "False":
-        raise ValueError(f"{name}: expected uncompressed MET_USHORT, found {header['ElementType']}")
-    shape = [int(size) for size in header["DimSize"].split()][::-1]
-    return np.frombuffer(content, "<u2", offset=start).reshape(shape).copy(), content[:start]
-
-
-def write_frames(name, frames, header):
-    Path(name).write_bytes(header + frames.astype("<u2").tobytes())
 
 
 class Camera:

@@ -28,6 +28,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+from frame_stacks import write_dng
 
 BLACK, WHITE = 512, 16383  # [DN]
 LEVELS = (0.03, 0.1, 0.3)  # of green, from black to white
@@ -36,52 +37,6 @@ OFFSETS = (4e-8, 2e-6)  # O of the same: a read noise of 7 electrons, and of 2
 LIGHTS = {"grey": (1.0, 1.0, 1.0), "daylight": (0.5, 1.0, 0.65), "tungsten": (0.8, 1.0, 0.35)}  # R, G, B over G
 METHODS = {"ppg": 0, "amaze": 1, "vng4": 2, "monochrome": 3, "rcd": 5, "lmmse": 6}  # of darktable's demosaicing
 MAD = 0.6745  # median of the absolute value of a normal variable
-
-BYTE, ASCII, SHORT, LONG, RATIONAL, SRATIONAL = 1, 2, 3, 4, 5, 10
-FORMATS = {BYTE: "B", ASCII: "B", SHORT: "H", LONG: "I", RATIONAL: "I", SRATIONAL: "i"}
-PAIRS = (RATIONAL, SRATIONAL)
-
-
-def write_dng(path: Path, codes: np.ndarray) -> None:
-    """Writes a mosaic (RGGB) as an uncompressed DNG file."""
-    height, width = codes.shape
-    tags = [
-        (254, LONG, [0]),
-        (256, LONG, [width]),
-        (257, LONG, [height]),
-        (258, SHORT, [16]),
-        (259, SHORT, [1]),
-        (262, SHORT, [32803]),
-        (271, ASCII, b"Maker\0"),
-        (272, ASCII, b"Model\0"),
-        (273, LONG, [8]),
-        (274, SHORT, [1]),
-        (277, SHORT, [1]),
-        (278, LONG, [height]),
-        (279, LONG, [2 * codes.size]),
-        (33421, SHORT, [2, 2]),
-        (33422, BYTE, [0, 1, 1, 2]),
-        (50706, BYTE, [1, 4, 0, 0]),
-        (50708, ASCII, b"Maker Model\0"),
-        (50714, LONG, [BLACK]),
-        (50717, LONG, [WHITE]),
-        (50721, SRATIONAL, [1, 1, 0, 1, 0, 1, 0, 1, 1, 1, 0, 1, 0, 1, 0, 1, 1, 1]),
-        (50728, RATIONAL, [1, 1, 1, 1, 1, 1]),
-        (50778, SHORT, [21]),
-    ]
-    start = 8 + 2 * codes.size
-    entries, extra = b"", b""
-    for tag, kind, values in tags:
-        data = struct.pack(f"<{len(values)}{FORMATS[kind]}", *values)
-        count = len(values) // (2 if kind in PAIRS else 1)
-        if len(data) > 4:
-            at = start + 6 + 12 * len(tags) + len(extra)
-            extra += data + b"\0" * (len(data) % 2)
-            data = struct.pack("<I", at)
-        entries += struct.pack("<HHI", tag, kind, count) + data.ljust(4, b"\0")
-    head = b"II*\0" + struct.pack("<I", start)
-    directory = struct.pack("<H", len(tags)) + entries + b"\0\0\0\0" + extra
-    path.write_bytes(head + codes.astype("<u2").tobytes() + directory)
 
 
 def history(method: str) -> str:
@@ -139,7 +94,7 @@ def export(cli: str, folder: Path, codes: np.ndarray, method: str) -> np.ndarray
     """Returns what darktable makes of a mosaic, on [0, 1]."""
     raw, xmp, pfm = (folder / name for name in ("flat.dng", "flat.xmp", "flat.pfm"))
     pfm.unlink(missing_ok=True)
-    write_dng(raw, codes)
+    write_dng(raw, codes, BLACK, WHITE, neutral=[1, 1, 1, 1, 1, 1])
     xmp.write_text(history(method))
     command = [cli, raw, xmp, pfm, "--icc-type", "LIN_REC709", "--apply-custom-presets", "false", "--core"]
     command += ["--configdir", folder / "config", "--cachedir", folder / "cache", "--library", ":memory:"]

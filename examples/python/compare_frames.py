@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 from typing import NamedTuple
 
+LAST_LINE = b"ElementDataFile = LOCAL\n"  # of the header of a MetaImage; the pixels follow
 METAIMAGE_TYPES = {"MET_UCHAR": "|u1", "MET_USHORT": "<u2"}
 NPY_MAGIC = b"\x93NUMPY\x01\x00"
 NPY_ALIGNMENT = 64  # the header of an .npy file ends at a multiple of it [bytes]
@@ -50,11 +51,16 @@ class Stack(NamedTuple):
         return Stack(self.frames, (self.height + 1 - y) // 2, (self.width + 1 - x) // 2, self.kind, samples)
 
 
+def metaimage_parts(content):
+    """Returns the header of a MetaImage with local pixels, by the names of its lines, and where the pixels begin."""
+    start = content.index(LAST_LINE) + len(LAST_LINE)
+    return dict(line.split(" = ", 1) for line in content[:start].decode("ascii").splitlines()), start
+
+
 def read_metaimage(name):
     """Returns the stack of a MetaImage file as simulate-sensor-noise writes it: 3-D, not compressed."""
     content = Path(name).read_bytes()
-    start = content.index(b"ElementDataFile = LOCAL\n") + len(b"ElementDataFile = LOCAL\n")
-    header = dict(line.split(" = ", 1) for line in content[:start].decode().splitlines())
+    header, start = metaimage_parts(content)
     width, height, frames = map(int, header["DimSize"].split())
     return Stack(frames, height, width, METAIMAGE_TYPES[header["ElementType"]], memoryview(content)[start:])
 

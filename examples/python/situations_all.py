@@ -21,6 +21,7 @@ import situations_values
 from acceptance_bursts import estimate
 from acceptance_lines import stream_of
 from acceptance_stacks import judge, judge_frames
+from frame_stacks import write_stack
 
 MODULES = (
     situations,
@@ -42,13 +43,6 @@ COMPARED = {
     "read_noise": ("read_noise",),
     "linearity_error": ("linearity", "linearity_error_percent"),
 }
-TYPES = {
-    "uint8": "MET_UCHAR",
-    "uint16": "MET_USHORT",
-    "int16": "MET_SHORT",
-    "float32": "MET_FLOAT",
-    "float64": "MET_DOUBLE",
-}  # element types of MetaImage, by NumPy's names
 
 
 def all_situations():
@@ -60,16 +54,6 @@ def quantity_at(report, path):
     for name in path:
         report = report.get(name) or {}
     return report
-
-
-def write_stack(name, frames):
-    """Writes frames (t, y, x) with a pixel type of TYPES as an uncompressed MetaImage."""
-    size = " ".join(map(str, frames.shape[::-1]))
-    words = f"ObjectType = Image\nNDims = 3\nDimSize = {size}\nElementType = {TYPES[frames.dtype.name]}\n"
-    words += "BinaryData = True\nBinaryDataByteOrderMSB = False\nElementDataFile = LOCAL\n"
-    Path(name).write_bytes(
-        words.encode() + np.ascontiguousarray(frames.astype(frames.dtype.newbyteorder("<"))).tobytes()
-    )
 
 
 def make(situation, scene, number):

@@ -21,10 +21,9 @@ from typing import NamedTuple
 
 import numpy as np
 import situations as camera
-from acceptance_bursts import read_frames
 from acceptance_stacks import holds, is_identified
+from frame_stacks import read_frames, write_stack
 from one_likelihood import estimate
-from situations_all import write_stack
 from situations_dark import dark_scene, disc
 from situations_good import shifted
 from situations_parts import stereo

@@ -4,65 +4,23 @@
 
 import os
 import struct
+import sys
+from pathlib import Path
 
 import itk
 import itk_sensornoise
 import pytest
 
 pytest.importorskip("rawpy")
-
-BYTE, ASCII, SHORT, LONG, RATIONAL, SRATIONAL = 1, 2, 3, 4, 5, 10
-SIZES = {BYTE: 1, ASCII: 1, SHORT: 2, LONG: 4, RATIONAL: 8, SRATIONAL: 8}
-FORMATS = {BYTE: "B", SHORT: "H", LONG: "I", RATIONAL: "I", SRATIONAL: "i"}
+sys.path.append(str(Path(__file__).resolve().parents[2] / "examples" / "python"))
+from frame_stacks import LONG, RATIONAL, SHORT
+from frame_stacks import write_dng as write_dng_of
 
 
 def write_dng(name, codes, cfa=(0, 1, 1, 2), black=100, white=4095):
-    """Writes an uncompressed DNG with 16 bits. `cfa`: 0 red, 1 green, 2 blue."""
-    height, width = codes.shape
-    tags = [
-        (254, LONG, [0]),
-        (256, LONG, [width]),
-        (257, LONG, [height]),
-        (258, SHORT, [16]),
-        (259, SHORT, [1]),
-        (262, SHORT, [32803]),
-        (271, ASCII, b"Maker\0"),
-        (272, ASCII, b"Model 5\0"),
-        (273, LONG, [8]),
-        (274, SHORT, [1]),
-        (277, SHORT, [1]),
-        (278, LONG, [height]),
-        (279, LONG, [codes.nbytes]),
-        (33421, SHORT, [2, 2]),
-        (33422, BYTE, list(cfa)),
-        (34665, LONG, [0]),
-        (50706, BYTE, [1, 4, 0, 0]),
-        (50708, ASCII, b"Maker Model 5\0"),
-        (50714, LONG, [black]),
-        (50717, LONG, [white]),
-        (50721, SRATIONAL, [1, 1, 0, 1, 0, 1, 0, 1, 1, 1, 0, 1, 0, 1, 0, 1, 1, 1]),
-        (50778, SHORT, [21]),
-    ]
+    """Writes a DNG of a camera that records 1/50 s at ISO 400."""
     exif = [(33434, RATIONAL, [1, 50]), (34855, SHORT, [400])]
-    start = 8 + codes.nbytes
-    after = start + len(directory(tags, start))
-    tags = [(tag, kind, [after] if tag == 34665 else values) for tag, kind, values in tags]
-    head = b"II*\0" + struct.pack("<I", start)
-    name.write_bytes(head + codes.astype("<u2").tobytes() + directory(tags, start) + directory(exif, after))
-
-
-def directory(tags, start):
-    """Returns a TIFF directory at the position `start`, followed by its values."""
-    entries, extra = b"", b""
-    for tag, kind, values in tags:
-        data = values if kind == ASCII else struct.pack(f"<{len(values)}{FORMATS[kind]}", *values)
-        count = len(data) // SIZES[kind]
-        if len(data) > 4:
-            at = start + 2 + 12 * len(tags) + 4 + len(extra)
-            extra += data + b"\0" * (len(data) % 2)
-            data = struct.pack("<I", at)
-        entries += struct.pack("<HHI", tag, kind, count) + data.ljust(4, b"\0")
-    return struct.pack("<H", len(tags)) + entries + b"\0\0\0\0" + extra
+    write_dng_of(name, codes, black, white, cfa, b"Model 5", exif=exif)
 
 
 @pytest.fixture

@@ -58,7 +58,7 @@ def test_digital_numbers_are_whole_and_clipped():
 @pytest.mark.parametrize("dtype", ["uint8", "uint16", "int16", "float32", "float64"])
 def test_a_stack_of_any_type_is_read_as_it_was_written(dtype, tmp_path):
     itk = pytest.importorskip("itk")
-    from situations_all import write_stack
+    from frame_stacks import write_stack
 
     frames = np.arange(24).reshape(2, 3, 4).astype(dtype)
     write_stack(tmp_path / "burst.mha", frames)
