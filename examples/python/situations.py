@@ -47,6 +47,19 @@ class Situation(NamedTuple):
     scenes: tuple[str, ...] = ()  # names in SCENES; none: the situation makes its scene
 
 
+def situations_of(prefix, kinds):
+    """Returns the lines of kinds: functions make(random, electrons, strength) by their names, with their strengths."""
+    return tuple(
+        Situation(
+            f"{prefix}/{kind}-{strength:g}",
+            lambda random, electrons, make=make, strength=strength: make(random, electrons, strength),
+            scenes=tuple(SCENES),
+        )
+        for kind, (make, strengths) in kinds.items()
+        for strength in strengths
+    )
+
+
 def smooth(image, radius):
     """Returns the image with a periodic Gaussian blur of this standard deviation [pixels]."""
     y, x = (np.fft.fftfreq(size) for size in image.shape)

@@ -7,7 +7,7 @@ frames with skipped blocks.
 """
 
 import numpy as np
-from situations import FRAMES, GAIN, OFFSET, READ_NOISE, SCENES, SHAPE, Burst, Situation, digitise, illumination, smooth
+from situations import FRAMES, GAIN, OFFSET, READ_NOISE, SHAPE, Burst, digitise, illumination, situations_of, smooth
 
 BITS = 12
 
@@ -84,12 +84,4 @@ KINDS = {
     "skipped-blocks": (skipped, (0.5, 0.8)),
 }
 
-SITUATIONS = tuple(
-    Situation(
-        f"light/{kind}-{strength:g}",
-        lambda random, electrons, make=make, strength=strength: make(random, electrons, strength),
-        scenes=tuple(SCENES),
-    )
-    for kind, (make, strengths) in KINDS.items()
-    for strength in strengths
-)
+SITUATIONS = situations_of("light", KINDS)

@@ -11,13 +11,12 @@ from situations import (
     GAIN,
     OFFSET,
     READ_NOISE,
-    SCENES,
     SHAPE,
     Burst,
-    Situation,
     digitise,
     expose,
     illumination,
+    situations_of,
 )
 
 BITS = 16  # twice the usual gain does not saturate
@@ -98,12 +97,4 @@ KINDS = {
     "vignetting": (vignetting, (0.3, 0.5)),
 }
 
-SITUATIONS = tuple(
-    Situation(
-        f"parts/{kind}-{strength:g}",
-        lambda random, electrons, make=make, strength=strength: make(random, electrons, strength),
-        scenes=tuple(SCENES),
-    )
-    for kind, (make, strengths) in KINDS.items()
-    for strength in strengths
-)
+SITUATIONS = situations_of("parts", KINDS)

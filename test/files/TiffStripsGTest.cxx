@@ -128,23 +128,9 @@ TEST_F(TiffStrips, AnyChangedBitOfADeflatedPageIsRefusedOrDoesNotMatter)
   TiffOf tiff;
   tiff.compression = 8;
   tiff.pages.resize(2);
-  const std::string good = tiff.Bytes();
-  std::size_t       accepted = 0;
-  for (std::size_t bit = 0; bit < 8 * good.size(); ++bit)
-  {
-    std::string damaged = good;
-    damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ (1 << bit % 8));
-    const std::string file = Write("a.tif", damaged);
-    try
-    {
-      const FrameFile found = InspectFrameFile(file);
-      ++accepted;
-      EXPECT_EQ(found.width * found.height * found.frames, 13u * 9 * 2) << "bit " << bit;
-    }
-    catch (const FileError &)
-    {}
-  }
-  EXPECT_LT(accepted, good.size());
+  ChangeEachBit("a.tif", tiff.Bytes(), [](const FrameFile & found, std::size_t bit) {
+    EXPECT_EQ(found.width * found.height * found.frames, 13u * 9 * 2) << "bit " << bit;
+  });
 }
 
 } // namespace

@@ -295,26 +295,12 @@ TEST_F(TiffTiles, AnyChangedBitOfTwoPagesIsRefusedOrLeavesTheSize)
   tiff.bits = 8;
   tiff.compression = 8;
   tiff.pages.resize(2);
-  const std::string good = tiff.Bytes();
-  std::size_t       accepted = 0;
-  for (std::size_t bit = 0; bit < 8 * good.size(); ++bit)
-  {
-    std::string damaged = good;
-    damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ (1 << bit % 8));
-    const std::string file = Write("a.tif", damaged);
-    try
-    {
-      const FrameFile found = InspectFrameFile(file);
-      ++accepted;
-      ASSERT_EQ(found.width * found.height * found.frames, 13u * 9 * 2) << "bit " << bit;
-      std::vector<unsigned char> pixels(found.bytes);
-      found.reader->Read(found, 0, 2, pixels.data());
-      ASSERT_EQ(pixels[13 * 17 + 12], TiffOf::Sample(1, 12, 8)) << "bit " << bit;
-    }
-    catch (const FileError &)
-    {}
-  }
-  EXPECT_LT(accepted, good.size());
+  ChangeEachBit("a.tif", tiff.Bytes(), [](const FrameFile & found, std::size_t bit) {
+    ASSERT_EQ(found.width * found.height * found.frames, 13u * 9 * 2) << "bit " << bit;
+    std::vector<unsigned char> pixels(found.bytes);
+    found.reader->Read(found, 0, 2, pixels.data());
+    ASSERT_EQ(pixels[13 * 17 + 12], TiffOf::Sample(1, 12, 8)) << "bit " << bit;
+  });
 }
 
 } // namespace

@@ -23,6 +23,14 @@
 namespace sensornoise::test
 {
 
+/** Returns the bytes with one bit changed, which is counted from the lowest of the first byte. */
+inline std::string
+WithChangedBit(std::string bytes, std::size_t bit)
+{
+  bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << bit % 8));
+  return bytes;
+}
+
 /** Writes into a folder of its own. */
 class FrameFileTest : public FolderTest
 {
@@ -53,6 +61,28 @@ protected:
       EXPECT_EQ(said.find('\n'), std::string::npos) << said;
       return said;
     }
+  }
+
+  /** Inspects the file with each of its bits changed, one at a time, and calls check(file, bit) for those that are
+   * accepted. These are fewer than one bit of a byte. */
+  template <typename TCheck>
+  void
+  ChangeEachBit(const std::string & name, const std::string & good, TCheck check) const
+  {
+    std::size_t accepted = 0;
+    for (std::size_t bit = 0; bit < 8 * good.size() && !HasFatalFailure(); ++bit)
+    {
+      const std::string file = Write(name, WithChangedBit(good, bit));
+      try
+      {
+        const FrameFile found = InspectFrameFile(file);
+        ++accepted;
+        check(found, bit);
+      }
+      catch (const FileError &)
+      {}
+    }
+    EXPECT_LT(accepted, good.size());
   }
 
   void
