@@ -22,6 +22,10 @@ cmake --install "$build" --prefix "$work/prefix" >"$work/install.log"
 cmake -S "$here" -B "$work/build" -DCMAKE_BUILD_TYPE=Release -DSensorNoise_ROOT="$work/prefix" "$@"
 cmake --build "$work/build"
 "$work/build/consumer"
+"$work/build/core"
+# The core calls no code of the page: a program links that from a static library where it makes a page.
+page_code="$(nm -C "$work/build/core" | grep -E ' sensornoise::(ToHtml|ToSvg|SvgPanel)' || true)"
+[ -z "$page_code" ] || { printf 'core has code of the page:\n%s\n' "$page_code" >&2; exit 1; }
 [ ! -e "$work/prefix/bin/estimate-sensor-noise" ] || "$work/prefix/bin/estimate-sensor-noise" --version
 
 # The project that the documents show, as it stands there, measures a burst.
