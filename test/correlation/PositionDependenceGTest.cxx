@@ -23,6 +23,45 @@ Residuals(const FrameOf & frameOf)
   return ComputeResiduals(Frame, Frames, std::vector<double>(Frame.Pixels(), 100.0), frameOf);
 }
 
+/** Returns white noise minus its mean over each \a length pixels of a row, from column \a first on, as after a
+ * compression that drops the mean of each block. */
+FrameOf
+WithoutMeans(std::size_t length, std::size_t first)
+{
+  const FrameOf white = WhiteNoise(Frame, 5);
+  return [=](std::size_t t) {
+    DoubleFrame frame = white(t);
+    for (std::size_t y = 0; y < Frame.height; ++y)
+    {
+      for (std::size_t x = first; x + length <= Frame.width; x += length)
+      {
+        double * row = frame.values.data() + y * Frame.width + x;
+        double   mean = 0.0;
+        for (std::size_t k = 0; k < length; ++k)
+        {
+          mean += row[k] / static_cast<double>(length);
+        }
+        for (std::size_t k = 0; k < length; ++k)
+        {
+          row[k] -= mean;
+        }
+      }
+    }
+    return frame;
+  };
+}
+
+double
+Coefficient(const std::vector<BlockPhases> & tiles, std::size_t k)
+{
+  BlockPhases sum;
+  for (const BlockPhases & tile : tiles)
+  {
+    sum += tile;
+  }
+  return sum.covariance[k] / sum.pairs[k];
+}
+
 /** Returns white samples, enlarged along x by linear interpolation. The first sample is 0.5 / ratio - 0.5 from pixel 0.
  */
 FrameOf
@@ -73,7 +112,69 @@ FilterUnlikeColumns(const DoubleFrame & in)
   }
   return out;
 }
+
+/** Five standard deviations of a coefficient [1]: from an eighth of 128^2 pixels, with 39 degrees of freedom. */
+const double Tolerance = 5.0 / std::sqrt(128.0 * 128.0 / 8.0 * 39.0);
 } // namespace
+
+TEST(SensorNoiseBlockPhases, WhiteNoiseHasNoPlace)
+{
+  const auto tiles = SumBlockPhases(Residuals(WhiteNoise(Frame, 3)), SerialFor);
+  for (std::size_t k = 0; k < 2 * BlockPhases::Period; ++k)
+  {
+    EXPECT_NEAR(Coefficient(tiles, k), 0.0, Tolerance) << k;
+  }
+  EXPECT_EQ(RmsOfPhases(tiles), 0.0);
+}
+
+TEST(SensorNoiseBlockPhases, NeighboursOfABlockShareItsMeanAndThoseOfTwoDoNot)
+{
+  // The variance is 7/8, the covariance within a block -1/8.
+  for (const std::size_t first : { std::size_t{ 0 }, std::size_t{ 3 } })
+  {
+    const auto tiles = SumBlockPhases(Residuals(WithoutMeans(8, first)), SerialFor);
+    for (std::size_t k = 0; k < BlockPhases::Period; ++k)
+    {
+      const double expected = k == (first + 7) % 8 ? 0.0 : -1.0 / 7.0;
+      EXPECT_NEAR(Coefficient(tiles, k), expected, Tolerance + 0.01)
+        << first << " " << k; // some pixels are in no block
+      EXPECT_NEAR(Coefficient(tiles, BlockPhases::Period + k), 0.0, Tolerance) << first << " " << k;
+    }
+    // The deviations from the mean of the axis, -1/8, are 1/56 for seven phases and 1/8 for one, of sixteen phases. The
+    // part of chance is subtracted, and up to a sixteenth of the pixels is in no block.
+    EXPECT_NEAR(RmsOfPhases(tiles), std::sqrt((7.0 / (56.0 * 56.0) + 1.0 / 64.0) / 16.0), 0.004) << first;
+  }
+}
+
+TEST(SensorNoiseBlockPhases, BlocksThatDropTheirMeanAreNotLinearWhateverTheirLength)
+{
+  for (const std::size_t length : { std::size_t{ 4 }, std::size_t{ 8 }, std::size_t{ 16 } })
+  {
+    const NoiseCorrelation found = MeasureNoiseCorrelation(Residuals(WithoutMeans(length, 0)), 0.0, SerialFor);
+    EXPECT_EQ(found.kind, NoiseKind::NotLinear) << length;
+  }
+}
+
+TEST(SensorNoiseBlockPhases, SharpenedFramesAreFiltered)
+{
+  const FrameOf white = WhiteNoise(Frame, 9);
+  const FrameOf sharpened = [=](std::size_t t) {
+    const DoubleFrame in = white(t);
+    DoubleFrame       out = in;
+    for (std::size_t p = 1; p + 1 < in.values.size(); ++p)
+    {
+      out.values[p] = 1.2 * in.values[p] - 0.1 * (in.values[p - 1] + in.values[p + 1]);
+    }
+    return out;
+  };
+  // In a flat field neither the signal nor the place distinguishes rounding from a filter: the class is filtered.
+  const auto tiles = SumBlockPhases(Residuals(sharpened), SerialFor);
+  EXPECT_EQ(RmsOfPhases(tiles), 0.0);
+  for (std::size_t k = 0; k < BlockPhases::Period; ++k)
+  {
+    EXPECT_NEAR(Coefficient(tiles, k), -0.24 / 1.46, Tolerance) << k;
+  }
+}
 
 TEST(SensorNoiseEnlargementTrace, TwiceTheSizeAlternates)
 {
