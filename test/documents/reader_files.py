@@ -17,18 +17,21 @@ from collections.abc import Callable
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "fuzz"))
 
 import frame_files
+import frame_parts
+import pixel_codings
+import tiff_files
 
 ROW_BYTES = 16  # rows of a Raspberry Pi's raw stream end at a multiple of so many bytes
 
 
 def read_stack(name: str) -> list[bytes]:
-    """Reads an uncompressed MetaImage of 16-bit pixels and makes its size that of frame_files."""
+    """Reads an uncompressed MetaImage of 16-bit pixels and makes its size that of the files to be made."""
     header, pixels = pathlib.Path(name).read_bytes().split(b"LOCAL\n", 1)
     size = re.search(rb"DimSize = (\d+) (\d+) (\d+)", header)
     if size is None:
         sys.exit(f"{name} has no DimSize of three numbers")
-    frame_files.WIDTH, frame_files.HEIGHT, frames = map(int, size.groups())
-    length = 2 * frame_files.WIDTH * frame_files.HEIGHT
+    frame_parts.WIDTH, frame_parts.HEIGHT, frames = map(int, size.groups())
+    length = 2 * frame_parts.WIDTH * frame_parts.HEIGHT
     return [pixels[length * t : length * (t + 1)] for t in range(frames)]
 
 
@@ -41,16 +44,16 @@ def write(name: str | pathlib.Path, data: bytes) -> None:
 
 def tif(frames: list[bytes], target: str) -> None:
     """Writes uncompressed TIFF, one frame a file, or one stack if the target has no number."""
-    rows = frame_files.HEIGHT
+    rows = frame_parts.HEIGHT
     groups = [[frame] for frame in frames] if "{" in target else [frames]
     for number, group in enumerate(groups):
-        write(target.format(number), frame_files._tiff("s.tif", group, "none", rows=rows).data)
+        write(target.format(number), tiff_files.tiff("s.tif", group, "none", rows=rows).data)
 
 
 def hyperstack(frames: list[bytes], target: str) -> None:
     """Writes a hyperstack of ImageJ with 2 channels and 3 planes, which are alike."""
     axes = f"channels=2\nslices=3\nframes={len(frames)}\nhyperstack=true"
-    write(target, frame_files._described([frame for frame in frames for _ in range(6)], axes).data)
+    write(target, tiff_files.described([frame for frame in frames for _ in range(6)], axes).data)
 
 
 def first_case(frames: list[bytes], target: str, make: Callable[[list[bytes]], list], name: str) -> None:
@@ -84,7 +87,7 @@ def mraw(frames: list[bytes], target: str) -> None:
 def dng(frames: list[bytes], target: str) -> None:
     """Writes raw files of a camera, one frame a file, 14 bits."""
     for number, frame in enumerate(frames):
-        write(target.format(number), frame_files._dng("s.dng", frame, 14).data)
+        write(target.format(number), tiff_files.dng("s.dng", frame, 14).data)
 
 
 def raw(frames: list[bytes], target: str) -> None:
@@ -101,17 +104,17 @@ def raw_gap(frames: list[bytes], target: str) -> None:
 def mono12p(frames: list[bytes], target: str) -> None:
     """Writes 12 packed bits, the lowest first, one frame a file."""
     for number, frame in enumerate(frames):
-        write(target.format(number), frame_files._lowest_first(frame_files._codes([frame], 12), 12))
+        write(target.format(number), pixel_codings.lowest_first(pixel_codings.codes_of([frame], 12), 12))
 
 
 def raspberry(frames: list[bytes], target: str) -> None:
     """Writes a stream of 12-bit frames as MIPI CSI-2 packs them, whose rows end at a multiple of ROW_BYTES."""
     made = bytearray()
     for frame in frames:
-        codes = frame_files._codes([frame], 12)
-        for start in range(0, len(codes), frame_files.WIDTH):
+        codes = pixel_codings.codes_of([frame], 12)
+        for start in range(0, len(codes), frame_parts.WIDTH):
             row = bytearray()
-            for first, second in zip(*[iter(codes[start : start + frame_files.WIDTH])] * 2, strict=True):
+            for first, second in zip(*[iter(codes[start : start + frame_parts.WIDTH])] * 2, strict=True):
                 row += bytes((first >> 4, second >> 4, (second & 15) << 4 | first & 15))
             made += row + bytes(-len(row) % ROW_BYTES)
     write(target, bytes(made))

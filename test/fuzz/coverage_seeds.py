@@ -11,10 +11,11 @@ import sys
 from random import Random
 
 import frame_files
+import frame_parts
 
 # Before known.py takes them over. FrameFileFuzzer.cxx has the same numbers.
-frame_files.WIDTH = 8
-frame_files.HEIGHT = 4
+frame_parts.WIDTH = 8
+frame_parts.HEIGHT = 4
 
 from known import known_cases  # noqa: E402 - see above
 
@@ -52,21 +53,21 @@ VARIANTS = [
 ]
 
 
-def varied(cases: list[frame_files.Case]) -> list[frame_files.Case]:
+def varied(cases: list[frame_parts.Case]) -> list[frame_parts.Case]:
     by_name = {case.name: case for case in cases}
     made = []
     for name, old, new in VARIANTS:
         first, *rest = by_name[name].files
         assert old in first.data, (name, old)
-        file = frame_files.File(first.name, first.data.replace(old, new, 1))
-        made.append(frame_files.Case(name, [file, *rest], by_name[name].frames))
+        file = frame_parts.File(first.name, first.data.replace(old, new, 1))
+        made.append(frame_parts.Case(name, [file, *rest], by_name[name].frames))
     return made
 
 
-def inputs_of(case: frame_files.Case) -> list[bytes]:
+def inputs_of(case: frame_parts.Case) -> list[bytes]:
     """The files of a case as one input, or, of frames in files of their own, each file as one."""
 
-    def part(file: frame_files.File) -> bytes:
+    def part(file: frame_parts.File) -> bytes:
         return b"%%FILE%%" + file.name.encode() + b"\n" + file.data
 
     if len(case.frames) > 1:
@@ -77,7 +78,7 @@ def inputs_of(case: frame_files.Case) -> list[bytes]:
 def main() -> None:
     folder = pathlib.Path(sys.argv[1])
     random = Random(1)
-    pixels = frame_files.WIDTH * frame_files.HEIGHT
+    pixels = frame_parts.WIDTH * frame_parts.HEIGHT
     # Eleven bits: below what 12 bits hold, as the packed formats need.
     frames = [b"".join(random.randrange(2048).to_bytes(2, "little") for _ in range(pixels)) for _ in range(FRAMES)]
     sound = frame_files.all_cases(frames)

@@ -23,7 +23,8 @@ import tempfile
 import time
 from random import Random
 
-from frame_files import HEIGHT, WIDTH, Case, all_cases
+from frame_files import all_cases
+from frame_parts import HEIGHT, WIDTH, Case
 from known import known_cases, misplaced
 from mutations import misplace, mutate
 from targets import Answer, PythonTarget, ToolTarget

@@ -7,7 +7,8 @@ import struct
 import zlib
 from collections.abc import Callable
 
-from frame_files import HEIGHT, WIDTH, Case, File, all_cases, png_chunk
+from frame_files import all_cases, png_chunk
+from frame_parts import HEIGHT, WIDTH, Case, File
 
 Change = Callable[[bytes], bytes]
 

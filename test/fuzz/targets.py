@@ -10,7 +10,7 @@ import select
 import subprocess
 from dataclasses import dataclass
 
-from frame_files import Case
+from frame_parts import Case
 
 SECONDS = 5.0  # that an answer may take
 MEMORY = 4 << 30  # bytes that a tool may ask for: what a header makes up is to be refused
