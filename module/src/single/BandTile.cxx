@@ -67,6 +67,27 @@ SumWindows(const float * from, std::size_t stride, std::size_t count, float * su
     to[i] = sum;
   }
 }
+
+/** to[i] = sum of the 6 x 6 values from \a from + i on, with the weights of the level. \a sums has room for count + 5
+ * values. */
+void
+WeightWindows(const float * from, std::size_t stride, std::size_t count, float * sums, float * to)
+{
+  constexpr std::size_t                     size = WaveletWindow::Size;
+  constexpr const std::array<float, size> & weights = WaveletWindow::level; // the same from both ends
+  static_assert(size == 6, "three pairs of equal weights");
+  const float *const a = from, *const b = a + stride, *const c = b + stride, *const d = c + stride,
+                     *const e = d + stride, *const f = e + stride;
+  for (std::size_t i = 0; i < count + size - 1; ++i)
+  {
+    sums[i] = weights[0] * (a[i] + f[i]) + weights[1] * (b[i] + e[i]) + weights[2] * (c[i] + d[i]);
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    to[i] = weights[0] * (sums[i] + sums[i + 5]) + weights[1] * (sums[i + 1] + sums[i + 4]) +
+            weights[2] * (sums[i + 2] + sums[i + 3]);
+  }
+}
 } // namespace
 
 template <typename TPixel>
@@ -164,15 +185,14 @@ BandTile::MeasureWindows()
     float * const ofRow = roughness.data() + y * m_Tile.width;
     SumWindows<Window::Size>(m_SquaredDeviations.data() + y * columns, columns, m_Tile.width, m_Sums.data(), ofRow);
     float * const levels = level.data() + y * m_Tile.width;
-    SumWindows<Window::Size>(m_Approximation.data() + (y + Window::LevelFirst) * m_Columns + Window::LevelFirst,
-                             m_Columns,
-                             m_Tile.width,
-                             m_Sums.data(),
-                             levels);
+    WeightWindows(m_Approximation.data() + (y + Window::LevelFirst) * m_Columns + Window::LevelFirst,
+                  m_Columns,
+                  m_Tile.width,
+                  m_Sums.data(),
+                  levels);
     for (std::size_t i = 0; i < m_Tile.width; ++i)
     {
       ofRow[i] *= perSquare;
-      levels[i] *= 1.0F / size;
     }
   }
 }
