@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the sentences of README.md and documentation/: their length, their beginning and their words.
+"""Checks the sentences of README.md, CONTRIBUTING.md, module/ and documentation/: length, beginning and words.
 
     check_language.py [FILE...] [--count]
 
@@ -56,7 +56,11 @@ END = re.compile(r"(?<=[.!?;])(?<!\be\.g\.)(?<!\bF\.)(?<!\bM\.)\s+(?=[A-Z0-9\"'â
 
 def documents() -> list[pathlib.Path]:
     """Lists the documents that are checked."""
-    return [SOURCE / "README.md", SOURCE / "wrapping" / "README.md", *sorted((SOURCE / "documentation").rglob("*.md"))]
+    return [
+        *(SOURCE / name for name in ("README.md", "CONTRIBUTING.md", "wrapping/README.md")),
+        *sorted((SOURCE / "module").glob("*.md")),
+        *sorted((SOURCE / "documentation").rglob("*.md")),
+    ]
 
 
 def prose(text: str) -> Iterator[tuple[int, str]]:
@@ -82,7 +86,7 @@ def prose(text: str) -> Iterator[tuple[int, str]]:
 def plain(text: str) -> str:
     """Returns prose without code, addresses and the marks of emphasis."""
     text = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", text)
-    text = re.sub(r"\$[^$]+\$|`[^`]+`", "x", text)
+    text = re.sub(r"\$[^$]+\$|`[^`]+`", "X", text)  # a capital, as it may begin a sentence
     text = re.sub(r"<https?://[^>]*>|https?://\S+", "x", text)
     return text.replace("**", "").replace("*", "")
 
