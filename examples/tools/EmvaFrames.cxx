@@ -13,8 +13,11 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <numeric>
+#include <set>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace sensornoise::tools
@@ -131,15 +134,53 @@ AddUp(const FrameList & list, const EmvaSource & source, const EmvaParts & parts
   }
   return series;
 }
+
+/** Files of the series that were opened. */
+class FilesOfSeries
+{
+public:
+  void
+  Add(const FrameList & list, bool isDark)
+  {
+    for (const FrameFile & file : list.files)
+    {
+      if (m_Known.insert(file.name).second)
+      {
+        m_Files.push_back(file);
+      }
+      if (!isDark)
+      {
+        m_OfFlats.insert(file.name);
+      }
+    }
+  }
+
+  /** Returns the files with flat fields, or those without. */
+  FrameList
+  Get(bool hasFlats) const
+  {
+    FrameList list;
+    std::copy_if(m_Files.begin(), m_Files.end(), std::back_inserter(list.files), [&](const FrameFile & file) {
+      return (m_OfFlats.count(file.name) > 0) == hasFlats;
+    });
+    return list;
+  }
+
+private:
+  std::vector<FrameFile> m_Files; // each once
+  std::set<std::string>  m_Known;
+  std::set<std::string>  m_OfFlats;
+};
 } // namespace
 
-EmvaEvaluation
+EmvaMeasured
 EvaluateFrames(const EstimateOptions & options, const EmvaSourceList & all)
 {
   std::vector<std::vector<EmvaSeries>> series; // of each part
   std::vector<std::string>             opened;
   FrameList                            list;
   EmvaParts                            parts;
+  FilesOfSeries                        files;
   for (const EmvaSource & source : all.sources)
   {
     if (source.files != opened)
@@ -147,6 +188,7 @@ EvaluateFrames(const EstimateOptions & options, const EmvaSourceList & all)
       list = OpenFrames(source.files, {}, options.raw, options.choice);
       opened = source.files;
     }
+    files.Add(list, source.isDark);
     RequireFrames(list, source, all);
     const EmvaParts here = PartsOf(options, list);
     if (!series.empty() && here.pattern != parts.pattern)
@@ -169,14 +211,14 @@ EvaluateFrames(const EstimateOptions & options, const EmvaSourceList & all)
   settings.exposureUnit = all.exposureUnit;
   if (!parts.pattern)
   {
-    return EvaluateEmva1288(series.front(), settings);
+    return { EvaluateEmva1288(series.front(), settings), files.Get(true), files.Get(false) };
   }
   EmvaMosaicReport mosaic;
   mosaic.pattern = *parts.pattern;
   std::transform(series.begin(), series.end(), mosaic.planes.begin(), [&settings](const auto & ofPlane) {
     return EvaluateEmva1288(ofPlane, settings);
   });
-  return mosaic;
+  return { mosaic, files.Get(true), files.Get(false) };
 }
 
 } // namespace sensornoise::tools

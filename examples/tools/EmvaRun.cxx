@@ -7,7 +7,9 @@
 #include "tools/EmvaSources.h"
 #include "tools/EstimateOptions.h"
 #include "tools/ExposureList.h"
+#include "tools/FilesHash.h"
 #include "tools/FilesInUse.h"
+#include "tools/FramesTitle.h"
 #include "tools/PendingFile.h"
 #include "tools/SvgAsPng.h"
 #include "tools/TerminalText.h"
@@ -92,24 +94,29 @@ RequireApart(const EstimateOptions & options, const EmvaSourceList & all)
   }
 }
 
-/** Returns the name of the list, or of the first and the last file, without folders. */
+/** Returns the name of the list, or of the first and the last file, without folders. The date is that of the last file
+ * of frames. */
 PageTitle
-TitleOfEvaluation(const EstimateOptions & options)
+TitleOfEvaluation(const EstimateOptions & options, const EmvaMeasured & measured)
 {
   const auto        name = [](const std::string & file) { return std::filesystem::path(file).filename().string(); };
   const std::string last = options.files.size() == 1 ? "" : " to " + name(options.files.back());
-  return { name(options.files.front()) + last, "" };
+  return { name(options.files.front()) + last, TitleOf(measured.frames).date };
 }
 
 /** Returns the text of the file that --plot selects. */
 std::string
-MakePlot(const EstimateOptions & options, const EmvaEvaluation & evaluation)
+MakePlot(const EstimateOptions & options, const EmvaMeasured & measured)
 {
   if (options.Plot() == PlotKind::Page)
   {
-    return std::visit([&](const auto & report) { return ToHtml(report, TitleOfEvaluation(options)); }, evaluation);
+    const bool        hasDark = !measured.dark.files.empty();
+    const InputRecord input{ HashOf(measured.frames),
+                             hasDark ? std::optional<InputFiles>(HashOf(measured.dark)) : std::nullopt };
+    const PageTitle   title = TitleOfEvaluation(options, measured);
+    return std::visit([&](const auto & report) { return ToHtml(report, title, input); }, measured.evaluation);
   }
-  const std::string svg = std::visit([](const auto & report) { return ToSvg(report); }, evaluation);
+  const std::string svg = std::visit([](const auto & report) { return ToSvg(report); }, measured.evaluation);
   return options.Plot() == PlotKind::Png ? SvgAsPng(svg) : svg;
 }
 
@@ -170,11 +177,12 @@ RunEmva1288(const EstimateOptions & options)
   EmvaOutput xml(options.xml, "--xml");
   EmvaOutput plot(options.plot, "--plot");
   RequireApart(options, all);
-  const EmvaEvaluation evaluation = EvaluateFrames(options, all);
-  const auto           toJson = [&] { return std::visit([](const auto & of) { return ToJson(of); }, evaluation); };
+  const EmvaMeasured     measured = EvaluateFrames(options, all);
+  const EmvaEvaluation & evaluation = measured.evaluation;
+  const auto             toJson = [&] { return std::visit([](const auto & of) { return ToJson(of); }, evaluation); };
   json.Write(toJson);
   xml.Write([&] { return std::visit([](const auto & of) { return ToXml(of); }, evaluation); });
-  plot.Write([&] { return MakePlot(options, evaluation); });
+  plot.Write([&] { return MakePlot(options, measured); });
   if (!options.quiet)
   {
     std::cout << ForStandardOutput(std::visit([](const auto & of) { return MakeTable(of); }, evaluation));

@@ -67,6 +67,28 @@ TEST(SensorNoiseEmvaPage, HasTheResultsOfTheStandard)
   EXPECT_EQ(CountOf(page, "<td>no</td>"), static_cast<std::size_t>(FlatExposures + 1 - InFit));
 }
 
+TEST(SensorNoiseEmvaPage, HasTheHashOfTheFrames)
+{
+  InputRecord input;
+  input.frames.files = 24;
+  input.frames.bytes = 4096;
+  input.frames.sha256 = std::string(64, 'a');
+  EXPECT_FALSE(Contains(ToHtml(ReportOf(0.5)), "SHA-256"));
+  const std::string page = ToHtml(ReportOf(0.5), {}, input);
+  ExpectSound(page);
+  EXPECT_TRUE(Contains(page, "24 files, 4096 bytes"));
+  EXPECT_TRUE(Contains(page, "<code>" + input.frames.sha256 + "</code>"));
+  EXPECT_FALSE(Contains(page, "dark frames<small>"));
+  input.dark = input.frames;
+  input.dark->sha256 = std::string(64, 'b');
+  EmvaMosaicReport mosaic;
+  mosaic.planes.fill(ReportOf(0.5));
+  const std::string ofMosaic = ToHtml(mosaic, {}, input);
+  ExpectSound(ofMosaic);
+  EXPECT_EQ(CountOf(ofMosaic, input.frames.sha256), 1U);
+  EXPECT_EQ(CountOf(ofMosaic, input.dark->sha256), 1U);
+}
+
 TEST(SensorNoiseEmvaPage, WithoutPhotonsTheAxesAreExposureAndElectrons)
 {
   const std::string page = ToHtml(ReportOf(0.5, false));

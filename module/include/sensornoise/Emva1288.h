@@ -228,14 +228,14 @@ MakeTable(const EmvaMosaicReport & report);
 
 /** Returns the evaluation as one HTML page, which needs no network and has no scripts: the main results, the photon
  * transfer curve with the notes, all quantities in the order of the standard, the signal-to-noise ratio, the linearity,
- * all exposures, and the settings. */
+ * all exposures, the settings, and the hash of the frames, if \a input has it. */
 SensorNoise_EXPORT std::string
-ToHtml(const EmvaReport & report, const PageTitle & title = {});
+ToHtml(const EmvaReport & report, const PageTitle & title = {}, const std::optional<InputRecord> & input = {});
 
 /** Returns the evaluations of a mosaic as one HTML page: the main results of all planes as a table, and the content of
  * the page of each plane. */
 SensorNoise_EXPORT std::string
-ToHtml(const EmvaMosaicReport & report, const PageTitle & title = {});
+ToHtml(const EmvaMosaicReport & report, const PageTitle & title = {}, const std::optional<InputRecord> & input = {});
 
 /** Returns the photon transfer curve as an SVG file; of a mosaic, the curve of the plane G1. */
 SensorNoise_EXPORT std::string

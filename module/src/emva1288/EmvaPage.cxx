@@ -168,6 +168,13 @@ Body(const EmvaReport & report)
          Details("Settings", "method emva1288", SettingsTable(report));
 }
 
+/** Returns number, size and hash of the frames' files; "" without them. */
+std::string
+InputSection(const std::optional<InputRecord> & input)
+{
+  return input ? Details("Input", "hash of the frames", InputTable(input)) : "";
+}
+
 std::string
 TitleText(const PageTitle & title)
 {
@@ -199,13 +206,15 @@ PlaneTable(const EmvaMosaicReport & report)
 } // namespace
 
 std::string
-ToHtml(const EmvaReport & report, const PageTitle & title)
+ToHtml(const EmvaReport & report, const PageTitle & title, const std::optional<InputRecord> & input)
 {
-  return Page(TitleText(title), TitleLine(EmvaSeriesWords(report) + Standard, title.date) + Body(report), "report");
+  return Page(TitleText(title),
+              TitleLine(EmvaSeriesWords(report) + Standard, title.date) + Body(report) + InputSection(input),
+              "report");
 }
 
 std::string
-ToHtml(const EmvaMosaicReport & report, const PageTitle & title)
+ToHtml(const EmvaMosaicReport & report, const PageTitle & title, const std::optional<InputRecord> & input)
 {
   std::string body = TitleLine("Bayer mosaic " + std::string(NameOf(report.pattern)) +
                                  ", each plane: " + EmvaSeriesWords(report.planes.front()) + Standard,
@@ -218,7 +227,7 @@ ToHtml(const EmvaMosaicReport & report, const PageTitle & title)
                     gain.value ? "gain " + ValueText(gain) + " DN/e\u207B" : "no gain",
                     Body(report.planes[i]));
   }
-  return Page(TitleText(title), body, "report");
+  return Page(TitleText(title), body + InputSection(input), "report");
 }
 
 std::string
