@@ -8,8 +8,8 @@ Needs the built tools and the standard library only. Writes comparison.md and co
 Tables 2 and 3 of Sur & Grédiac 2015, mosaics like those of the cameras of its Table 5, and real frames
 (compare_settings.py). --peers FOLDER runs programs of other authors in environments of their own, which are made in the
 folder with venv and pip (compare_peers.py). --real FOLDER names a folder with real frames. --settings chooses settings
-by patterns of their names, for example 'B3/*' 'EOS 6D/target/*'. All settings take 5 minutes of processor
-time.
+by patterns of their names, for example 'B3/*' 'EOS 6D/target/*'. --quick measures one setting of each kind, 6 of 38.
+The last line has the processor time of each part.
 
 The times are processor times: of estimate-sensor-noise with its start and the reading of the file.
 """
@@ -17,6 +17,7 @@ The times are processor times: of estimate-sensor-noise with its start and the r
 import argparse
 import fnmatch
 import math
+import os
 import sys
 import tempfile
 from pathlib import Path
@@ -52,6 +53,9 @@ MOTION_COLUMNS = (
     "covariance [pixel²]",
     "flicker σ_γ",
 )
+# One setting of each kind: camera and scene of the paper, and each mosaic camera at its middle speed.
+QUICK = ("B3/*", "EOS 350D/*/ISO 400", "EOS 6D/*/ISO 1600")
+PARTS = ("simulation", "methods of this project", "other programs")
 OF_PAPER = "program of Foi et al. (paper)"
 
 
@@ -64,14 +68,34 @@ def paper_row(setting):
     return Row(OF_PAPER, "burst", found, None, "mean ± twice the standard deviation of 50 stacks")
 
 
-def measure_setting(options, setting, installed, shared):
-    """Returns the rows of a setting, and the rows of the motion of a mosaic."""
+def processor_seconds():
+    """Returns the processor time of this program and of those that it has run [s]."""
+    return sum(os.times()[:4])
+
+
+def measure_setting(options, setting, installed, shared, seconds):
+    """Returns the rows of a setting, and the rows of the motion of a mosaic. Adds the processor time [s] of each of
+    PARTS to `seconds`."""
+    times = [processor_seconds()]
     with tempfile.TemporaryDirectory(dir=shared) as folder:
         frames = make_frames(setting, options.bin, Path(folder), shared)
-        rows = rows_by_tool(options.bin, setting, frames) + rows_by_peers(installed, setting, frames)
-        of_paper = paper_row(setting)
+        times.append(processor_seconds())
+        rows = rows_by_tool(options.bin, setting, frames)
         motion = motion_rows(options.bin, setting, frames) if frames.mosaic else []
+        times.append(processor_seconds())
+        rows += rows_by_peers(installed, setting, frames)
+        times.append(processor_seconds())
+        of_paper = paper_row(setting)
+    for part, start, end in zip(PARTS, times, times[1:], strict=False):
+        seconds[part] += end - start
     return rows + ([of_paper] if of_paper else []), motion
+
+
+def text_of_times(seconds):
+    """Returns a sentence with the processor time [s], and the fraction of each part."""
+    total = sum(seconds.values())
+    fractions = ", ".join(f"{part} {100 * of_part / max(total, 1e-9):.0f} %" for part, of_part in seconds.items())
+    return f"processor time: {total:.0f} s ({fractions})"
 
 
 def truth_cells(setting):
@@ -170,9 +194,10 @@ def chosen_settings(options, parser):
         absent = [setting.name for setting in real if not setting.source.exists()]
         note = f"Left out, as {options.real} does not have the frames: {', '.join(absent)}." if absent else ""
         settings += [setting for setting in real if setting.source.exists()]
-    chosen = [one for one in settings if any(fnmatch.fnmatch(one.name, pattern) for pattern in options.settings)]
+    patterns = options.settings or (QUICK if options.quick else ["*"])
+    chosen = [one for one in settings if any(fnmatch.fnmatch(one.name, pattern) for pattern in patterns)]
     if not chosen:
-        parser.error(f"no setting is named {options.settings}; known: {', '.join(one.name for one in settings)}")
+        parser.error(f"no setting is named {patterns}; known: {', '.join(one.name for one in settings)}")
     return chosen, note
 
 
@@ -182,7 +207,9 @@ def parse(arguments):
     parser.add_argument("--output", default="comparison", help="name of the files, without .md and .html")
     parser.add_argument("--peers", type=Path, help="folder of the environments of other programs; else they do not run")
     parser.add_argument("--real", type=Path, help="folder of emccd_50x30x180.npy and saz_75x40x640_u8.npy")
-    parser.add_argument("--settings", nargs="+", default=["*"], help="patterns of names (default: all)")
+    chosen = parser.add_mutually_exclusive_group()
+    chosen.add_argument("--settings", nargs="+", help="patterns of names (default: all)")
+    chosen.add_argument("--quick", action="store_true", help=f"the settings {', '.join(QUICK)}")
     parser.add_argument(
         "--size", type=int, help="width and height of simulated frames, instead of the setting's [pixels]"
     )
@@ -200,10 +227,11 @@ def main(arguments=None) -> int:
     options, settings, note = parse(arguments)
     installed = install_all(options.peers) if options.peers else None
     measured = []
+    seconds = dict.fromkeys(PARTS, 0.0)
     with tempfile.TemporaryDirectory(dir=options.folder) as shared:
         for place, setting in enumerate(settings, 1):
             print(f"{place}/{len(settings)} {setting.name}", file=sys.stderr, flush=True)
-            measured.append((setting, *measure_setting(options, setting, installed, Path(shared))))
+            measured.append((setting, *measure_setting(options, setting, installed, Path(shared), seconds)))
     text = (
         "Every method measures the same frames; EMVA 1288 and its programs measure flats of the same simulated camera. "
         f"± is one standard error. Times are processor times. {note}"
@@ -211,6 +239,7 @@ def main(arguments=None) -> int:
     for ending, make in ((".md", as_markdown), (".html", as_html)):
         Path(options.output + ending).write_text(make(TITLE, text.strip(), tables_of(measured)), encoding="utf-8")
     print(f"{options.output}.md, {options.output}.html")
+    print(text_of_times(seconds))
     return 0
 
 

@@ -74,6 +74,19 @@ def test_a_program_of_others_answers_or_has_a_reason(tmp_path):
     assert python is None and reason.startswith("not installed: ") and "absent" in reason
 
 
+def test_quick_measures_one_setting_of_each_kind(tmp_path):
+    from compare_methods import PARTS, parse, text_of_times
+
+    for tool in ("estimate-sensor-noise", "simulate-sensor-noise"):
+        (tmp_path / tool).touch()
+    _, every, _ = parse(["--bin", str(tmp_path)])
+    _, quick, _ = parse(["--bin", str(tmp_path), "--quick"])
+    assert (len(every), len(quick)) == (38, 6)
+    assert {(one.group, one.scene, one.bits) for one in quick} == {(one.group, one.scene, one.bits) for one in every}
+    text = text_of_times(dict(zip(PARTS, (6.0, 3.0, 1.0), strict=True)))
+    assert text == "processor time: 10 s (simulation 60 %, methods of this project 30 %, other programs 10 %)"
+
+
 def test_dark_noise_of_emva_1288_is_in_electrons():
     from compare_rows import Estimate, emva_estimates
 
