@@ -157,8 +157,8 @@ TEST(SensorNoiseGainByParts, ErrorsOfTheRatiosAreErrorsOfTheLine)
   PartGains & halves = parts.places.emplace();
   halves.partition = Partition::LeftRight;
   halves.excess = halves.dark = { 0.0, 0.0 };
-  halves.covariance = Eigen::Vector3d(1.0, s * s, s * s).asDiagonal(); // a gain that all have in common, and h
-  halves.meanOfTerms = Eigen::Vector3d(1.0, 0.5, 0.5);
+  halves.darkCovariance = Eigen::Vector2d(s * s, s * s).asDiagonal();
+  halves.meanOfTerms = Eigen::Vector2d(0.5, 0.5);
   const Eigen::Matrix2d covariance = CovarianceByRatios(parts, data, geometry, reference, SerialFor);
   EXPECT_NEAR(covariance(0, 0), 2.0 * std::pow(s * d / (b - a), 2), 1e-12);
   // The excess of both halves together does not matter: at the middle of the levels no variance changes.

@@ -120,9 +120,8 @@ GainsOf(const PartRegression & fit, const std::vector<TileExcess> & tiles)
   gains.darkSize = dark.size;
   gains.darkZ = dark.z;
   gains.darkField = dark.field;
-  gains.gains = fit.gains;
-  gains.covariance = fit.covariance.topLeftCorner(fit.gains + fit.darks, fit.gains + fit.darks);
-  gains.meanOfTerms = (share.transpose() * (toGains + toDark)).head(fit.gains + fit.darks).transpose();
+  gains.darkCovariance = fit.covariance.block(fit.gains, fit.gains, fit.darks, fit.darks);
+  gains.meanOfTerms = (share.transpose() * toDark).segment(fit.gains, fit.darks).transpose();
   return gains;
 }
 

@@ -43,26 +43,18 @@ PartGains::RatioAt(double x, double y, std::size_t phase, double shotFraction) c
 }
 
 Eigen::VectorXd
-PartGains::DerivativesAt(double x, double y, std::size_t phase, double shotFraction) const
+PartGains::DarkDerivativesAt(double x, double y, std::size_t phase, double shotFraction) const
 {
   Eigen::VectorXd terms = -meanOfTerms;
-  const auto      darks = terms.size() - gains;
-  const auto      part = static_cast<Eigen::Index>(PartOf(partition, x, y, phase));
-  const auto      add = [&](Eigen::Index first, Eigen::Index count, const Eigen::VectorXd & smooth) {
-    if (smooth.size() > 0)
-    {
-      terms.segment(first, count) += PartRegression::FieldAt(x, y);
-    }
-    else
-    {
-      terms(first + (count == 1 ? 0 : part)) += 1.0;
-    }
-  };
-  add(0, gains, field);
-  add(gains, darks, darkField);
-  terms.head(gains) *= shotFraction;
-  terms.tail(darks) *= 1.0 - shotFraction;
-  return terms;
+  if (darkField.size() > 0)
+  {
+    terms += PartRegression::FieldAt(x, y);
+  }
+  else
+  {
+    terms(terms.size() == 1 ? 0 : static_cast<Eigen::Index>(PartOf(partition, x, y, phase))) += 1.0;
+  }
+  return (1.0 - shotFraction) * terms;
 }
 
 bool
@@ -126,7 +118,7 @@ CovarianceByOne(const PartGains &     own,
   const auto           width = static_cast<double>(geometry.width);
   const auto           height = static_cast<double>(geometry.height);
   // The derivatives of the line's value at the pivot and of its gain, by rows, so that no sum depends on the threads.
-  std::vector<Eigen::MatrixXd> ofRows(geometry.height, Eigen::MatrixXd::Zero(2, own.covariance.rows()));
+  std::vector<Eigen::MatrixXd> ofRows(geometry.height, Eigen::MatrixXd::Zero(2, own.darkCovariance.rows()));
   std::vector<Eigen::Vector2d> weightsOfRows(geometry.height, Eigen::Vector2d::Zero());
   parallelFor(geometry.height, [&](std::size_t row) {
     const double y = (static_cast<double>(row) + 0.5) / height;
@@ -141,14 +133,14 @@ CovarianceByOne(const PartGains &     own,
         const double          shot = ShotFractionAt(reference, data.mean[p]);
         const double          variance = line.At(data.mean[p]);
         const double          beside = data.mean[p] - line.pivotDn;
-        const Eigen::VectorXd change = own.DerivativesAt(x, y, PhaseOf(column, row), shot) / variance;
+        const Eigen::VectorXd change = own.DarkDerivativesAt(x, y, PhaseOf(column, row), shot) / variance;
         ofRows[row].row(0) += change.transpose();
         ofRows[row].row(1) += beside * change.transpose();
         weightsOfRows[row] += Eigen::Vector2d(1.0, beside * beside) / (variance * variance);
       }
     }
   });
-  Eigen::MatrixXd derivatives = Eigen::MatrixXd::Zero(2, own.covariance.rows());
+  Eigen::MatrixXd derivatives = Eigen::MatrixXd::Zero(2, own.darkCovariance.rows());
   Eigen::Vector2d weights = Eigen::Vector2d::Zero();
   for (std::size_t row = 0; row < geometry.height; ++row)
   {
@@ -162,7 +154,7 @@ CovarianceByOne(const PartGains &     own,
   Eigen::Matrix2d toLine; // gain and intercept, from the value at the pivot and the gain
   toLine << 0.0, 1.0, 1.0, -line.pivotDn;
   derivatives = toLine * weights.cwiseInverse().asDiagonal() * derivatives;
-  return derivatives * own.covariance * derivatives.transpose();
+  return derivatives * own.darkCovariance * derivatives.transpose();
 }
 } // namespace
 

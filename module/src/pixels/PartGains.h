@@ -32,15 +32,14 @@ struct SensorNoise_EXPORT PartGains
   /** Significance of the differences of dark, in standard deviations of chi-square [1]. */
   double darkZ{ 0 };
   double scale{ 1 }; ///< dispersion of the tiles over their sampling error, 1 or more [1]
-  /** Covariance of the coefficients of excess, which come first, and of dark: a number for each part or the
-   * coefficients of the smooth field, or one number that all parts have in common [1]. */
-  Eigen::MatrixXd covariance;
+  /** Covariance of the coefficients of dark: a number for each part, the coefficients of the smooth field, or one
+   * number that all parts have in common [1]. */
+  Eigen::MatrixXd darkCovariance;
   Eigen::VectorXd meanOfTerms; ///< mean over the pixels of what these coefficients are multiplied by [1]
-  Eigen::Index    gains{ 1 };  ///< number of the coefficients of excess
 
-  /** Returns the derivatives of RatioAt() with respect to the coefficients [1]. */
+  /** Returns the derivatives of RatioAt() with respect to the coefficients of dark [1]. */
   Eigen::VectorXd
-  DerivativesAt(double x, double y, std::size_t phase, double shotFraction) const;
+  DarkDerivativesAt(double x, double y, std::size_t phase, double shotFraction) const;
   /** Returns the variance of a pixel over the variance by the common line [1]. \a x and \a y are the place in units of
    * the frame's width and height [1]; \a shotFraction is the fraction of the common line's variance there that is shot
    * noise [1]. */
@@ -75,8 +74,8 @@ struct GainByParts
   }
 };
 
-/** Returns what the errors of the ratios of \a parts, which the variance of \a data was divided by, add to the
- * covariance of gain and intercept. Estimator.md, 3.15. */
+/** Returns what the errors of the variances without signal of \a parts, by whose ratios the variance of \a data was
+ * divided, add to the covariance of gain and intercept. Estimator.md, 3.15. */
 SensorNoise_EXPORT Eigen::Matrix2d
 CovarianceByRatios(const GainByParts &   parts,
                    const VarianceData &  data,
