@@ -164,7 +164,7 @@ FindingsOf(const SweepSummary & summary)
   }
   if (summary.kind == SettingKind::Exposure && summary.commonGains.empty())
   {
-    findings.push_back("Whether the gain is the same at all exposures needs two settings with a gain.");
+    findings.emplace_back("Whether the gain is the same at all exposures needs two settings with a gain.");
   }
   if (summary.kind != SettingKind::Exposure && summary.line.parts.empty())
   {
