@@ -19,13 +19,27 @@ namespace
 {
 using Band = NoiseModelCheck::Band;
 
-template <typename... TArguments>
 std::string
-Formatted(const char * format, TArguments... arguments)
+WithDecimals(double number, int decimals)
 {
-  char buffer[256];
-  std::snprintf(buffer, sizeof(buffer), format, arguments...);
+  char buffer[512]; // room for every number
+  std::snprintf(buffer, sizeof(buffer), "%.*f", decimals, number);
   return buffer;
+}
+
+/** Returns "1.00 +- 0.01". */
+std::string
+WithError(double number, double error, int decimals)
+{
+  return WithDecimals(number, decimals) + " +- " + WithDecimals(error, decimals);
+}
+
+/** Returns the row of a table, without its end. */
+std::string
+RowOf(const std::string & levels, const std::string & pixels, const std::string & ratio, const std::string & transform)
+{
+  return PaddedRight(levels, 22) + ' ' + PaddedLeft(pixels, 10) + "  " + PaddedRight(ratio, 17) + ' ' +
+         PaddedLeft(transform, 10);
 }
 
 } // namespace
@@ -33,7 +47,9 @@ Formatted(const char * format, TArguments... arguments)
 std::string
 LevelText(double levelDn)
 {
-  std::string       text = Formatted(std::abs(levelDn) < 10.0 ? "%.2g" : "%.0f", levelDn);
+  char buffer[32];
+  std::snprintf(buffer, sizeof(buffer), "%.2g", levelDn);
+  std::string       text = std::abs(levelDn) < 10.0 ? buffer : WithDecimals(levelDn, 0);
   const std::size_t first = text.find_first_of("0123456789");
   if (text.find_first_not_of("-0123456789") == std::string::npos)
   {
@@ -72,7 +88,7 @@ DescribeRange(const Band * begin, const Band * end)
     squares += (*band->ratio - mean) * (*band->ratio - mean) / static_cast<double>(end - begin);
   }
   const double error = std::max(0.005, std::sqrt(std::max(squares, 1.0 / weights)));
-  return Formatted(error < 0.095 ? "%.2f +- %.2f" : "%.1f +- %.1f", mean, error) + range;
+  return WithError(mean, error, error < 0.095 ? 2 : 1) + range;
 }
 
 /** Describes all bands that fit, or all that do not fit. Bands in which the model has no variance are described
@@ -161,14 +177,14 @@ ToJson(const NoiseModelCheck & check)
 std::string
 MakeTable(const NoiseModelCheck & check)
 {
-  std::string text = Formatted("%-22s %10s  %-17s %10s\n", "level [DN]", "pixels", "variance/model", "transform");
+  std::string text = RowOf("level [DN]", "pixels", "variance/model", "transform") + '\n';
   for (const NoiseModelCheck::Band & band : check.bands)
   {
     const std::string levels = LevelText(band.lowDn) + " to " + LevelText(band.highDn);
-    const std::string ratio = band.ratio ? Formatted("%.3f +- %.3f", *band.ratio, band.standardError) : "no variance";
-    const std::string transform = band.transformVariance ? Formatted("%.3f", *band.transformVariance) : "-";
-    text += Formatted("%-22s %10zu  ", levels.c_str(), band.pixels) + PaddedRight(WithSigns(ratio), 17) +
-            Formatted(" %10s%s\n", transform.c_str(), band.fits ? "" : "  does not fit");
+    const std::string ratio = band.ratio ? WithError(*band.ratio, band.standardError, 3) : "no variance";
+    const std::string transform = band.transformVariance ? WithDecimals(*band.transformVariance, 3) : "-";
+    text +=
+      RowOf(levels, std::to_string(band.pixels), WithSigns(ratio), transform) + (band.fits ? "\n" : "  does not fit\n");
   }
   return text + WithSigns(check.sentence) + "\n";
 }
