@@ -13,11 +13,10 @@ from typing import Any
 import numpy as np
 
 from . import _options
-from ._errors import itk_errors
 from ._names import is_name
 from ._pictures import write_file
 from ._types import FileName, ItkObject
-from ._values import in_python, set_values
+from ._values import python_errors, set_numbers, set_values
 
 
 @dataclass(frozen=True)
@@ -155,27 +154,12 @@ def export_noise_model(
         _add(exporter, report, str(number) if len(given) > 1 else "of this export")
     if given and format == "maps":
         _set_maps(exporter, getattr(given[0], "maps", {}))
-    for name, value, set_value in (
-        ("black", black, exporter.SetBlackLevel),
-        ("white", white, exporter.SetWhiteLevel),
-        ("analogue_gain", analogue_gain, exporter.SetAnalogueGain),
-        ("max_analogue_iso", max_analogue_iso, exporter.SetMaxAnalogueIso),
-    ):
-        if value is not None:
-            set_value(_options.number(name, value))
+    set_numbers(exporter, black=black, white=white, analogue_gain=analogue_gain, max_analogue_iso=max_analogue_iso)
     if into is not None:
         if not is_name(into):
             raise _options.refuse_type("into", into, "the name of a DNG file")
         exporter.SetDngFile(os.fsdecode(into))
-    try:
-        with itk_errors():
-            exporter.Export(format)
-    except ValueError as error:
-        raise type(error)(in_python(str(error))) from None
-    made = export_of(exporter, format)
-    if output is not None:
-        made.write(output)
-    return made
+    return export_by(exporter, format, output)
 
 
 def _add(exporter: ItkObject, report: Mapping[str, Any], name: str) -> None:
@@ -194,11 +178,16 @@ def _set_maps(exporter: ItkObject, maps: Mapping[str, np.ndarray]) -> None:
         exporter.SetMaps(*(itk.image_from_array(np.ascontiguousarray(maps[name], float)) for name in names))
 
 
-def export_of(exporter: ItkObject, format: str) -> NoiseExport:
-    """The files that an object of ITK has exported."""
+def export_by(exporter: ItkObject, format: str, output: FileName | None, *setting: float) -> NoiseExport:
+    """Makes the files by an object of ITK, and writes them if an output is given."""
+    with python_errors():
+        exporter.Export(format, *setting)
     # SWIG makes a str of std::string; bytes that are no UTF-8 are surrogates.
     files = {
         exporter.GetFileName(index): exporter.GetFileBytes(index).encode("utf-8", "surrogateescape")
         for index in range(exporter.GetNumberOfFiles())
     }
-    return NoiseExport(format, files, exporter.GetNote())
+    made = NoiseExport(format, files, exporter.GetNote())
+    if output is not None:
+        made.write(output)
+    return made

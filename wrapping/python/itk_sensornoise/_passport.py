@@ -11,15 +11,16 @@ from typing import Any
 
 from . import _options
 from ._channels import ChannelReports
-from ._errors import InvalidTypeError, itk_errors
-from ._export import NoiseExport, export_of
+from ._errors import itk_errors
+from ._export import NoiseExport, export_by
 from ._names import is_name
 from ._pictures import write_file, write_page
+from ._read import text_of
 from ._record import Record
 from ._report import Report
 from ._rounding import with_signs
 from ._types import FileName, ItkObject
-from ._values import in_python, set_values
+from ._values import set_numbers, set_values
 from ._version import version_of_package
 
 SCHEMA = "itk-sensornoise-passport/1"
@@ -66,7 +67,7 @@ class Passport(Record):
         ValueError
             The file cannot be read, or is no passport.
         """
-        text, name = _text_of(source)
+        text, name = text_of(source, "passport")
         try:
             record = json.loads(text)
         except ValueError as error:
@@ -132,24 +133,9 @@ class Passport(Record):
             raise _options.refuse_type("format", format, "the name of a format, see export_formats()")
         sweep = sweep_of(self["setting"], self["settings"])
         sweep.SetChannel(channel)
-        for name, value, set_value in (
-            ("black", black, sweep.SetBlackLevel),
-            ("white", white, sweep.SetWhiteLevel),
-            ("analogue_gain", analogue_gain, sweep.SetAnalogueGain),
-            ("max_analogue_iso", max_analogue_iso, sweep.SetMaxAnalogueIso),
-        ):
-            if value is not None:
-                set_value(_options.number(name, value))
+        set_numbers(sweep, black=black, white=white, analogue_gain=analogue_gain, max_analogue_iso=max_analogue_iso)
         at = math.nan if setting is None else _options.number("setting", setting, "a number above 0", above=0.0)
-        try:
-            with itk_errors():
-                sweep.Export(format, at)
-        except ValueError as error:
-            raise type(error)(in_python(str(error))) from None
-        made = export_of(sweep, format)
-        if output is not None:
-            made.write(output)
-        return made
+        return export_by(sweep, format, output, at)
 
     def write(self, output: FileName) -> None:
         """Writes the passport as a JSON file. Raises OSError where that fails."""
@@ -235,17 +221,3 @@ def _summarised(passport: Passport) -> ItkObject:
 
 def _measured(settings: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
     return [entry for entry in settings if entry["reason"] is None]
-
-
-def _text_of(source: Any) -> tuple[str, str]:
-    """Returns the JSON text that is given, or stands in a file, and what to call it in an error."""
-    if isinstance(source, str) and source.lstrip().startswith("{"):
-        return source, "the text"
-    if not is_name(source):
-        raise InvalidTypeError(f"the passport is of type {type(source).__name__}; expected {_EXPECTED}")
-    name = os.fsdecode(source)
-    try:
-        with open(name, encoding="utf-8") as file:
-            return file.read(), name
-    except (OSError, UnicodeDecodeError) as error:
-        raise ValueError(f"{name} cannot be read ({error}); expected {_EXPECTED}") from None

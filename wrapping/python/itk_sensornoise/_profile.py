@@ -9,12 +9,12 @@ from typing import Any
 
 from . import _options
 from ._check import NoiseModelCheck
-from ._errors import InvalidTypeError, itk_errors
+from ._errors import InvalidTypeError
 from ._estimate import estimate_sensor_noise
 from ._names import is_name
 from ._read import record_of, text_of
 from ._types import FileName, Frames, ItkObject
-from ._values import in_python, set_values
+from ._values import in_python, python_errors, set_numbers, set_values
 
 _EXPECTED = "the name of a DNG file, a JSON file or another profile"
 
@@ -76,20 +76,11 @@ def check_noise_profile(
         raise _options.refuse_type("profile", profile, _EXPECTED)
     checker = itk.NoiseProfileChecker.New()
     _set_profile(checker, os.fsdecode(profile))
-    for name, value, set_value in (
-        ("black", black, checker.SetBlackLevel),
-        ("white", white, checker.SetWhiteLevel),
-        ("analogue_gain", analogue_gain, checker.SetAnalogueGain),
-    ):
-        if value is not None:
-            set_value(_options.number(name, value))
+    set_numbers(checker, black=black, white=white, analogue_gain=analogue_gain)
     set_values(checker, _report_of(frames, options))
     checker.SetReport("of these frames")
-    try:
-        with itk_errors():
-            checker.Check()
-    except ValueError as error:
-        raise type(error)(in_python(str(error))) from None
+    with python_errors():
+        checker.Check()
     return _results(checker, os.fsdecode(profile))
 
 

@@ -18,24 +18,25 @@ _MEMBERS = (
     *("clip_low", "clip_high", "pixels", "gain", "offset", "read_noise", "variance_slope", "total_intercept"),
     *("flicker", "motion", "scatter", "fit", "linearity", "warnings"),
 )
-_EXPECTED = "the JSON of a report, or the name of its file"
+_EXPECTED = "the JSON of a {}, or the name of its file"
 
 
-def text_of(source: str | FileName) -> tuple[str, str]:
-    """The JSON text that is given, or stands in a file, and what to call it in an error. Raises TypeError for what is
-    neither, ValueError for a file that cannot be read."""
+def text_of(source: str | FileName, kind: str = "report") -> tuple[str, str]:
+    """The JSON text of a `kind` of record that is given, or stands in a file, and what to call it in an error. Raises
+    TypeError for what is neither, ValueError for a file that cannot be read."""
+    expected = _EXPECTED.format(kind)
     if isinstance(source, str) and source.lstrip().startswith("{"):
         return source, "the text"
     if not is_name(source):
-        raise InvalidTypeError(f"the report is of type {type(source).__name__}; expected {_EXPECTED}")
+        raise InvalidTypeError(f"the {kind} is of type {type(source).__name__}; expected {expected}")
     name = os.fsdecode(source)
     try:
         with open(name, encoding="utf-8") as file:
             return file.read(), name
     except OSError as error:
-        raise ValueError(f"{name} cannot be read ({error.strerror}); expected {_EXPECTED}") from None
+        raise ValueError(f"{name} cannot be read ({error.strerror}); expected {expected}") from None
     except UnicodeDecodeError:
-        raise ValueError(f"{name} is not UTF-8; expected {_EXPECTED}") from None
+        raise ValueError(f"{name} is not UTF-8; expected {expected}") from None
 
 
 def record_of(text: str, name: str) -> dict[str, Any]:
@@ -43,7 +44,7 @@ def record_of(text: str, name: str) -> dict[str, Any]:
     try:
         record = json.loads(text)
     except ValueError as error:
-        raise ValueError(f"{name} is no JSON ({error}); expected {_EXPECTED}") from None
+        raise ValueError(f"{name} is no JSON ({error}); expected {_EXPECTED.format('report')}") from None
     if not isinstance(record, dict) or record.get("schema") != SCHEMA:
         found = f"the schema {record['schema']!r}" if isinstance(record, dict) and "schema" in record else "no schema"
         raise ValueError(f'{name} has {found}; expected "{SCHEMA}", a report of estimate_sensor_noise()')

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""A camera at all its settings in one call: each burst is measured by itself, and C++ makes the passport of them."""
+"""Measures a camera at all its settings in one call. Each burst is measured separately, and C++ makes the passport."""
 
 import inspect
 import json
@@ -109,16 +109,20 @@ def estimate_sweep(
         entries[burst.name] = stored.get(burst.setting, entry) if burst.reason is None else entry
         if burst.reason is None and burst.setting not in stored:
             todo.append(burst)
-    passport = passport_of(meaning, [entry for entry in entries.values() if entry["reason"] != _WAITING])
     named = {burst.name: burst for burst in todo}
     for name, outcome in outcomes_of(client, iter((burst.name, burst.source()) for burst in todo), settings):
         entries[name] = _entry_of(named[name], meaning, outcome, options)
-        passport = passport_of(meaning, [entry for entry in entries.values() if entry["reason"] != _WAITING])
         if output is not None:
-            passport.write(output)
+            _passport_so_far(meaning, entries).write(output)
+    passport = _passport_so_far(meaning, entries)
     if output is not None:
         passport.write(output)
     return passport
+
+
+def _passport_so_far(kind: str, entries: Mapping[str, dict[str, Any]]) -> Passport:
+    """Returns the passport of the settings that were measured, or cannot be."""
+    return passport_of(kind, [entry for entry in entries.values() if entry["reason"] != _WAITING])
 
 
 class _Burst:
@@ -129,7 +133,7 @@ class _Burst:
         self._frames, self._dark = frames, dark
 
     def source(self) -> Any:
-        """What a task measures."""
+        """Returns the burst as a task measures it."""
         from .distributed._sources import Burst
 
         return Burst(self._frames, self._dark)

@@ -3,8 +3,11 @@
 """Records of JSON as C++ takes them: numbers and texts by their JSON Pointers, and its sentences in Python's words."""
 
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
+from . import _options
+from ._errors import itk_errors
 from ._types import ItkObject
 
 # What the sentences of the library call the parameters, and their names here.
@@ -20,11 +23,37 @@ _PARAMETERS = {
 }
 
 
+# Methods of C++ that take the numbers of an export or a check.
+_METHODS = {
+    "black": "SetBlackLevel",
+    "white": "SetWhiteLevel",
+    "analogue_gain": "SetAnalogueGain",
+    "max_analogue_iso": "SetMaxAnalogueIso",
+}
+
+
 def in_python(sentence: str) -> str:
     """Replaces the options of the programs in a sentence by the parameters of Python."""
     for option, parameter in _PARAMETERS.items():
         sentence = sentence.replace(option, parameter)
     return sentence
+
+
+@contextmanager
+def python_errors() -> Iterator[None]:
+    """Raises the errors of C++ as itk_errors(), and those of values with the parameters of Python."""
+    try:
+        with itk_errors():
+            yield
+    except ValueError as error:
+        raise type(error)(in_python(str(error))) from None
+
+
+def set_numbers(target: ItkObject, **numbers: float | None) -> None:
+    """Gives an export or a check those of black, white, analogue_gain and max_analogue_iso that are no None."""
+    for name, value in numbers.items():
+        if value is not None:
+            getattr(target, _METHODS[name])(_options.number(name, value))
 
 
 def set_values(target: ItkObject, record: Any) -> None:
