@@ -25,7 +25,7 @@ ROW_BYTES = 16  # rows of a Raspberry Pi's raw stream end at a multiple of so ma
 
 
 def read_stack(name: str) -> list[bytes]:
-    """Reads an uncompressed MetaImage of 16-bit pixels and makes its size that of the files to be made."""
+    """Reads an uncompressed MetaImage of 16-bit pixels. Its size becomes the size of the files to be made."""
     header, pixels = pathlib.Path(name).read_bytes().split(b"LOCAL\n", 1)
     size = re.search(rb"DimSize = (\d+) (\d+) (\d+)", header)
     if size is None:

@@ -33,7 +33,7 @@ def pack_bits(data: bytes) -> bytes:
 
 
 def swapped(frame: bytes) -> bytes:
-    """The same 16-bit pixels in the other byte order."""
+    """Returns the same 16-bit pixels in the other byte order."""
     return b"".join(frame[k + 1 : k + 2] + frame[k : k + 1] for k in range(0, len(frame), 2))
 
 

@@ -20,7 +20,7 @@ struct NumberWithError
   double standardError{ 0.0 };
 };
 
-/** What the settings of a sweep are. */
+/** Quantity in which the settings of a sweep differ. */
 enum class SettingKind : std::uint8_t
 {
   Iso,     ///< ISO speeds

@@ -12,12 +12,6 @@ namespace sensornoise
 {
 namespace
 {
-/** The rows of one setting. */
-struct RowsOfSetting
-{
-  std::vector<SweepRow> rows;
-};
-
 /** A setting and how its gain deviates from the line. */
 struct LineDeviation
 {
@@ -26,10 +20,11 @@ struct LineDeviation
   bool                  leavesLine{ false };
 };
 
-std::vector<RowsOfSetting>
+/** Returns the rows of each setting. */
+std::vector<std::vector<SweepRow>>
 RowsBySetting(const SweepSummary & summary)
 {
-  std::vector<RowsOfSetting> settings;
+  std::vector<std::vector<SweepRow>> settings;
   for (const SettingNoise & setting : summary.settings)
   {
     settings.emplace_back();
@@ -37,7 +32,7 @@ RowsBySetting(const SweepSummary & summary)
     {
       if (row.setting == setting.setting)
       {
-        settings.back().rows.push_back(row);
+        settings.back().push_back(row);
       }
     }
   }
@@ -116,12 +111,6 @@ WriteJson(JsonWriter & json, const CommonGain & common)
 
 namespace
 {
-void
-WriteJson(JsonWriter & json, const RowsOfSetting & setting)
-{
-  json.Write(setting.rows);
-}
-
 void
 WriteJson(JsonWriter & json, const LineDeviation & deviation)
 {
