@@ -29,10 +29,10 @@
 // compilers than Emscripten only check this file.
 #if defined(__EMSCRIPTEN__)
 #  include <emscripten.h>
-EM_JS(void, TellProgress, (unsigned int pass, double fraction), { Module["onProgress"](pass, fraction); });
+EM_JS(void, ReportProgress, (unsigned int pass, double fraction), { Module["onProgress"](pass, fraction); });
 #else
 extern "C" void
-TellProgress(unsigned int pass, double fraction);
+ReportProgress(unsigned int pass, double fraction);
 #endif
 
 namespace
@@ -146,7 +146,7 @@ Estimate(const json & request)
     }
   }
   return AnswerOf(
-    EstimateBurst(burst, dark ? &*dark : nullptr, OptionsIn(request), TellProgress), burst, TitleIn(request));
+    EstimateBurst(burst, dark ? &*dark : nullptr, OptionsIn(request), ReportProgress), burst, TitleIn(request));
 }
 
 /** Measures a burst of the simulator: camera B under condition 3, its defaults. */
@@ -170,7 +170,7 @@ Example(const json & request)
     }
   };
   json answer = AnswerOf(
-    EstimateBurst(burst, nullptr, OptionsIn(request), TellProgress), burst, { "a simulated burst", std::string() });
+    EstimateBurst(burst, nullptr, OptionsIn(request), ReportProgress), burst, { "a simulated burst", std::string() });
   const CameraModel & camera = settings.camera;
   answer["truth"] = { { "gain", camera.gainDnPerElectron },
                       { "offset", camera.offsetDn },

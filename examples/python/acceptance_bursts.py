@@ -11,7 +11,7 @@ from acceptance_bound import gain_bound
 from acceptance_emva import system_gain
 from acceptance_lines import CAMERA, expected_of, simulator_options, stream_of
 from acceptance_programs import ProgramError, run
-from acceptance_stacks import judge
+from acceptance_stacks import evaluate
 from frame_stacks import read_frames, write_frames
 
 DIP_DEPTH = 0.12  # decrease of the illumination in the middle of a dip [1]
@@ -57,9 +57,9 @@ def other_scene(camera, _shape):
 
 def mean_electrons(camera):
     """Returns the expected electrons of the pixels, without flicker and vibration [e-]."""
-    still = {"flicker_sd": 0, "vibration_sd": "0,0", "read_noise": 0, "bit_depth": 0}
+    static = {"flicker_sd": 0, "vibration_sd": "0,0", "read_noise": 0, "bit_depth": 0}
     gain = CAMERA["gain"] * CAMERA["electrons"] / NOISELESS_ELECTRONS
-    mean = camera.simulate(camera.scene, gain=gain, electrons=NOISELESS_ELECTRONS, **still)
+    mean = camera.simulate(camera.scene, gain=gain, electrons=NOISELESS_ELECTRONS, **static)
     return np.maximum(0.0, mean.astype(float) - camera.offset) / camera.gain
 
 
@@ -146,7 +146,7 @@ def measure(programs, line, scene, bits, number):
     truth = truth_of(record)
     found = {quantity: report.get(quantity, {}) for quantity in COMPARED_QUANTITIES}
     loud = [warning["code"] for warning in report["warnings"] if warning["severity"] != "note"]
-    stack = judge(found, truth, record["gain"] * record["electrons"], loud, expected)
+    stack = evaluate(found, truth, record["gain"] * record["electrons"], loud, expected)
     relative = None if bound is None or bound > truth["gain"] else bound / truth["gain"]
     emva_error = None if emva is None else emva / truth["gain"] - 1
     further = {"exit": done.code, "seconds": done.seconds, "bound": relative, "emva_error": emva_error}

@@ -33,7 +33,7 @@ def is_wrong(error, standard_error, size):
     return abs(error) > max(WRONG_ERRORS * standard_error, size)
 
 
-def judge(found, truth, signal_range, loud, expected):
+def evaluate(found, truth, signal_range, loud, expected):
     """Returns the test of a report.
 
     found: the quantities of the report by name; truth: their true values; signal_range: brightest signal less the
@@ -62,7 +62,7 @@ def judge(found, truth, signal_range, loud, expected):
     return file_wrong(stack, wrong, loud, expected)
 
 
-def judge_frames(reported, truth):
+def evaluate_frames(reported, truth):
     """Compares the frames that a report leaves out with the frames that are unlike the others. Returns how many of the
     latter are named, how many there are, and how many other frames are named."""
     reported, truth = set(reported), set(truth)

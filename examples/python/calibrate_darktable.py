@@ -34,7 +34,7 @@ BLACK, WHITE = 512, 16383  # [DN]
 LEVELS = (0.03, 0.1, 0.3)  # of green, from black to white
 SCALES = (3e-5, 6e-4)  # S of a camera with 33000 electrons at base ISO, and at 20 times this ISO
 OFFSETS = (4e-8, 2e-6)  # O of the same: a read noise of 7 electrons, and of 2
-LIGHTS = {"grey": (1.0, 1.0, 1.0), "daylight": (0.5, 1.0, 0.65), "tungsten": (0.8, 1.0, 0.35)}  # R, G, B over G
+ILLUMINANTS = {"grey": (1.0, 1.0, 1.0), "daylight": (0.5, 1.0, 0.65), "tungsten": (0.8, 1.0, 0.35)}  # R, G, B over G
 METHODS = {"ppg": 0, "amaze": 1, "vng4": 2, "monochrome": 3, "rcd": 5, "lmmse": 6}  # of darktable's demosaicing
 MAD = 0.6745  # median of the absolute value of a normal variable
 
@@ -79,14 +79,16 @@ def planes(mosaic: np.ndarray) -> list[np.ndarray]:
     return [mosaic[0::2, 0::2].ravel(), green, mosaic[1::2, 1::2].ravel()]
 
 
-def simulate(rng: np.random.Generator, side: int, light: tuple, level: float, scale: float, offset: float):
+def simulate(rng: np.random.Generator, side: int, illuminant: tuple, level: float, scale: float, offset: float):
     """Returns a flat mosaic [DN], and the variances of its channels R, G and B on [0, 1] with the rounding of DN."""
-    means = np.tile(np.array([[light[0], light[1]], [light[1], light[2]]]) * level, (side // 2, side // 2))
+    means = np.tile(
+        np.array([[illuminant[0], illuminant[1]], [illuminant[1], illuminant[2]]]) * level, (side // 2, side // 2)
+    )
     values = scale * rng.poisson(means / scale) + np.sqrt(offset) * rng.standard_normal(means.shape)
     codes = np.rint(BLACK + values * (WHITE - BLACK))
     if codes.min() < 0 or codes.max() > WHITE:
         raise SystemExit("a simulated pixel is outside of the range of the file; choose other levels")
-    variances = scale * level * np.array(light) + offset + 1 / 12 / (WHITE - BLACK) ** 2
+    variances = scale * level * np.array(illuminant) + offset + 1 / 12 / (WHITE - BLACK) ** 2
     return codes, variances
 
 
@@ -132,10 +134,10 @@ def main() -> None:
     print(f"{version}, {given.method}: factors of R, G, B")
     rng = np.random.default_rng(1)
     cases = []
-    lights = {"grey": LIGHTS["grey"]} if given.method == "monochrome" else LIGHTS
+    illuminants = {"grey": ILLUMINANTS["grey"]} if given.method == "monochrome" else ILLUMINANTS
     with tempfile.TemporaryDirectory() as name:
-        for (light, colour), (scale, offset), level in itertools.product(
-            lights.items(), zip(SCALES, OFFSETS, strict=True), LEVELS
+        for (illuminant, colour), (scale, offset), level in itertools.product(
+            illuminants.items(), zip(SCALES, OFFSETS, strict=True), LEVELS
         ):
             found = []
             for _ in range(given.images):
@@ -144,7 +146,7 @@ def main() -> None:
             mean, error = np.mean(found, axis=0), np.std(found, axis=0, ddof=1) / np.sqrt(given.images)
             cases.append(mean)
             numbers = "  ".join(f"{m:.4f} ± {e:.4f}" for m, e in zip(mean, error, strict=True))
-            print(f"{light:9} S {scale:g} level {level:4}: {numbers}", flush=True)
+            print(f"{illuminant:9} S {scale:g} level {level:4}: {numbers}", flush=True)
     grey = np.array(cases[: len(SCALES) * len(LEVELS)])
     print("grey mean:         ", "  ".join(f"{value:.4f}" for value in grey.mean(axis=0)))
     print("grey deviation:    ", "  ".join(f"{value:.4f}" for value in grey.std(axis=0, ddof=1)))

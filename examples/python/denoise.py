@@ -14,7 +14,7 @@ import itk
 import numpy as np
 
 CAMERA = {"camera": "B", "electrons": 300.0, "size": (256, 256)}
-STILL = {"flicker_sd": 0.0, "vibration_sd": (0.0, 0.0)}
+STATIC = {"flicker_sd": 0.0, "vibration_sd": (0.0, 0.0)}
 
 
 def psnr(image, truth):
@@ -37,13 +37,13 @@ def main() -> None:
     parser.add_argument("--denoiser", default="nlm", choices=list(choices), help="nlm needs OpenCV (cv2)")
     options = parser.parse_args()
 
-    burst, _ = itk.simulate_sensor_noise(**CAMERA, **STILL, frames=50, reference="texture", seed=1)
+    burst, _ = itk.simulate_sensor_noise(**CAMERA, **STATIC, frames=50, reference="texture", seed=1)
     report = itk.estimate_sensor_noise(burst)
     print("offset:", report["offset"]["status"], " variance slope:", report["variance_slope"]["value"])
 
     # Another scene, and the same scene with 100,000 times the electrons, which has hardly any noise.
-    noisy = itk.simulate_sensor_noise(**CAMERA, **STILL, frames=1, seed=2)[0][0]
-    bright = {**CAMERA, **STILL, "electrons": 3e7, "gain": 1e-5, "read_noise": 0.0}
+    noisy = itk.simulate_sensor_noise(**CAMERA, **STATIC, frames=1, seed=2)[0][0]
+    bright = {**CAMERA, **STATIC, "electrons": 3e7, "gain": 1e-5, "read_noise": 0.0}
     truth = itk.simulate_sensor_noise(**bright, frames=1, seed=2)[0][0].astype(np.float64)
 
     clean = itk.denoise_with_noise_model(noisy, report, choices[options.denoiser])

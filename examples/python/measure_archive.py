@@ -32,7 +32,7 @@ COLUMNS = {
     "read_noise": ("read_noise_DN", "read_noise_error_DN"),
 }
 STEP = 0.005
-LIGHT = {"electrons": 1000, "flicker_sd": 0.1}
+ILLUMINATION = {"electrons": 1000, "flicker_sd": 0.1}
 
 
 def cameras_of(count, sessions):
@@ -56,7 +56,7 @@ def burst(camera, session, seed, size, frames):
     parameters, step = dict(camera[0]), camera[1]
     if step is not None and session >= step[1]:
         parameters[step[0]] *= 1 + step[2]
-    return simulate_sensor_noise(**parameters, **LIGHT, frames=frames, size=(size, size), seed=seed)[0]
+    return simulate_sensor_noise(**parameters, **ILLUMINATION, frames=frames, size=(size, size), seed=seed)[0]
 
 
 def sources_of(cameras, options):
@@ -106,28 +106,28 @@ def chance_to_see(errors, at, change, threshold):
     return NormalDist().cdf(abs(z) - threshold)
 
 
-def judge(quantity, cameras, table, sessions, rate):
+def evaluate(quantity, cameras, table, sessions, rate):
     """Returns the results of find_steps() for a quantity of all cameras, by the names of print_row()."""
     value, error = (table[name].to_numpy().reshape(len(cameras), sessions) for name in COLUMNS[quantity])
     counts = Counter()
     for values, errors, (parameters, step) in zip(value, error, cameras, strict=True):
-        told = np.isfinite(values)
-        if not told.any():
+        determined = np.isfinite(values)
+        if not determined.any():
             continue
         seen = find_steps(values, errors, rate)
         if step is None or step[0] != quantity:
-            mean = np.average(values[told], weights=errors[told] ** -2.0)
-            counts["squares"] += (((values - mean) / errors)[told] ** 2).sum()
-            counts["freedom"] += told.sum() - 1
+            mean = np.average(values[determined], weights=errors[determined] ** -2.0)
+            counts["squares"] += (((values - mean) / errors)[determined] ** 2).sum()
+            counts["freedom"] += determined.sum() - 1
             counts["false"] += len(seen)
             continue
         _, at, change = step
-        before, after = told[:at].sum(), told[at:].sum()
+        before, after = determined[:at].sum(), determined[at:].sum()
         hits = [each for each in seen if abs(each.at - at) <= 1 and each.change * change > 0]
         counts["steps"] += 1
         if before and after:
             threshold = NormalDist().inv_cdf(1 - rate / 2)
-            counts["expected"] += chance_to_see(errors[told], before, parameters[quantity] * change, threshold)
+            counts["expected"] += chance_to_see(errors[determined], before, parameters[quantity] * change, threshold)
         counts["found"] += bool(hits)
         counts["exact"] += any(each.at == at for each in hits)
         counts["false"] += len(seen) - bool(hits)
@@ -165,7 +165,7 @@ def main() -> None:
     print(f"steps of {STEP:.1%}, of one kind in every second camera; a false alarm in {1 / rate:,.0f} places each")
     print("                error  scatter/error  steps  expected  found  at it  false  allowed")
     for quantity in COLUMNS:
-        print_row(quantity, judge(quantity, cameras, table, options.sessions, rate))
+        print_row(quantity, evaluate(quantity, cameras, table, options.sessions, rate))
 
 
 if __name__ == "__main__":

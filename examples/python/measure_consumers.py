@@ -25,7 +25,7 @@ from pathlib import Path
 
 import itk
 import numpy as np
-from measure_held_out import STILL, band_means, bands_of, held_out, law, model_of, stabilised, true_model
+from measure_held_out import STATIC, band_means, bands_of, held_out, law, model_of, stabilised, true_model
 
 FLICKERS = (0.0, 0.002, 0.01, 0.05)
 EDGES = (0, 10, 50, 200, 500)  # edges of the signal bands [e-]
@@ -81,7 +81,7 @@ def run(python, program, data):
 
 
 def joined(found, key, suffix=""):
-    return np.concatenate([found[f"{key}{light}{suffix}"].ravel() for light in ("bright", "dim")])
+    return np.concatenate([found[f"{key}{part}{suffix}"].ravel() for part in ("bright", "dim")])
 
 
 def cells(values, bands, form):
@@ -94,20 +94,20 @@ def measure(options, scene):
     if scene == "ramp":
         common["reference"] = np.tile(np.linspace(0, 1, options.size) ** 2, (options.size, 1))
         del common["size"]
-    stacks, lights, record = held_out(common, options.held_out)
-    light = np.maximum(1e-6, np.concatenate([values.ravel() for values in lights]))
-    bands = bands_of(light, record, EDGES)
+    stacks, signals, record = held_out(common, options.held_out)
+    signal = np.maximum(1e-6, np.concatenate([values.ravel() for values in signals]))
+    bands = bands_of(signal, record, EDGES)
     data = dict(zip(("bright", "dim"), stacks, strict=True))
     models = []
     for index, flicker in enumerate(FLICKERS):
-        settings = {**common, **STILL, "flicker_sd": flicker}
+        settings = {**common, **STATIC, "flicker_sd": flicker}
         data[f"burst{index}"], _ = itk.simulate_sensor_noise(**settings, frames=options.frames, seed=1)
         models.append(tuple(model_of(itk.estimate_sensor_noise(data[f"burst{index}"])).values()))
     data["models"] = np.array(models)
 
     truth = tuple(true_model(record).values())
     row = f"{f'{scene}: the law, true parameters':<38}{truth[0]:8.4f}{truth[1]:11.2f} "
-    print(row + cells(law(light, record), bands, ".3f"))
+    print(row + cells(law(signal, record), bands, ".3f"))
     for consumer, program in (("ndsafir", NDSAFIR), ("anscombe_transform", ANSCOMBE_TRANSFORM)):
         python = getattr(options, consumer)
         found = run(python, program, data) if python else {}
@@ -122,7 +122,7 @@ def measure(options, scene):
                     variance = joined(found, key, "variance")
                 else:
                     variance, _ = stabilised(stacks, {"variance_slope": slope, "total_intercept": intercept})
-                bias = (joined(found, key) - record["offset"]) / record["gain"] - light
+                bias = (joined(found, key) - record["offset"]) / record["gain"] - signal
                 print(row + cells(variance, bands, ".3f") + " " + cells(bias, bands, "+.2f"), flush=True)
 
 

@@ -57,9 +57,9 @@ def named(denoiser, strength=1.0):
     return total_variation(strength) if denoiser == "scikit-image" else named_denoiser(denoiser, strength)
 
 
-def biases(image, truth, light):
+def biases(image, truth, signal):
     """Returns the mean error for each band of the signal [DN]; None for a band with few pixels."""
-    bands = [(light >= low) & (light < high) for low, high in pairwise(EDGES)]
+    bands = [(signal >= low) & (signal < high) for low, high in pairwise(EDGES)]
     return [(image - truth)[band].mean() if band.sum() >= FEWEST_PIXELS else None for band in bands]
 
 
@@ -75,11 +75,11 @@ def measure(camera, scene, denoiser, size, frames):
     common = {"camera": camera, "reference": scene, "size": (size, size)}
     burst, record = itk.simulate_sensor_noise(**common, condition=3, frames=frames, seed=1)
     report = itk.estimate_sensor_noise(burst)
-    still = {**common, "flicker_sd": 0.0, "vibration_sd": (0.0, 0.0), "frames": 1, "seed": 2}
-    noisy = itk.simulate_sensor_noise(**still)[0][0].astype(np.float64)
+    static = {**common, "flicker_sd": 0.0, "vibration_sd": (0.0, 0.0), "frames": 1, "seed": 2}
+    noisy = itk.simulate_sensor_noise(**static)[0][0].astype(np.float64)
     gain = record["gain"]
     bright = {"electrons": 1e5 * record["electrons"], "gain": 1e-5 * gain, "read_noise": 0.0}
-    truth = itk.simulate_sensor_noise(**still, **bright, dtype="float64")[0][0]  # unrounded
+    truth = itk.simulate_sensor_noise(**static, **bright, dtype="float64")[0][0]  # unrounded
     slope, intercept = gain, record["read_noise"] ** 2 - gain * record["offset"] + 1 / 12
     measured = {name: report[name]["value"] for name in ("variance_slope", "total_intercept")}
     remove = named(denoiser)
@@ -108,9 +108,9 @@ def main() -> None:
             truth, record, images = measure(camera, scene, options.denoiser, options.size, options.frames)
             cells = [f"{psnr(image, truth):.2f} dB {ssim(image, truth):.4f}" for image in images]
             print(f"{camera:<8}{scene:<9}" + "".join(f"{cell:>22}" for cell in cells), flush=True)
-            light = (truth - record["offset"]) / record["gain"]
+            signal = (truth - record["offset"]) / record["gain"]
             for name, image in zip(HEAD, images, strict=True):
-                rows.append((f"{camera:<8}{scene:<9}{name}", biases(image, truth, light), record["gain"]))
+                rows.append((f"{camera:<8}{scene:<9}{name}", biases(image, truth, signal), record["gain"]))
     print("\nmean error per band of the light [e-]\n" + " " * 33, end="")
     print("".join(f"{low}-{high}".rjust(11) for low, high in pairwise(EDGES)))
     for name, errors, gain in rows:

@@ -117,9 +117,9 @@ def main():
     for name, (_, allowed) in TARGETS.items():
         found = errors[name]
         is_right = is_right and rms(found) <= allowed
-        share = 100 * held[name] / options.cameras
+        percent = 100 * held[name] / options.cameras
         mean = 100 * sum(found) / len(found)
-        print(f"{name:14} {100 * rms(found):8.3f} % {100 * allowed:8.3g} % {mean:10.3f} %   {share:.0f} %")
+        print(f"{name:14} {100 * rms(found):8.3f} % {100 * allowed:8.3g} % {mean:10.3f} %   {percent:.0f} %")
     print(f"{'linearity':14} {rms(linearity):8.4f} % {LINEARITY:8.3g} %   (a linear camera has 0)")
     return 0 if is_right else 1
 

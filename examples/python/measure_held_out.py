@@ -31,16 +31,16 @@ import numpy as np
 
 EDGES = np.array([0, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10002])  # edges of the signal bands [e-]
 DIM_ELECTRONS = 40.0
-STILL = {"flicker_sd": 0.0, "vibration_sd": (0.0, 0.0)}
+STATIC = {"flicker_sd": 0.0, "vibration_sd": (0.0, 0.0)}
 FEWEST_PIXELS = 30
 
 
-def variance_after(light, read_noise):
+def variance_after(signal, read_noise):
     """Returns the variance after the transform with the true parameters, for a mean signal and a read noise [e-]."""
-    spread = 9 * np.sqrt(light) + 30
-    electrons = np.arange(max(0, int(light - spread)), int(light + spread))
+    spread = 9 * np.sqrt(signal) + 30
+    electrons = np.arange(max(0, int(signal - spread)), int(signal + spread))
     factorials = np.concatenate(([0.0], np.cumsum(np.log(np.arange(1, electrons[-1] + 1)))))[electrons]
-    photons = np.exp(electrons * np.log(light) - light - factorials)
+    photons = np.exp(electrons * np.log(signal) - signal - factorials)
     z = np.linspace(-8, 8, 1601)
     normal = np.exp(-(z**2) / 2) / np.exp(-(z**2) / 2).sum()
     values = 2 * np.sqrt(np.maximum(0, electrons[:, None] + read_noise * z + 3 / 8 + read_noise**2))
@@ -48,25 +48,25 @@ def variance_after(light, read_noise):
     return photons @ values**2 @ normal
 
 
-def law(light, record):
+def law(signal, record):
     """Returns this variance for an array of mean signals [e-]. The quantization noise is part of the read noise."""
     read_noise = np.sqrt(record["read_noise"] ** 2 + 1 / 12) / record["gain"]
-    grid = np.geomspace(1e-3, light.max(), 80)
-    return np.interp(np.log(light), np.log(grid), [variance_after(value, read_noise) for value in grid])
+    grid = np.geomspace(1e-3, signal.max(), 80)
+    return np.interp(np.log(signal), np.log(grid), [variance_after(value, read_noise) for value in grid])
 
 
 def held_out(common, frames, seed=1000):
     """Returns frames without flicker at two illuminations, the mean signal of their pixels [e-], and the record of the
     camera."""
-    stacks, lights = [], []
+    stacks, signals = [], []
     for electrons in ({}, {"electrons": DIM_ELECTRONS}):
-        stack, record = itk.simulate_sensor_noise(**{**common, **STILL, **electrons}, frames=frames, seed=seed)
+        stack, record = itk.simulate_sensor_noise(**{**common, **STATIC, **electrons}, frames=frames, seed=seed)
         # The same scene with a billion electrons, unrounded, has negligible noise.
         bright = {"electrons": 1e9, "gain": record["electrons"] / 1e9 * record["gain"], "read_noise": 0.0}
-        truth = itk.simulate_sensor_noise(**{**common, **STILL, **bright}, frames=1, dtype="float64")[0][0]
+        truth = itk.simulate_sensor_noise(**{**common, **STATIC, **bright}, frames=1, dtype="float64")[0][0]
         stacks.append(stack)
-        lights.append((truth - record["offset"]) / record["gain"])
-    return stacks, lights, record
+        signals.append((truth - record["offset"]) / record["gain"])
+    return stacks, signals, record
 
 
 def true_model(record):
@@ -97,12 +97,12 @@ def own_error(report, model, level):
     return error / (slope * level + 0.375 * slope**2 + model["total_intercept"])
 
 
-def bands_of(light, record, edges=EDGES):
+def bands_of(signal, record, edges=EDGES):
     """Returns the pixels of each band whose levels are at least 6 standard deviations from the clip levels."""
-    noise = np.sqrt(record["gain"] ** 2 * light + record["read_noise"] ** 2)
-    level = record["gain"] * light + record["offset"]
+    noise = np.sqrt(record["gain"] ** 2 * signal + record["read_noise"] ** 2)
+    level = record["gain"] * signal + record["offset"]
     clear = (level > 6 * noise) & (level + 6 * noise < 2 ** record["bit_depth"] - 1)
-    return [clear & (light >= low) & (light < high) for low, high in pairwise(edges)]
+    return [clear & (signal >= low) & (signal < high) for low, high in pairwise(edges)]
 
 
 def band_means(values, bands):
@@ -122,11 +122,11 @@ def stabilised(stacks, model):
     return variance, np.concatenate([value.mean(axis=0).ravel() for value in values])
 
 
-def measure(stacks, light, record, model, report, expected):
+def measure(stacks, signal, record, model, report, expected):
     """Returns for each quantity and band the deviation, its standard error, its limit, and the error of the report."""
     variance, mean = stabilised(stacks, model)
-    bands = bands_of(light, record)
-    levels = [record["gain"] * light[band].mean() + record["offset"] if band.any() else 0.0 for band in bands]
+    bands = bands_of(signal, record)
+    levels = [record["gain"] * signal[band].mean() + record["offset"] if band.any() else 0.0 for band in bands]
     cells = {
         "variance": [
             found and (*found, 0.02, own_error(report, model, level))
@@ -135,9 +135,9 @@ def measure(stacks, light, record, model, report, expected):
     }
     for inverse in ("exact-unbiased", "algebraic"):
         level = itk.inverse_generalized_anscombe_image_filter(mean[None, :], **model, inverse=inverse)[0]
-        bias = (level - record["offset"]) / record["gain"] - light
+        bias = (level - record["offset"]) / record["gain"] - signal
         cells[inverse] = [
-            found and low >= 2 and (*found, max(0.02, 0.005 * light[band].mean()), 0.0)
+            found and low >= 2 and (*found, max(0.02, 0.005 * signal[band].mean()), 0.0)
             for found, low, band in zip(band_means(bias, bands), EDGES[:-1], bands, strict=True)
         ]
     return cells
@@ -154,8 +154,8 @@ def text_of(cell):
 def models_of(common, frames):
     """Yields the reports and their models by condition and method."""
     for condition in (1, 2, 3, "steady"):
-        light = STILL if condition == "steady" else {"condition": condition}
-        burst, _ = itk.simulate_sensor_noise(**common, **light, frames=frames, seed=1)
+        conditions = STATIC if condition == "steady" else {"condition": condition}
+        burst, _ = itk.simulate_sensor_noise(**common, **conditions, frames=frames, seed=1)
         for method in ("refined", "published"):
             report = itk.estimate_sensor_noise(burst, method=method)
             yield condition, method, model_of(report), report
@@ -183,13 +183,13 @@ def main() -> None:
     for camera in options.cameras:
         for scene in options.scenes.split(","):
             common = {"camera": camera, "reference": scene, "size": (options.size, options.size)}
-            stacks, lights, record = held_out(common, options.frames)
-            light = np.maximum(1e-6, np.concatenate([values.ravel() for values in lights]))
-            expected = law(light, record)
+            stacks, signals, record = held_out(common, options.frames)
+            signal = np.maximum(1e-6, np.concatenate([values.ravel() for values in signals]))
+            expected = law(signal, record)
             models = [("", "true", true_model(record), None), *models_of(common, options.frames)]
             for condition, method, model, report in models:
                 nothing = defaultdict(lambda: None)
-                cells = measure(stacks, light, record, model, report, expected) if model else nothing
+                cells = measure(stacks, signal, record, model, report, expected) if model else nothing
                 for quantity in ("variance", "exact-unbiased", "algebraic"):
                     tables[quantity].append((f"{camera} {scene:<8} {condition:<7} {method}", cells[quantity]))
                     known = [cell for cell in cells[quantity] or [] if cell]

@@ -15,7 +15,7 @@ from typing import Any
 import itk
 
 
-def departures(quantity: dict[str, Any], truth: float) -> tuple[float, float] | None:
+def deviations(quantity: dict[str, Any], truth: float) -> tuple[float, float] | None:
     """Returns the error of the quantity, relative to the truth and in its standard errors; None: it has no value."""
     if quantity["value"] is None:
         return None
@@ -47,11 +47,11 @@ def main() -> None:
             for axis, sd in zip("xy", truth["realised_vibration_sd"], strict=True):
                 name = f"sd_{axis}"
                 of_all = (reports["joint_vibration"] or {}).get(name)
-                found = departures(of_all, sd / 2) if of_all else None  # in pixels of a channel
+                found = deviations(of_all, sd / 2) if of_all else None  # in pixels of a channel
                 if found:
                     joint.append(found)
                     line += f"   {name} {100 * found[0]:+6.2f} %, {found[1]:+5.2f} errors"
-                of_planes = [departures(channel["vibration"][name], sd / 2) for channel in reports["channels"]]
+                of_planes = [deviations(channel["vibration"][name], sd / 2) for channel in reports["channels"]]
                 planes += [found for found in of_planes if found]
             print(line, flush=True)
     print(describe("one plane", planes))

@@ -89,8 +89,8 @@ def seconds_of(steps: Steps, frames: int, workers: int, fan: int) -> dict[str, l
     tasks = 2 * workers
     depth = math.ceil(math.log(tasks, fan)) if tasks > 1 else 0
     for number in range(3):
-        share = math.ceil(frames / workers)
-        found["read, add"].append(share * max(2.0 * steps.pixels / READ, steps.add[number]))
+        frames_of_worker = math.ceil(frames / workers)
+        found["read, add"].append(frames_of_worker * max(2.0 * steps.pixels / READ, steps.add[number]))
         waited = 0.0
         of_part = frames / tasks
         for _ in range(depth):

@@ -50,7 +50,7 @@ class State(NamedTuple):
     theta: np.ndarray  # their coefficients
     grid: np.ndarray  # excess variance [DN^2]
     weights: np.ndarray  # fraction of the pixels at each of them (class of tiles, grid)
-    share: np.ndarray  # fraction of the tiles of each class
+    fraction: np.ndarray  # fraction of the tiles of each class
     member: np.ndarray | None = None  # probability of each pixel's tile to be of each class (pixels, class)
 
 
@@ -97,7 +97,7 @@ def expectation(pixels, state, is_one_class):
     of_class = likelihood @ state.weights.T
     with np.errstate(divide="ignore"):
         total = np.log(of_class) + highest[:, None]
-    tiles = np.log(state.share) + np.stack([np.bincount(pixels.tile, one, pixels.tiles) for one in total.T], axis=1)
+    tiles = np.log(state.fraction) + np.stack([np.bincount(pixels.tile, one, pixels.tiles) for one in total.T], axis=1)
     tiles = np.exp(tiles - logsumexp(tiles, axis=1)[:, None])
     if is_one_class:
         tiles[:] = (1.0, 0.0)
@@ -112,7 +112,7 @@ def expectation(pixels, state, is_one_class):
     return (
         state._replace(
             weights=weights / weights.sum(axis=1)[:, None],
-            share=state.share if is_one_class else tiles[filled].mean(axis=0).clip(1e-6),
+            fraction=state.fraction if is_one_class else tiles[filled].mean(axis=0).clip(1e-6),
             member=member,
         ),
         score,
@@ -167,11 +167,11 @@ def fit_of(pixels, state):
     curvature = (posterior * (slope + u**2)).sum(axis=1) - mean_u**2
     active = np.flatnonzero(weights[1:] > FEWEST) + 1
     e = relative[:, active] - relative[:, :1]
-    crossed = columns.T @ (
+    mixed = columns.T @ (
         member[:, None] * (relative[:, active] * u[:, active] - relative[:, :1] * u[:, :1] - mean_u[:, None] * e)
     )
     information = -np.block(
-        [[columns.T @ ((member * curvature)[:, None] * columns), crossed], [crossed.T, -(e.T @ (member[:, None] * e))]]
+        [[columns.T @ ((member * curvature)[:, None] * columns), mixed], [mixed.T, -(e.T @ (member[:, None] * e))]]
     )
     scores = member[:, None] * np.hstack([mean_u[:, None] * columns, e])
     sums = np.stack([np.bincount(pixels.tile, one, pixels.tiles) for one in scores.T])

@@ -20,7 +20,7 @@ import situations_shared
 import situations_values
 from acceptance_bursts import estimate
 from acceptance_lines import stream_of
-from acceptance_stacks import judge, judge_frames
+from acceptance_stacks import evaluate, evaluate_frames
 from frame_stacks import write_stack
 
 MODULES = (
@@ -76,9 +76,9 @@ def measure(programs, situation, scene, number):
     truth = {name: float(getattr(burst, name)) for name in COMPARED if getattr(burst, name) is not None}
     found = {name: quantity_at(report, path) for name, path in COMPARED.items()}
     loud = [warning["code"] for warning in report["warnings"] if warning["severity"] != "note"]
-    stack = judge(found, truth, burst.signal_range, loud, situation.expected)
+    stack = evaluate(found, truth, burst.signal_range, loud, situation.expected)
     if burst.unlike_frames is not None:
-        stack |= judge_frames((left["frame"] for left in report.get("frames_left_out", ())), burst.unlike_frames)
+        stack |= evaluate_frames((left["frame"] for left in report.get("frames_left_out", ())), burst.unlike_frames)
     return [stack | {"setting": "", "exit": done.code, "seconds": done.seconds, "bound": None, "emva_error": None}]
 
 

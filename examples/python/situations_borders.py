@@ -12,20 +12,20 @@ BITS = 12
 
 
 def bordered(random, electrons, cover):
-    """Returns a burst with a border. cover(light, offset, noise) changes these images (y, x) in place."""
-    light = electrons.copy()
-    offset = np.full(light.shape, OFFSET[BITS])
-    noise = np.full(light.shape, READ_NOISE)
-    cover(light, offset, noise)
-    frames = expose(random, light, illumination(random, FRAMES), GAIN, offset, noise)
+    """Returns a burst with a border. cover(expected, offset, noise) changes these images (y, x) in place."""
+    expected = electrons.copy()
+    offset = np.full(expected.shape, OFFSET[BITS])
+    noise = np.full(expected.shape, READ_NOISE)
+    cover(expected, offset, noise)
+    frames = expose(random, expected, illumination(random, FRAMES), GAIN, offset, noise)
     return Burst(digitise(frames, BITS), offset=OFFSET[BITS], read_noise=READ_NOISE, unlike_frames=())
 
 
 def black_columns(columns, below):
     """Covers optical-black columns at the left. They are `below` DN below the pixels without signal."""
 
-    def cover(light, offset, _noise):
-        light[:, :columns] = 0
+    def cover(expected, offset, _noise):
+        expected[:, :columns] = 0
         offset[:, :columns] -= below
 
     return cover
@@ -34,10 +34,10 @@ def black_columns(columns, below):
 def black_frame(columns, rows, below):
     """Covers masked regions at both sides, at the top and at the bottom."""
 
-    def cover(light, offset, _noise):
-        masked = np.ones(light.shape, bool)
+    def cover(expected, offset, _noise):
+        masked = np.ones(expected.shape, bool)
         masked[rows:-rows, columns:-columns] = False
-        light[masked] = 0
+        expected[masked] = 0
         offset[masked] -= below
 
     return cover
@@ -46,8 +46,8 @@ def black_frame(columns, rows, below):
 def test_rows(rows, level):
     """Makes rows at the bottom that hold a test level with its own noise, and no signal."""
 
-    def cover(light, offset, noise):
-        light[-rows:] = 0
+    def cover(expected, offset, noise):
+        expected[-rows:] = 0
         offset[-rows:] = level
         noise[-rows:] = 2 * READ_NOISE
 

@@ -83,7 +83,7 @@ def linearity_error(levels, exposures, dark, saturation):
     return 100 * np.mean(np.abs((levels[used] - fitted) / (fitted - dark)))
 
 
-def exposure_series(random, bend, has_dark):
+def exposure_series(random, curvature, has_dark):
     """Returns eight exposures of five frames of a flat field. The signal is compressed by `bend` [1] at saturation."""
     full = (HIGHEST - OFFSET[BITS]) / GAIN
     steps = np.linspace(0.0 if has_dark else 0.08, 0.88, 8)
@@ -91,9 +91,9 @@ def exposure_series(random, bend, has_dark):
     electrons = full * (1 + 0.007 * random.normal(size=SHAPE))
     factors = exposures * (1 + 0.002 * random.normal(size=exposures.size) * (exposures > 0))
     collected = random.poisson(np.maximum(0.0, factors[:, None, None] * electrons))
-    signal = GAIN * collected * (1 - bend * collected / full)
+    signal = GAIN * collected * (1 - curvature * collected / full)
     frames = signal + OFFSET[BITS] + READ_NOISE * random.normal(size=collected.shape)
-    mean = OFFSET[BITS] + GAIN * full * exposures * (1 - bend * exposures)
+    mean = OFFSET[BITS] + GAIN * full * exposures * (1 - curvature * exposures)
     error = linearity_error(mean, exposures, OFFSET[BITS], HIGHEST)
     return Burst(
         digitise(frames, BITS),
@@ -117,10 +117,12 @@ SITUATIONS = (
     ),
     *(
         Situation(
-            f"linearity/bend-{100 * bend:g}%{'' if has_dark else '-no-dark'}",
-            lambda random, _electrons, bend=bend, has_dark=has_dark: exposure_series(random, bend, has_dark),
+            f"linearity/bend-{100 * curvature:g}%{'' if has_dark else '-no-dark'}",
+            lambda random, _electrons, curvature=curvature, has_dark=has_dark: exposure_series(
+                random, curvature, has_dark
+            ),
         )
-        for bend in (0.0, 0.01, 0.04)
+        for curvature in (0.0, 0.01, 0.04)
         for has_dark in (True, False)
     ),
 )

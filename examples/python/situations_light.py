@@ -12,9 +12,9 @@ from situations import FRAMES, GAIN, OFFSET, READ_NOISE, SHAPE, Burst, digitise,
 BITS = 12
 
 
-def changing(random, light):
+def changing(random, expected):
     """Returns a burst of the expected electrons (t, y, x)."""
-    signal = GAIN * random.poisson(light)
+    signal = GAIN * random.poisson(expected)
     frames = signal + OFFSET[BITS] + READ_NOISE * random.normal(size=signal.shape)
     return Burst(digitise(frames, BITS), offset=OFFSET[BITS], read_noise=READ_NOISE)
 
@@ -22,15 +22,15 @@ def changing(random, light):
 def calcium(random, electrons, amplitude):
     """Returns a burst in which cells of 8 pixels cover a quarter of the area. Each cell has transients that decay over
     8 frames."""
-    light = illumination(random)[:, None, None] * electrons[None]
+    expected = illumination(random)[:, None, None] * electrons[None]
     y, x = np.indices(SHAPE)
     kernel = np.exp(-np.arange(FRAMES) / 8.0)
     for _ in range(int(0.25 * SHAPE[0] * SHAPE[1] / (np.pi * 4.0**2))):
         cy, cx = random.uniform(0, SHAPE[0]), random.uniform(0, SHAPE[1])
         cell = (y - cy) ** 2 + (x - cx) ** 2 < 4.0**2
         trace = np.convolve(random.random(FRAMES) < 0.05, kernel)[:FRAMES]
-        light[:, cell] *= (1 + amplitude * trace)[:, None]
-    return changing(random, np.minimum(light, 7000.0))
+        expected[:, cell] *= (1 + amplitude * trace)[:, None]
+    return changing(random, np.minimum(expected, 7000.0))
 
 
 def bands(random, electrons, depth):
@@ -46,24 +46,24 @@ def bands(random, electrons, depth):
 
 def rain(random, electrons, drops):
     """Returns a burst with streaks of rain, which brighten other pixels in every frame."""
-    light = illumination(random)[:, None, None] * electrons[None]
+    expected = illumination(random)[:, None, None] * electrons[None]
     for t in range(FRAMES):
         streaks = np.zeros(SHAPE)
         for _ in range(drops):
             cy, cx, length = random.integers(0, SHAPE[0]), random.integers(0, SHAPE[1]), random.integers(8, 24)
             streaks[cy : cy + length, cx : cx + 2] = random.uniform(0.05, 0.3)
-        light[t] *= 1 + smooth(streaks, 0.7)
-    return changing(random, np.minimum(light, 7000.0))
+        expected[t] *= 1 + smooth(streaks, 0.7)
+    return changing(random, np.minimum(expected, 7000.0))
 
 
 def caustics(random, electrons, rms):
     """Returns a burst under moving water: a pattern of 6 pixels that is independent in every frame, with this relative
     rms."""
-    light = illumination(random)[:, None, None] * electrons[None]
+    expected = illumination(random)[:, None, None] * electrons[None]
     for t in range(FRAMES):
         pattern = smooth(random.normal(size=SHAPE), 3.0)
-        light[t] *= 1 + rms * pattern / pattern.std()
-    return changing(random, light)
+        expected[t] *= 1 + rms * pattern / pattern.std()
+    return changing(random, expected)
 
 
 def skipped(random, electrons, fraction):

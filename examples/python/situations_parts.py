@@ -84,8 +84,8 @@ def vignetting(random, electrons, fall):
     divided by it."""
     y, x = np.indices(SHAPE)
     square = ((x / SHAPE[1] - 0.5) ** 2 + (y / SHAPE[0] - 0.5) ** 2) / 0.5
-    light = 1 - fall * square
-    return burst(random, electrons * light, 1 / light)
+    transmission = 1 - fall * square
+    return burst(random, electrons * transmission, 1 / transmission)
 
 
 KINDS = {

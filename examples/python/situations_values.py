@@ -40,9 +40,9 @@ def other_gain(random, electrons, ratio):
     return with_dark(random, electrons, dark_frames(random, read_noise=ratio * READ_NOISE))
 
 
-def bright_as_dark(random, electrons, share):
+def bright_as_dark(random, electrons, fraction):
     """Returns a burst with frames of the same scene at less illumination, which are given as dark frames."""
-    frames = expose(random, share * electrons, illumination(random, DARK_FRAMES))
+    frames = expose(random, fraction * electrons, illumination(random, DARK_FRAMES))
     return with_dark(random, electrons, digitise(frames))
 
 
@@ -69,7 +69,7 @@ def line(name, make, *given):
 SITUATIONS = (
     *(line(f"dark-frames/black-level{by:+d}", black_level_moved, by) for by in (-8, 4, 8, 20)),
     *(line(f"dark-frames/noise-x{ratio}", other_gain, ratio) for ratio in (0.5, 1.5, 3)),
-    *(line(f"dark-frames/bright-{share:.0%}", bright_as_dark, share) for share in (0.1, 0.5)),
+    *(line(f"dark-frames/bright-{fraction:.0%}", bright_as_dark, fraction) for fraction in (0.1, 0.5)),
     *(line(f"stuck/{stuck}-beyond-{top}", saturated, top, stuck) for top in (2500, 3400) for stuck in (1, 12)),
     *(
         line(f"type/{dtype}{offset:+d}", of_type, dtype, offset)

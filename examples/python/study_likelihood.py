@@ -42,9 +42,9 @@ class Found(NamedTuple):
     is_held: bool
 
 
-def exposed(random, light, **truth):
+def exposed(random, expected, **truth):
     """Returns a burst of the expected electrons (t, y, x)."""
-    frames = np.concatenate([camera.expose(random, one, [1.0]) for one in light])
+    frames = np.concatenate([camera.expose(random, one, [1.0]) for one in expected])
     return camera.Burst(
         camera.digitise(frames), **({"offset": camera.OFFSET[12], "read_noise": camera.READ_NOISE} | truth)
     )
@@ -89,11 +89,11 @@ def telegraph(random):
 def object_crosses(random):
     """An object of 30 x 30 pixels, 2 % of the frame, is at another place of a strip in each frame."""
     electrons = camera.electrons_of("texture", random)
-    light = camera.illumination(random)[:, None, None] * electrons
+    expected = camera.illumination(random)[:, None, None] * electrons
     for t in range(camera.FRAMES):
         y, x = 80 + random.integers(10), random.integers(20, 40)
-        light[t, y : y + 30, x : x + 30] = 0.6 * camera.ELECTRONS
-    return exposed(random, light)
+        expected[t, y : y + 30, x : x + 30] = 0.6 * camera.ELECTRONS
+    return exposed(random, expected)
 
 
 def two_lamps(random):
@@ -116,9 +116,9 @@ def non_linear(random):
     """The local gain falls by 8 % from the dark to the brightest level. The true gain is the mean over the pixels."""
     electrons = camera.electrons_of("texture", random)
     signal = camera.expose(random, electrons, camera.illumination(random), offset=0.0, read_noise=0.0)
-    bend = 0.04 / (camera.GAIN * camera.ELECTRONS)
-    frames = signal - bend * signal**2 + camera.OFFSET[12] + camera.READ_NOISE * random.normal(size=signal.shape)
-    gain = camera.GAIN * (1 - 2 * bend * camera.GAIN * electrons.mean())
+    curvature = 0.04 / (camera.GAIN * camera.ELECTRONS)
+    frames = signal - curvature * signal**2 + camera.OFFSET[12] + camera.READ_NOISE * random.normal(size=signal.shape)
+    gain = camera.GAIN * (1 - 2 * curvature * camera.GAIN * electrons.mean())
     return camera.Burst(camera.digitise(frames), gain=gain)
 
 

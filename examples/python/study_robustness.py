@@ -74,5 +74,5 @@ def print_table(records):
     )
     groups = by_case(records)
     faults = [print_group(group) for group in groups]
-    judged = sum(group[0]["expectation"] != "processed" for group in groups)
-    print(f"{sum(map(bool, faults))} of {judged} missed")
+    tested = sum(group[0]["expectation"] != "processed" for group in groups)
+    print(f"{sum(map(bool, faults))} of {tested} missed")

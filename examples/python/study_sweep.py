@@ -41,8 +41,15 @@ def simulate(folder: Path, seed: int, has_switch: bool, options: argparse.Namesp
         camera = [options.bin / "simulate-sensor-noise", "--size", options.size, "--frames", options.frames]
         camera += ["--gain", gain, "--offset", OFFSET, "--bit-depth", 14]
         camera += ["--read-noise", gain * read_noise(iso, has_switch)]
-        light = ["--electrons", min(60000, BRIGHTEST / gain), "--flicker-sd", 0.02, "--seed", 100 * seed + number]
-        run([*camera, *light, "--output", burst / "light.mha"])
+        illumination = [
+            "--electrons",
+            min(60000, BRIGHTEST / gain),
+            "--flicker-sd",
+            0.02,
+            "--seed",
+            100 * seed + number,
+        ]
+        run([*camera, *illumination, "--output", burst / "light.mha"])
         run([*camera, "--dark", "--seed", 100 * seed + 50 + number, "--output", burst / "dark" / "dark.mha"])
 
 

@@ -27,22 +27,22 @@ constexpr NamedPattern FlatPatterns[] = {
 };
 
 /** Illumination of a flat field: expected electrons [e-] and standard deviation of the flicker [1]. */
-struct FlatLight
+struct FlatIllumination
 {
   double electrons;
   double flickerSd;
 };
 
 RealSensorSetting
-MakeFlatSetting(const NamedPattern & pattern, double shading, const FlatLight & light, std::size_t frames)
+MakeFlatSetting(const NamedPattern & pattern, double shading, const FlatIllumination & illumination, std::size_t frames)
 {
-  auto setting =
-    MakeRealSensorSetting(RealSensorScene::Flat,
-                          std::string(pattern.name) + ", shading " + ShortText(100.0 * shading) + " %, " +
-                            ShortText(light.electrons) + " e-, flicker " + ShortText(100.0 * light.flickerSd) + " %");
+  auto setting = MakeRealSensorSetting(RealSensorScene::Flat,
+                                       std::string(pattern.name) + ", shading " + ShortText(100.0 * shading) + " %, " +
+                                         ShortText(illumination.electrons) + " e-, flicker " +
+                                         ShortText(100.0 * illumination.flickerSd) + " %");
   setting.shading = shading;
-  setting.settings.camera.electrons = light.electrons;
-  setting.settings.conditions = { light.flickerSd, 0.0, 0.0 };
+  setting.settings.camera.electrons = illumination.electrons;
+  setting.settings.conditions = { illumination.flickerSd, 0.0, 0.0 };
   setting.settings.bitDepth = 14; // 7000 e- at 1 DN/e- exceed 12 bits
   setting.settings.frames = frames;
   pattern.apply(setting.settings);
@@ -55,13 +55,14 @@ MakeFlatSettings(bool hasDarkFrames)
   std::vector<RealSensorSetting> all;
   for (const std::size_t frames : { 8, 50 })
   {
-    for (const FlatLight & light : { FlatLight{ 3000.0, 0.0 }, { 3000.0, 0.003 }, { 7000.0, 0.003 } })
+    for (const FlatIllumination & illumination :
+         { FlatIllumination{ 3000.0, 0.0 }, { 3000.0, 0.003 }, { 7000.0, 0.003 } })
     {
       for (const double shading : { 0.001, 0.003, 0.03 })
       {
         for (const NamedPattern & pattern : FlatPatterns)
         {
-          all.push_back(MakeFlatSetting(pattern, shading, light, frames));
+          all.push_back(MakeFlatSetting(pattern, shading, illumination, frames));
           all.back().hasDarkFrames = hasDarkFrames;
         }
       }

@@ -39,13 +39,13 @@ MakePlainSettings()
 {
   Settings all;
   AppendEverywhere(all, "plain", White, [](RealSensorSetting &) {});
-  for (const double share : { 0.2, 0.5, 1.0 })
+  for (const double fraction : { 0.2, 0.5, 1.0 })
   {
-    AppendEverywhere(all, "row noise " + ShortText(share) + " sigma", White, [=](RealSensorSetting & setting) {
-      setting.settings.flaws.lineNoise.rowNoiseSdDn = share * setting.settings.camera.readNoiseDn;
+    AppendEverywhere(all, "row noise " + ShortText(fraction) + " sigma", White, [=](RealSensorSetting & setting) {
+      setting.settings.flaws.lineNoise.rowNoiseSdDn = fraction * setting.settings.camera.readNoiseDn;
     });
-    AppendEverywhere(all, "column noise " + ShortText(share) + " sigma", White, [=](RealSensorSetting & setting) {
-      setting.settings.flaws.lineNoise.columnNoiseSdDn = share * setting.settings.camera.readNoiseDn;
+    AppendEverywhere(all, "column noise " + ShortText(fraction) + " sigma", White, [=](RealSensorSetting & setting) {
+      setting.settings.flaws.lineNoise.columnNoiseSdDn = fraction * setting.settings.camera.readNoiseDn;
     });
   }
   AppendEverywhere(all, "banding 0.5 sigma", White, [](RealSensorSetting & setting) {
@@ -58,7 +58,7 @@ MakePlainSettings()
   });
   AppendEverywhere(all, "two lamps", White, [](RealSensorSetting & setting) {
     setting.settings.conditions.flickerSd = 0.03;
-    setting.hasTwoLamps = true;
+    setting.hasTwoSources = true;
   });
   return all;
 }

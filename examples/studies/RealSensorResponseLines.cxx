@@ -15,9 +15,9 @@ namespace
 constexpr std::array<RealSensorScene, 2> ResponseScenes{ RealSensorScene::Target, RealSensorScene::Texture };
 
 const std::vector<ResponseSettings> &
-GetBends()
+GetNonlinearResponses()
 {
-  static const std::vector<ResponseSettings> bends = [] {
+  static const std::vector<ResponseSettings> responses = [] {
     std::vector<ResponseSettings> all;
     for (const ResponseShape shape : { ResponseShape::Quadratic, ResponseShape::Wave, ResponseShape::Shoulder })
     {
@@ -28,7 +28,7 @@ GetBends()
     }
     return all;
   }();
-  return bends;
+  return responses;
 }
 
 const std::vector<ResponseSettings> &
@@ -42,7 +42,7 @@ GetToneCurves()
 }
 
 RealSensorSetting
-MakeBentSetting(RealSensorScene scene, const ResponseSettings & response)
+MakeNonlinearSetting(RealSensorScene scene, const ResponseSettings & response)
 {
   auto setting = MakeRealSensorSetting(scene, std::string(NameOf(response.shape)) + ' ' + ShortText(response.size));
   setting.settings.flaws.response = response;
@@ -57,7 +57,7 @@ MakeFullRangeSettings(const std::vector<ResponseSettings> & responses)
   {
     for (const ResponseSettings & response : responses)
     {
-      all.push_back(MakeBentSetting(scene, response));
+      all.push_back(MakeNonlinearSetting(scene, response));
     }
   }
   return all;
@@ -67,7 +67,7 @@ MakeFullRangeSettings(const std::vector<ResponseSettings> & responses)
 std::vector<RealSensorSetting>
 MakeNarrowSettings()
 {
-  std::vector<ResponseSettings> responses = GetBends();
+  std::vector<ResponseSettings> responses = GetNonlinearResponses();
   responses.insert(responses.end(), GetToneCurves().begin(), GetToneCurves().end());
   std::vector<RealSensorSetting> all;
   for (const auto & [low, high] : { std::pair{ 0.2, 0.8 }, std::pair{ 0.05, 0.25 }, std::pair{ 0.4, 1.0 } })
@@ -75,8 +75,8 @@ MakeNarrowSettings()
     for (RealSensorSetting setting : MakeFullRangeSettings(responses))
     {
       setting.name += ", " + ShortText(100.0 * low) + " to " + ShortText(100.0 * high) + " %";
-      setting.darkestLight = low;
-      setting.brightestLight = high;
+      setting.darkestSignal = low;
+      setting.brightestSignal = high;
       all.push_back(std::move(setting));
     }
   }
@@ -87,8 +87,9 @@ MakeNarrowSettings()
 void
 AppendResponseLines(std::vector<RealSensorLine> & lines)
 {
-  lines.push_back(
-    { "bends", "local gain off by 2 and 4 %, full range", [] { return MakeFullRangeSettings(GetBends()); } });
+  lines.push_back({ "bends", "local gain off by 2 and 4 %, full range", [] {
+                     return MakeFullRangeSettings(GetNonlinearResponses());
+                   } });
   lines.push_back({ "gamma", "tone curves, full range", [] { return MakeFullRangeSettings(GetToneCurves()); } });
   lines.push_back({ "narrow", "the bends and tone curves, parts of the range", MakeNarrowSettings });
 }

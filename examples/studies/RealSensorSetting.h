@@ -36,8 +36,8 @@ struct RealSensorSetting
 
   /** Signal at the darkest and the brightest level of the scene, in units of camera.electrons [1], 0 <= darkest <
    * brightest <= 1. A flat field uses only the brightest level. */
-  double darkestLight{ 0.0 };
-  double brightestLight{ 1.0 };
+  double darkestSignal{ 0.0 };
+  double brightestSignal{ 1.0 };
   /** Shading of a flat field: fraction by which its corners are darker than its centre [1], 0 or more, below 1. */
   double shading{ 0.0 };
 
@@ -45,7 +45,7 @@ struct RealSensorSetting
   bool isCrossed{ false };     ///< a textured block crosses the frame
   /** There are two lamps, each with independent flicker of conditions.flickerSd and with its own part of the scene.
    * The true flicker of such a stack is not defined. */
-  bool hasTwoLamps{ false };
+  bool hasTwoSources{ false };
 
   /** Noise classes that the report may give; empty: any. */
   std::vector<std::string> kinds;

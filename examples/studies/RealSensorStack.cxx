@@ -13,7 +13,7 @@ namespace sensornoise::tools
 namespace
 {
 constexpr std::uint64_t LitPixelStream = 120;
-constexpr std::uint64_t LampStream = 121;
+constexpr std::uint64_t SourceStream = 121;
 constexpr std::size_t   EdgeRows = 16;  ///< height of the copied edge [pixel], beyond blur and vibration
 constexpr std::size_t   FieldRows = 16; ///< height of the black and the white field [pixel]
 
@@ -48,7 +48,7 @@ MakeShadedField(std::size_t size, double shading)
 bool
 FillsRange(const RealSensorSetting & setting)
 {
-  return setting.scene != RealSensorScene::Flat && setting.darkestLight == 0.0 && setting.brightestLight == 1.0;
+  return setting.scene != RealSensorScene::Flat && setting.darkestSignal == 0.0 && setting.brightestSignal == 1.0;
 }
 
 /** Returns the scene in units of camera.electrons. If the scene does not fill the range, the rows below the frame
@@ -56,8 +56,8 @@ FillsRange(const RealSensorSetting & setting)
 std::vector<double>
 MakeReference(const RealSensorSetting & setting, std::size_t size)
 {
-  const double        darkest = setting.scene == RealSensorScene::Flat ? 0.0 : setting.darkestLight;
-  const double        range = setting.brightestLight - darkest;
+  const double        darkest = setting.scene == RealSensorScene::Flat ? 0.0 : setting.darkestSignal;
+  const double        range = setting.brightestSignal - darkest;
   std::vector<double> scene = setting.scene == RealSensorScene::Flat     ? MakeShadedField(size, setting.shading)
                               : setting.scene == RealSensorScene::Target ? MakeTargetScene(size, size)
                                                                          : MakeTextureScene(size, size);
@@ -79,12 +79,12 @@ MakeReference(const RealSensorSetting & setting, std::size_t size)
 
 /** Returns the flicker of the two lamps in each frame: independent normal random numbers. */
 std::vector<double>
-DrawLamps(const SimulationSettings & settings, std::uint64_t seed)
+DrawSourceFlicker(const SimulationSettings & settings, std::uint64_t seed)
 {
   std::vector<double> flicker;
   for (std::size_t t = 0; t < settings.frames; ++t)
   {
-    CounterSeededRandom random(seed, LampStream, t);
+    CounterSeededRandom random(seed, SourceStream, t);
     flicker.push_back(settings.conditions.flickerSd * random.Normal());
     flicker.push_back(settings.conditions.flickerSd * random.Normal());
   }
@@ -94,14 +94,14 @@ DrawLamps(const SimulationSettings & settings, std::uint64_t seed)
 /** Applies the flicker of two lamps to a row of electrons. The fraction of the second lamp rises from 0 to 1 along
  * the diagonal of the frame. */
 void
-LightByLamps(double first, double second, std::size_t y, std::vector<double> & electrons)
+ApplyTwoSources(double first, double second, std::size_t y, std::vector<double> & electrons)
 {
   const double pi = 3.14159265358979323846;
   for (std::size_t x = 0; x < electrons.size(); ++x)
   {
     const double along = static_cast<double>(x + y) / (2.0 * static_cast<double>(electrons.size()) - 2.0);
-    const double share = 0.5 - 0.5 * std::cos(pi * along);
-    electrons[x] *= std::max(0.0, 1.0 + (1.0 - share) * first + share * second);
+    const double fraction = 0.5 - 0.5 * std::cos(pi * along);
+    electrons[x] *= std::max(0.0, 1.0 + (1.0 - fraction) * first + fraction * second);
   }
 }
 
@@ -111,7 +111,7 @@ MakeSimulator(const RealSensorSetting & setting, std::size_t size, std::uint64_t
   SimulationSettings settings = setting.settings;
   settings.seed = seed;
   settings.isDark = isDark;
-  if (setting.hasTwoLamps)
+  if (setting.hasTwoSources)
   {
     settings.conditions.flickerSd = 0.0; // each lamp has its own flicker
   }
@@ -129,9 +129,9 @@ RealSensorStack::RealSensorStack(const RealSensorSetting & setting, std::size_t 
     // The texture differs from the texture of the scene.
     m_Block = MakeTextureScene(BlockWidth(size), BlockHeight(size), DefaultSceneSeed + 1);
   }
-  if (setting.hasTwoLamps && !isDark)
+  if (setting.hasTwoSources && !isDark)
   {
-    m_Lamps = DrawLamps(setting.settings, seed);
+    m_SourceFlicker = DrawSourceFlicker(setting.settings, seed);
   }
 }
 
@@ -153,7 +153,7 @@ RealSensorStack::Render() const
     const std::size_t     y = row % m_Size;
     // The block crosses only the lower two thirds of the frame; the upper third stays static.
     const bool isBeside = m_Block.empty() || y < m_Size - BlockHeight(m_Size);
-    if (isBeside && m_Lamps.empty())
+    if (isBeside && m_SourceFlicker.empty())
     {
       m_Simulator.RenderRow(t, y, out);
     }
@@ -184,8 +184,8 @@ RealSensorStack::DrawBlock(std::size_t t, std::size_t y, std::vector<double> & e
     if (inBlock >= 0.0 && inBlock < static_cast<double>(width - 1))
     {
       const auto   first = static_cast<std::size_t>(inBlock);
-      const double share = inBlock - static_cast<double>(first);
-      const double grey = block[first] + share * (block[first + 1] - block[first]);
+      const double fraction = inBlock - static_cast<double>(first);
+      const double grey = block[first] + fraction * (block[first + 1] - block[first]);
       electrons[x] = std::max(0.0, full * (0.2 + 0.6 * grey));
     }
   }
@@ -203,9 +203,9 @@ RealSensorStack::RenderLitRow(std::size_t t, std::size_t y, std::uint16_t * out)
   {
     DrawBlock(t, y, electrons);
   }
-  if (!m_Lamps.empty())
+  if (!m_SourceFlicker.empty())
   {
-    LightByLamps(m_Lamps[2 * t], m_Lamps[2 * t + 1], y, electrons);
+    ApplyTwoSources(m_SourceFlicker[2 * t], m_SourceFlicker[2 * t + 1], y, electrons);
   }
   CounterSeededRandom random(settings.seed, LitPixelStream, t, y);
   const auto          range = StackSimulator::CodeRange<std::uint16_t>(settings);

@@ -56,8 +56,8 @@ private:
   RealSensorSetting   m_Setting;
   std::size_t         m_Size;
   StackSimulator      m_Simulator;
-  std::vector<double> m_Lamps; ///< flicker of the two lamps in each frame [1]; empty: one lamp
-  std::vector<double> m_Block; ///< texture of the block, as wide and high as it [1]; empty: no block
+  std::vector<double> m_SourceFlicker; ///< flicker of the two lamps in each frame [1]; empty: one lamp
+  std::vector<double> m_Block;         ///< texture of the block, as wide and high as it [1]; empty: no block
 };
 
 } // namespace sensornoise::tools

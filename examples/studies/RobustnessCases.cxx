@@ -21,7 +21,7 @@ NameOf(StressExpectation expectation)
   {
     case StressExpectation::Measured:
       return "measured";
-    case StressExpectation::Bent:
+    case StressExpectation::Nonlinear:
       return "non-linear";
     case StressExpectation::Refused:
       return "refused";
@@ -52,7 +52,7 @@ MeasureCase(const StressCase & one, const std::string & scene, const StudyOption
     return static_cast<PixelUse>(use) == PixelUse::Used ? std::uint8_t{ 1 } : std::uint8_t{ 0 };
   });
   const StressTruth truth = stack.TruthOver(isUsed);
-  const double intercept = truth.InterceptNear(measured.report.intercept.value.value_or(0.0), stack.sharedVariance);
+  const double intercept = truth.InterceptNear(measured.report.intercept.value.value_or(0.0), stack.lineVarianceDn2);
   return { { { "expectation", NameOf(one.expectation) },
              { "truth", { { "gain", truth.gain }, { "offset", truth.offset }, { "intercept", intercept } } },
              { "report", measured.ReportRecord() } } };

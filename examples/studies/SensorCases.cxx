@@ -164,7 +164,7 @@ MeasureCase(RealSensorSetting setting, const StudyOptions & options, std::uint64
              { "truth",
                { { "gain", truth.gain },
                  { "offset", truth.offsetDn },
-                 { "flicker_sd", setting.hasTwoLamps ? Record() : Record(flickerSd) },
+                 { "flicker_sd", setting.hasTwoSources ? Record() : Record(flickerSd) },
                  { "read_noise", truth.readNoiseRmsDn },
                  { "read_noise_median", truth.readNoiseMedianDn },
                  { "row_noise", lineNoise.rowNoiseSdDn },

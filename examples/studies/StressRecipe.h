@@ -25,7 +25,8 @@ struct StressRecipe
   std::vector<double> scene;
 
   /** Changes the expected electrons of row y of frame t; empty: no change. */
-  std::function<void(const SimulatedSeries & series, std::size_t t, std::size_t y, RowOfElectrons & electrons)> light;
+  std::function<void(const SimulatedSeries & series, std::size_t t, std::size_t y, RowOfElectrons & electrons)>
+    illuminate;
   /** Level of a pixel in frame t that is added to the offset [DN]; empty: 0. */
   std::function<double(std::size_t t, std::size_t pixel)> levelDn;
   /** Maps a grey value of the converter to a grey value of the file, before rounding; empty: no change. */

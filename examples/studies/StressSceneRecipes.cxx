@@ -52,7 +52,7 @@ PrepareRandomRolling(StressRecipe & recipe)
 {
   recipe.settings.conditions.flickerSd = 0.0;
   const auto gamma = DrawFlickerOfRows(recipe, 0.05, 200.0);
-  recipe.light = [gamma, size = recipe.size](const auto &, std::size_t t, std::size_t y, Row & electrons) {
+  recipe.illuminate = [gamma, size = recipe.size](const auto &, std::size_t t, std::size_t y, Row & electrons) {
     for (double & value : electrons)
     {
       value *= std::max(0.0, 1.0 + gamma[t * size + y]);
@@ -63,7 +63,7 @@ PrepareRandomRolling(StressRecipe & recipe)
 /** Two lamps have independent flicker. The fraction of the second lamp rises from 0 to 1 along the diagonal of the
  * frame. */
 void
-PrepareTwoLamps(StressRecipe & recipe)
+PrepareTwoSources(StressRecipe & recipe)
 {
   recipe.settings.conditions.flickerSd = 0.0;
   std::vector<double> gamma;
@@ -73,12 +73,12 @@ PrepareTwoLamps(StressRecipe & recipe)
     gamma.push_back(0.05 * random.Normal());
     gamma.push_back(0.05 * random.Normal());
   }
-  recipe.light = [gamma](const auto &, std::size_t t, std::size_t y, Row & electrons) {
+  recipe.illuminate = [gamma](const auto &, std::size_t t, std::size_t y, Row & electrons) {
     for (std::size_t x = 0; x < electrons.size(); ++x)
     {
       const double along = static_cast<double>(x + y) / (2.0 * static_cast<double>(electrons.size()) - 2.0);
-      const double share = 0.5 - 0.5 * std::cos(Pi * along);
-      electrons[x] *= 1.0 + (1.0 - share) * gamma[2 * t] + share * gamma[2 * t + 1];
+      const double fraction = 0.5 - 0.5 * std::cos(Pi * along);
+      electrons[x] *= 1.0 + (1.0 - fraction) * gamma[2 * t] + fraction * gamma[2 * t + 1];
     }
   };
 }
@@ -89,14 +89,14 @@ void
 PrepareBleaching(StressRecipe & recipe, bool isMixed)
 {
   const double rate = std::log(0.8) / static_cast<double>(recipe.settings.frames - 1);
-  recipe.light = [rate, isMixed](const auto &, std::size_t t, std::size_t y, Row & electrons) {
+  recipe.illuminate = [rate, isMixed](const auto &, std::size_t t, std::size_t y, Row & electrons) {
     const double decay = std::exp(rate * static_cast<double>(t));
     const double scale = 3.0 * Pi / static_cast<double>(electrons.size());
     for (std::size_t x = 0; x < electrons.size(); ++x)
     {
       const double wave = std::sin(scale * static_cast<double>(x)) * std::sin(scale * static_cast<double>(y) + 0.5);
-      const double share = isMixed ? 0.5 + 0.5 * wave : 1.0;
-      electrons[x] *= 1.0 - share + share * decay;
+      const double fraction = isMixed ? 0.5 + 0.5 * wave : 1.0;
+      electrons[x] *= 1.0 - fraction + fraction * decay;
     }
   };
 }
@@ -109,7 +109,7 @@ PrepareMovingDisk(StressRecipe & recipe)
   const double radius = size * std::sqrt(0.05 / Pi);
   const double brightness = 0.6 * recipe.settings.camera.electrons;
   const double last = static_cast<double>(recipe.settings.frames - 1);
-  recipe.light = [=](const SimulatedSeries & series, std::size_t t, std::size_t y, Row & electrons) {
+  recipe.illuminate = [=](const SimulatedSeries & series, std::size_t t, std::size_t y, Row & electrons) {
     const double along = static_cast<double>(t) / last;
     const double dy = static_cast<double>(y) - size * (0.4 + 0.2 * along);
     for (std::size_t x = 0; x < electrons.size(); ++x)
@@ -133,7 +133,7 @@ PrepareCrossingBlock(StressRecipe & recipe)
   const auto   width = static_cast<double>(blockWidth);
   const double travel = static_cast<double>(recipe.size) + width;
   const double last = static_cast<double>(recipe.settings.frames - 1);
-  recipe.light = [=](const SimulatedSeries & series, std::size_t t, std::size_t y, Row & electrons) {
+  recipe.illuminate = [=](const SimulatedSeries & series, std::size_t t, std::size_t y, Row & electrons) {
     const double left = travel * static_cast<double>(t) / last - width;
     for (std::size_t x = 0; x < electrons.size() && y >= top; ++x)
     {
@@ -154,18 +154,18 @@ PrepareCrossingBlock(StressRecipe & recipe)
 void
 PrepareWavingQuarter(StressRecipe & recipe)
 {
-  recipe.light = [](const auto &, std::size_t t, std::size_t y, Row & electrons) {
+  recipe.illuminate = [](const auto &, std::size_t t, std::size_t y, Row & electrons) {
     const std::size_t first = electrons.size() / 4;
     const std::size_t end = first + electrons.size() / 2;
     const double      shift = 2.0 * std::sin(2.0 * Pi * static_cast<double>(t) / 17.3);
     const double      whole = std::floor(shift);
     if (y >= first && y < end)
     {
-      const Row still = electrons;
+      const Row unshifted = electrons;
       for (std::size_t x = first; x < end; ++x)
       {
         const auto from = x + static_cast<std::size_t>(whole + 2.0) - 2;
-        electrons[x] = still[from] + (shift - whole) * (still[from + 1] - still[from]);
+        electrons[x] = unshifted[from] + (shift - whole) * (unshifted[from + 1] - unshifted[from]);
       }
     }
   };
@@ -174,7 +174,7 @@ PrepareWavingQuarter(StressRecipe & recipe)
 void
 PrepareBrightFrame(StressRecipe & recipe)
 {
-  recipe.light = [middle = recipe.settings.frames / 2](const auto &, std::size_t t, std::size_t, Row & electrons) {
+  recipe.illuminate = [middle = recipe.settings.frames / 2](const auto &, std::size_t t, std::size_t, Row & electrons) {
     for (double & value : electrons)
     {
       value *= t == middle ? 1.2 : 1.0;
@@ -185,7 +185,7 @@ PrepareBrightFrame(StressRecipe & recipe)
 void
 PrepareVeil(StressRecipe & recipe)
 {
-  recipe.light = [](const auto &, std::size_t, std::size_t, Row & electrons) {
+  recipe.illuminate = [](const auto &, std::size_t, std::size_t, Row & electrons) {
     for (double & value : electrons)
     {
       value += 200.0;
@@ -225,7 +225,7 @@ AppendSceneRecipes(std::vector<StressRecipeEntry> & entries)
   entries.push_back({ { "rolling_random200", "smooth random flicker of the rows, 5 %, correlated over 200 rows" },
                       PrepareRandomRolling });
   entries.push_back(
-    { { "two_lamps", "two lamps with 5 % flicker each, each with its own part of the scene" }, PrepareTwoLamps });
+    { { "two_lamps", "two lamps with 5 % flicker each, each with its own part of the scene" }, PrepareTwoSources });
   entries.push_back({ { "bleach_uniform", "all light decays by 20 %, flicker 1 %" }, [](StressRecipe & recipe) {
                        recipe.settings.conditions.flickerSd = 0.01;
                        PrepareBleaching(recipe, false);

@@ -106,7 +106,7 @@ MakeScaledEntry(const char * name, const char * what, double scale, std::uint16_
 }
 /** Appends sensors with a non-linear response, whose local gain deviates by up to 2 or 4 %. */
 void
-AppendBentEntries(std::vector<StressRecipeEntry> & entries)
+AppendNonlinearEntries(std::vector<StressRecipeEntry> & entries)
 {
   for (const ResponseShape shape : { ResponseShape::Quadratic, ResponseShape::Wave, ResponseShape::Shoulder })
   {
@@ -115,7 +115,7 @@ AppendBentEntries(std::vector<StressRecipeEntry> & entries)
       const std::string size = (percent > 0 ? "+" : "") + std::to_string(percent);
       entries.push_back({ { std::string(NameOf(shape)) + size,
                             "the response is bent, local gain by so many %",
-                            StressExpectation::Bent },
+                            StressExpectation::Nonlinear },
                           [=](StressRecipe & recipe) { recipe.settings.flaws.response = { shape, 0.01 * percent }; } });
     }
   }
@@ -189,7 +189,7 @@ AppendSensorRecipes(std::vector<StressRecipeEntry> & entries)
   entries.push_back(MakeGammaEntry("gamma22_12bit", 2.2, TopCode));
   entries.push_back(MakeGammaEntry("gamma13_8bit", 1.3, 255.0));
   entries.push_back(MakeGammaEntry("gamma22_8bit", 2.2, 255.0));
-  AppendBentEntries(entries);
+  AppendNonlinearEntries(entries);
   AppendPatternEntries(entries);
 }
 

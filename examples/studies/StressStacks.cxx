@@ -48,9 +48,9 @@ ComposeRow(const StackSimulator & simulator,
   CounterSeededRandom random(recipe.settings.seed, PixelStream, t, y);
   std::vector<double> electrons(recipe.size);
   simulator.ExpectedElectronsRow(t, y, electrons.data());
-  if (recipe.light)
+  if (recipe.illuminate)
   {
-    recipe.light(simulator.GetTruth().series, t, y, electrons);
+    recipe.illuminate(simulator.GetTruth().series, t, y, electrons);
   }
   for (std::size_t x = 0; x < recipe.size; ++x)
   {
@@ -76,7 +76,7 @@ FindEntry(const std::string & name)
 
 /** Returns the variance of row noise, column noise and banding [DN^2]. */
 double
-SharedVarianceDn2(const LineNoiseSettings & lineNoise)
+LineVarianceDn2(const LineNoiseSettings & lineNoise)
 {
   return std::pow(lineNoise.rowNoiseSdDn, 2) + std::pow(lineNoise.columnNoiseSdDn, 2) +
          0.5 * std::pow(lineNoise.bandingAmplitudeDn, 2);
@@ -113,7 +113,7 @@ RenderCodes(const StackSimulator & simulator, const StressRecipe & recipe)
   for (std::size_t t = 0; t < frames; ++t)
   {
     std::uint16_t * const out = codes.data() + t * size * size;
-    if (recipe.light || recipe.levelDn)
+    if (recipe.illuminate || recipe.levelDn)
     {
       SerialFor(size, [&](std::size_t y) { ComposeRow(simulator, recipe, t, y, out + y * size); });
     }
@@ -135,9 +135,9 @@ RenderCodes(const StackSimulator & simulator, const StressRecipe & recipe)
 } // namespace
 
 double
-StressTruth::InterceptNear(double found, double sharedVariance) const
+StressTruth::InterceptNear(double found, double lineVarianceDn2) const
 {
-  return std::clamp(found, intercept, intercept + sharedVariance);
+  return std::clamp(found, intercept, intercept + lineVarianceDn2);
 }
 
 StressTruth
@@ -195,7 +195,7 @@ MakeStressStack(const std::string & name, const std::string & reference, std::si
   stack.gain = camera.gainDnPerElectron * recipe.scale;
   stack.offset = camera.offsetDn * recipe.scale;
   stack.readNoise = camera.readNoiseDn * recipe.scale;
-  stack.sharedVariance = SharedVarianceDn2(recipe.settings.flaws.lineNoise) * recipe.scale * recipe.scale;
+  stack.lineVarianceDn2 = LineVarianceDn2(recipe.settings.flaws.lineNoise) * recipe.scale * recipe.scale;
   stack.ofPixel = DescribePixels(simulator, recipe);
   stack.codes = RenderCodes(simulator, recipe);
   return stack;

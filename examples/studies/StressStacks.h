@@ -20,10 +20,10 @@ namespace sensornoise::tools
 /** Expected result of an estimator. */
 enum class StressExpectation
 {
-  Measured, ///< gain and intercept agree with the true values
-  Bent,     ///< non-linear response: the interval of the gain contains the mean local gain
-  Refused,  ///< the grey values are not an affine function of the signal: the gain is `failed`
-  Processed ///< the noise is correlated between pixels or frames: reported, but not tested
+  Measured,  ///< gain and intercept agree with the true values
+  Nonlinear, ///< non-linear response: the interval of the gain contains the mean local gain
+  Refused,   ///< the grey values are not an affine function of the signal: the gain is `failed`
+  Processed  ///< the noise is correlated between pixels or frames: reported, but not tested
 };
 
 /** Case of a simulated burst. */
@@ -44,9 +44,9 @@ struct StressTruth
   /** Returns the true intercept that an estimate is compared with [DN^2]. The dark variance of a pixel also contains
    * row noise, column noise and banding. An estimate may include none, all, or any part of their variance.
    * \param found the estimate [DN^2]
-   * \param sharedVariance variance of row noise, column noise and banding of the stack [DN^2] */
+   * \param lineVarianceDn2 variance of row noise, column noise and banding of the stack [DN^2] */
   double
-  InterceptNear(double found, double sharedVariance) const;
+  InterceptNear(double found, double lineVarianceDn2) const;
 };
 
 /** Burst, frame after frame, and its true values. */
@@ -56,11 +56,11 @@ struct StressStack
   std::size_t                width{ 0 };
   std::size_t                height{ 0 };
   std::size_t                frames{ 0 };
-  bool                       isEightBit{ false };   ///< a camera would write 8 bits per pixel
-  double                     gain{ 0.0 };           ///< g [DN/e-]
-  double                     offset{ 0.0 };         ///< mu [DN]
-  double                     readNoise{ 0.0 };      ///< sigma, without row noise, column noise and banding [DN]
-  double                     sharedVariance{ 0.0 }; ///< variance of row noise, column noise and banding [DN^2]
+  bool                       isEightBit{ false };    ///< a camera would write 8 bits per pixel
+  double                     gain{ 0.0 };            ///< g [DN/e-]
+  double                     offset{ 0.0 };          ///< mu [DN]
+  double                     readNoise{ 0.0 };       ///< sigma, without row noise, column noise and banding [DN]
+  double                     lineVarianceDn2{ 0.0 }; ///< variance of row noise, column noise and banding [DN^2]
   /** True values of each pixel if the pixels differ by design or the response is non-linear; else empty. The
    * intercept of a pixel is the variance of its read noise minus its local gain times its offset. */
   std::vector<StressTruth> ofPixel;

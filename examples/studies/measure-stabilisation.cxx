@@ -22,8 +22,8 @@ using sensornoise::AnscombeInverse;
 using sensornoise::StabilisedMoments;
 
 constexpr std::array<double, 9>  ReadNoises{ 0.0, 0.3, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0, 30.0 };
-constexpr std::array<double, 15> Lights{ 0.0,  0.5,   1.0,   2.0,   3.0,    5.0,    10.0,   20.0,
-                                         50.0, 100.0, 300.0, 600.0, 1000.0, 3000.0, 10000.0 };
+constexpr std::array<double, 15> SignalsElectrons{ 0.0,  0.5,   1.0,   2.0,   3.0,    5.0,    10.0,   20.0,
+                                                   50.0, 100.0, 300.0, 600.0, 1000.0, 3000.0, 10000.0 };
 
 /** Returns the bias of an inverse: the inverse of the mean of stabilised values, minus the true signal [e-]. */
 double
@@ -46,7 +46,7 @@ PrintTable(const char * title, const std::function<double(double electrons, doub
     std::printf(" %8g", readNoise);
   }
   std::printf("   read noise [e-]\n");
-  for (const double electrons : Lights)
+  for (const double electrons : SignalsElectrons)
   {
     std::printf("%8g", electrons);
     for (const double readNoise : ReadNoises)
@@ -84,7 +84,7 @@ main()
     return sensornoise::MomentsOfStabilised(electrons, readNoise).variance;
   });
   PrintTable("share of negative arguments", [](double electrons, double readNoise) {
-    return sensornoise::MomentsOfStabilised(electrons, readNoise).negativeShare;
+    return sensornoise::MomentsOfStabilised(electrons, readNoise).negativeProbability;
   });
   for (const AnscombeInverse inverse :
        { AnscombeInverse::ExactUnbiased, AnscombeInverse::Algebraic, AnscombeInverse::Asymptotic })

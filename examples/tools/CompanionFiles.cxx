@@ -56,7 +56,7 @@ catch (const FileError & error)
 }
 
 void
-TellOfSharedDarkFrames(const std::vector<std::string> & dark, const std::vector<std::string> & frames)
+WarnOfSharedDarkFrames(const std::vector<std::string> & dark, const std::vector<std::string> & frames)
 {
   const auto placeOf = [](const std::string & name) {
     std::error_code ignored;
@@ -85,7 +85,7 @@ OpenDark(const std::vector<std::string> & files,
          const FrameChoice &              choice)
 {
   FrameList dark = OpenFrames(files, {}, rawLayout, choice);
-  TellWarningOf(dark);
+  PrintWarningOf(dark);
   if (DescribeFrame(dark) != DescribeFrame(frames))
   {
     throw std::runtime_error("the dark frames have " + DescribeFrame(dark) + " (" + files.front() +
@@ -96,7 +96,7 @@ OpenDark(const std::vector<std::string> & files,
 }
 
 void
-TellWarningOf(const FrameList & frames)
+PrintWarningOf(const FrameList & frames)
 {
   const std::string warning = WarningOf(frames);
   if (!warning.empty())

@@ -19,7 +19,7 @@ ReadMask(const std::string & file, const FrameList & frames);
 
 /** Warns on standard error if a file is both a frame and a dark frame. */
 void
-TellOfSharedDarkFrames(const std::vector<std::string> & dark, const std::vector<std::string> & frames);
+WarnOfSharedDarkFrames(const std::vector<std::string> & dark, const std::vector<std::string> & frames);
 
 /** Opens the headers of dark frames, which must have the size and type of the bright frames. \a rawLayout and \a
  * choice are as for OpenFrames(). Throws std::runtime_error. */
@@ -31,7 +31,7 @@ OpenDark(const std::vector<std::string> & files,
 
 /** Prints a warning about the files, if there is one, on standard error. */
 void
-TellWarningOf(const FrameList & frames);
+PrintWarningOf(const FrameList & frames);
 
 } // namespace sensornoise::tools
 

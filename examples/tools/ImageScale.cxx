@@ -17,13 +17,13 @@ namespace sensornoise::tools
 namespace
 {
 /** Limits for the signal of the median pixel divided by the largest mean signal in the report [1]. Above
- * ImpossibleLight the frame is rejected: multiplication of the grey values by 16 exceeds it in all but the darkest
- * frames. Above DoubtfulLight there is a warning. Both are chosen empirically, without a systematic study. */
-constexpr double ImpossibleLight = 8.0;
-constexpr double DoubtfulLight = 2.0;
+ * ImpossibleSignal the frame is rejected: multiplication of the grey values by 16 exceeds it in all but the darkest
+ * frames. Above DoubtfulSignal there is a warning. Both are chosen empirically, without a systematic study. */
+constexpr double ImpossibleSignal = 8.0;
+constexpr double DoubtfulSignal = 2.0;
 /** Fraction of pixels with a negative argument of the square root, above which there is a warning [1]. In a dark
  * frame, noise alone gives 8 % at a read noise of 1 e-, and less than 0.1 % from 10 e- on. */
-constexpr double DoubtfulShare = 0.01;
+constexpr double DoubtfulFraction = 0.01;
 /** Number of distinct grey values from which on their spacing is tested. */
 constexpr std::size_t LeastCodes = 16;
 
@@ -125,16 +125,16 @@ RequireMedian(double median, const NoiseModelFile & report, const std::string & 
            "half of its pixels are at or above " + Name(median) + ", the sensor attains " + Name(*report.clipHighDn),
            report);
   }
-  const double light =
+  const double signal =
     report.highestDn && *report.highestDn > zero ? (median - zero) / (*report.highestDn - zero) : 0.0;
-  if (light > ImpossibleLight)
+  if (signal > ImpossibleSignal)
   {
     Refuse(image,
            "half of its pixels are at or above " + Name(median) + ", the brightest that were measured had " +
              Name(*report.highestDn),
            report);
   }
-  return light;
+  return signal;
 }
 } // namespace
 
@@ -151,7 +151,7 @@ RequireScale(const std::vector<TPixel> & levels, const NoiseModelFile & report, 
     RequireCodeStep(levels, report, image);
   }
   const double median = Median(levels);
-  if (RequireMedian(median, report, image) > DoubtfulLight)
+  if (RequireMedian(median, report, image) > DoubtfulSignal)
   {
     return image + " is far brighter than what was measured: half of its pixels are at or above " + Name(median) +
            ", the brightest in the report " + report.name + " had " + Name(*report.highestDn);
@@ -159,10 +159,10 @@ RequireScale(const std::vector<TPixel> & levels, const NoiseModelFile & report, 
   const double lowest = report.ZeroLevelDn() - 0.375 * report.model.varianceSlopeDn;
   const auto   below = static_cast<double>(std::count_if(
     levels.begin(), levels.end(), [lowest](TPixel level) { return static_cast<double>(level) < lowest; }));
-  const double share = below / static_cast<double>(levels.size());
-  if (share > DoubtfulShare)
+  const double fraction = below / static_cast<double>(levels.size());
+  if (fraction > DoubtfulFraction)
   {
-    return image + ": " + Text(std::round(1000.0 * share) / 10.0) + " % of the pixels are below " + Name(lowest) +
+    return image + ": " + Text(std::round(1000.0 * fraction) / 10.0) + " % of the pixels are below " + Name(lowest) +
            ", where the model of the report " + report.name +
            " has no variance; in the dark noise alone does that, else the report is of another camera or setting";
   }

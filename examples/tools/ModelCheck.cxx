@@ -51,7 +51,7 @@ MeasureFramesToCheck(const EstimateOptions & options, const MeasuredStack & meas
   other.cut.reset();
   other.dark.clear();
   const FrameList frames = OpenFrames(other.files, {}, other.raw, other.choice);
-  TellWarningOf(frames);
+  PrintWarningOf(frames);
   return EstimateStack(other, frames, nullptr);
 }
 

@@ -126,7 +126,7 @@ ReasonOf(const MeasuredStack & measured)
 }
 
 void
-TellOf(const EstimateOptions & options, const PassportEntry & entry, const char * what)
+PrintStep(const EstimateOptions & options, const PassportEntry & entry, const char * what)
 {
   if (!options.quiet)
   {
@@ -153,11 +153,11 @@ MeasureBurst(const EstimateOptions & options, const SweepBurst & burst, const Pa
     RequireOneIso(list);
     if (const PassportEntry * const same = StoredEntry(stored, entry, one, list))
     {
-      TellOf(options, entry, "the report in the passport is of these files; it is not measured again");
+      PrintStep(options, entry, "the report in the passport is of these files; it is not measured again");
       entry.report = same->report;
       return entry;
     }
-    TellOf(options, entry, "is measured");
+    PrintStep(options, entry, "is measured");
     const MeasuredStack measured = EstimateStack(one, list, nullptr);
     if (std::visit([](const auto & report) { return report.IsUsable(); }, measured))
     {

@@ -144,7 +144,7 @@ RequireOutputsApart(const EstimateOptions & options)
 }
 
 void
-TellWarnings(const MeasuredStack & measured)
+PrintWarnings(const MeasuredStack & measured)
 {
   const auto * const channels = std::get_if<sensornoise::ChannelReports>(&measured);
   const auto warnings = channels != nullptr ? WarningsOf(*channels) : std::get<sensornoise::Report>(measured).warnings;
@@ -251,7 +251,7 @@ Run(EstimateOptions & options)
   {
     profile = ReadProfileFile(options.checkProfile);
   }
-  TellOfSharedDarkFrames(options.dark, options.files);
+  WarnOfSharedDarkFrames(options.dark, options.files);
   // throws before the work begins if an output cannot be written
   std::optional<PendingFile> json;
   if (options.HasReportFile())
@@ -274,7 +274,7 @@ Run(EstimateOptions & options)
   options.SelectFiles(listed == 1 || AreStacks(options));
   const sensornoise::FrameList frames = sensornoise::OpenFrames(options.files, {}, options.raw, options.choice);
   options.SelectExposures(listed == 1 || frames.isStack ? frames.frames : listed);
-  TellWarningOf(frames);
+  PrintWarningOf(frames);
 
   std::string         plotText;
   const MeasuredStack measured = EstimateStack(options, frames, maps ? &*maps : nullptr, plot ? &plotText : nullptr);
@@ -286,7 +286,7 @@ Run(EstimateOptions & options)
     plot->Commit();
   }
   WriteReport(measured, checks, profileChecks, options, json);
-  TellWarnings(measured);
+  PrintWarnings(measured);
   const bool isUsable = std::visit([](const auto & reports) { return reports.IsUsable(); }, measured);
   return isUsable && HasAny(checks) && HasAny(profileChecks) ? ExitDone : ExitNothingEstimated;
 }

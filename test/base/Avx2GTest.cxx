@@ -39,8 +39,8 @@ TEST(WideVectors, AreNotFusedAndAddInTheSameOrder)
     const volatile double product = a[i] * b[i]; // rounded, whatever the compiler may do
     const double          sum = 1.0 + product;
     EXPECT_EQ(found[i], sum);
-    const volatile double share = sum * a[i];
-    expected += share;
+    const volatile double term = sum * a[i];
+    expected += term;
     unlikeFused += sum != std::fma(a[i], b[i], 1.0) ? 1 : 0;
   }
   EXPECT_EQ(total, expected);

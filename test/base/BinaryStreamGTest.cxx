@@ -29,7 +29,7 @@ TEST(SensorNoiseSealedSums, BytesComeBackWhole)
   const UnsealedSums found = UnsealSums(sealed.data(), sealed.size(), "1.2.3");
   EXPECT_EQ(std::vector<unsigned char>(found.bytes, found.bytes + found.size), sums);
 
-  const auto refusal = [](const std::vector<unsigned char> & bytes, std::size_t size, const std::string & version) {
+  const auto errorOf = [](const std::vector<unsigned char> & bytes, std::size_t size, const std::string & version) {
     try
     {
       UnsealSums(bytes.data(), size, version);
@@ -42,21 +42,21 @@ TEST(SensorNoiseSealedSums, BytesComeBackWhole)
   };
   for (const std::size_t size : { sealed.size() - 1, sealed.size() / 2, SumsSealBytes })
   {
-    EXPECT_NE(refusal(sealed, size, "1.2.3").find("incomplete"), std::string::npos) << size;
+    EXPECT_NE(errorOf(sealed, size, "1.2.3").find("incomplete"), std::string::npos) << size;
   }
-  EXPECT_NE(refusal(sealed, SumsSealBytes - 1, "1.2.3").find("do not begin as sums do"), std::string::npos);
-  EXPECT_NE(refusal(sums, sums.size(), "1.2.3").find("do not begin as sums do"), std::string::npos);
-  const std::string other = refusal(sealed, sealed.size(), "1.3.0");
+  EXPECT_NE(errorOf(sealed, SumsSealBytes - 1, "1.2.3").find("do not begin as sums do"), std::string::npos);
+  EXPECT_NE(errorOf(sums, sums.size(), "1.2.3").find("do not begin as sums do"), std::string::npos);
+  const std::string other = errorOf(sealed, sealed.size(), "1.3.0");
   EXPECT_NE(other.find("of module 1.2.3"), std::string::npos) << other;
   EXPECT_NE(other.find("of module 1.3.0"), std::string::npos) << other;
   for (const std::size_t at : { SumsSealBytes, SumsSealBytes + 50000, sealed.size() - 1 })
   {
     std::vector<unsigned char> damaged = sealed;
     damaged[at] ^= 1;
-    EXPECT_NE(refusal(damaged, damaged.size(), "1.2.3").find("damaged"), std::string::npos) << at;
+    EXPECT_NE(errorOf(damaged, damaged.size(), "1.2.3").find("damaged"), std::string::npos) << at;
   }
   sealed.push_back(0);
-  EXPECT_NE(refusal(sealed, sealed.size(), "1.2.3").find("too long"), std::string::npos);
+  EXPECT_NE(errorOf(sealed, sealed.size(), "1.2.3").find("too long"), std::string::npos);
 }
 
 namespace

@@ -41,15 +41,15 @@ TEST(SensorNoisePixelLayout, PixelsAreCopiedFromWhereTheyStand)
     for (std::size_t t = 0; t < Frames; ++t)
     {
       const unsigned short * const frame = mosaics.data() + t * OfPlane.frame;
-      std::vector<unsigned short>  room(end - begin + 1, 12345);
-      EXPECT_EQ(OfPlane.SideBySide(frame, begin, end, room.data()), room.data());
+      std::vector<unsigned short>  buffer(end - begin + 1, 12345);
+      EXPECT_EQ(OfPlane.SideBySide(frame, begin, end, buffer.data()), buffer.data());
       for (std::size_t p = begin; p < end; ++p)
       {
         const std::size_t y = 2 * (p / Width) + 1;
         const std::size_t x = 2 * (p % Width) + 1;
-        ASSERT_EQ(room[p - begin], frame[y * Columns + x]) << begin << " " << p;
+        ASSERT_EQ(buffer[p - begin], frame[y * Columns + x]) << begin << " " << p;
       }
-      EXPECT_EQ(room.back(), 12345) << "more was written than there was room for";
+      EXPECT_EQ(buffer.back(), 12345) << "more was written than there was room for";
     }
   }
 }

@@ -105,12 +105,12 @@ TEST(SensorNoisePolynomialFit, LargeOffsetsOfTheMeanKeepTheDigits)
   const PolynomialFit line = FitLine(ExactScatter(500, 1e7, 1e7 + 100.0, -1e7, 1.0, 0.0).Data());
   EXPECT_NEAR(line.slope, 1.0, 1e-10);
   EXPECT_NEAR(line.intercept, -1e7, 1e7 * 1e-10);
-  Scatter bent = ExactScatter(500, 0.0, 100.0, 30.0, 2.0, 0.01);
-  for (double & mean : bent.mean)
+  Scatter curved = ExactScatter(500, 0.0, 100.0, 30.0, 2.0, 0.01);
+  for (double & mean : curved.mean)
   {
     mean += 1e6;
   }
-  const PolynomialFit parabola = FitParabola(bent.Data());
+  const PolynomialFit parabola = FitParabola(curved.Data());
   EXPECT_NEAR(parabola.curvature, 0.01, 1e-9 * 0.01); // sums of 500 means, each rounded to 1e-10 of 100
   EXPECT_NEAR(parabola.slope + 2.0 * parabola.curvature * 1e6, 2.0, 1e-6);
 }

@@ -83,12 +83,12 @@ CostOfFrames(benchmark::State & state, const char * what)
   for (auto _ : state)
   {
     double all = 0.0;
-    for (const std::size_t share : { 8, 4, 2, 1 })
+    for (const std::size_t divisor : { 8, 4, 2, 1 })
     {
-      const auto   part = FirstFrames(stack, frames / share);
+      const auto   part = FirstFrames(stack, frames / divisor);
       const double readPass = SecondsToReadPass(part);
       const double seconds = SecondsTo(what, part);
-      costs[frames / share].push_back(seconds / readPass * static_cast<double>(frames / share));
+      costs[frames / divisor].push_back(seconds / readPass * static_cast<double>(frames / divisor));
       all += seconds;
     }
     state.SetIterationTime(all);

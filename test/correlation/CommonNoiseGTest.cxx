@@ -25,13 +25,13 @@ constexpr double        BrightestDn = 200.0;
  * 4 DN. */
 struct Common
 {
-  double light{ 0.0 }; ///< common to all pixels, relative to the signal [1]
+  double illumination{ 0.0 }; ///< common to all pixels, relative to the signal [1]
   double rowDn{ 0.0 };
   double columnDn{ 0.0 };
 };
 
 std::vector<double>
-Light()
+Signal()
 {
   return Ramp(Geometry, 0.0, BrightestDn);
 }
@@ -41,9 +41,9 @@ NoiseWith(const Common & common)
 {
   return [=](std::size_t t) {
     DoubleFrame               frame = NormalFrame(Geometry.width, Geometry.height, 900 + t);
-    const std::vector<double> light = Light();
+    const std::vector<double> signal = Signal();
     CounterSeededRandom       random(17, 3, t);
-    const double              flicker = common.light * random.Normal();
+    const double              flicker = common.illumination * random.Normal();
     std::vector<double>       rows(Geometry.height);
     std::vector<double>       columns(Geometry.width);
     for (double & row : rows)
@@ -54,17 +54,17 @@ NoiseWith(const Common & common)
     {
       column = common.columnDn * random.Normal();
     }
-    for (std::size_t p = 0; p < light.size(); ++p)
+    for (std::size_t p = 0; p < signal.size(); ++p)
     {
       frame.values[p] =
-        NoiseDn * frame.values[p] + flicker * light[p] + rows[p / Geometry.width] + columns[p % Geometry.width];
+        NoiseDn * frame.values[p] + flicker * signal[p] + rows[p / Geometry.width] + columns[p % Geometry.width];
     }
     return frame;
   };
 }
 
 std::vector<DistantCovariance>
-SumSharedLight(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
+SumDistantSignalCovariance(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
 {
   return OfTiles(residuals, parallelFor, [&](std::size_t i) { return SumDistantCovariance(residuals, i); });
 }
@@ -73,11 +73,11 @@ SumSharedLight(const NoiseResiduals & residuals, const ParallelFor & parallelFor
 JackknifeEstimate
 Measure(const FrameOf & noise)
 {
-  const auto residuals = ComputeResiduals(Geometry, Frames, Light(), noise);
-  return Jackknife(SumSharedLight(residuals, SerialFor), [](const DistantCovariance & sums) {
+  const auto residuals = ComputeResiduals(Geometry, Frames, Signal(), noise);
+  return Jackknife(SumDistantSignalCovariance(residuals, SerialFor), [](const DistantCovariance & sums) {
     const CommonNoise common = FindCommonNoise(sums);
     Eigen::VectorXd   figures(1 + 2 * DistantCovariance::Lines);
-    figures(0) = common.light;
+    figures(0) = common.illumination;
     for (std::size_t d = 0; d < DistantCovariance::Lines; ++d)
     {
       figures(static_cast<Eigen::Index>(1 + d)) = common.rows[d];
@@ -123,18 +123,18 @@ TEST(SensorNoiseCommonNoise, ColumnNoiseIsThatOfOneColumnAndOfNoRow)
   }
 }
 
-TEST(SensorNoiseCommonNoise, LightThatIsLeftGrowsWithTheSquareOfTheLightAndIsNotOfLines)
+TEST(SensorNoiseCommonNoise, ResidualIlluminationIsTheCoefficientOfTheSquaredSignal)
 {
   // 1 % of a mean of 100 DN is 1 DN, as large as the noise of the rows above.
   const auto            white = NoiseWith({});
-  const auto            light = Light();
+  const auto            signal = Signal();
   const Eigen::VectorXd wave = Eigen::VectorXd::NullaryExpr(
     Frames, [](Eigen::Index t) { return 0.01 * std::sqrt(2.0) * std::cos(2.1 * static_cast<double>(t)); });
   const auto   found = Measure([&](std::size_t t) {
     DoubleFrame frame = white(t);
-    for (std::size_t p = 0; p < light.size(); ++p)
+    for (std::size_t p = 0; p < signal.size(); ++p)
     {
-      frame.values[p] += wave(static_cast<Eigen::Index>(t)) * light[p];
+      frame.values[p] += wave(static_cast<Eigen::Index>(t)) * signal[p];
     }
     return frame;
   });
@@ -146,7 +146,7 @@ TEST(SensorNoiseCommonNoise, LightThatIsLeftGrowsWithTheSquareOfTheLightAndIsNot
   }
 }
 
-TEST(SensorNoiseCommonNoise, BandsAreSharedByRowsNextToEachOther)
+TEST(SensorNoiseCommonNoise, BandsAreCommonToRowsNextToEachOther)
 {
   constexpr double turn = 6.283185307179586;
   constexpr double wavenumber = turn / 24.0; // period 24 rows
@@ -173,7 +173,7 @@ TEST(SensorNoiseCommonNoise, BandsAreSharedByRowsNextToEachOther)
 TEST(SensorNoiseCommonNoise, IsTakenOffTheSumsOfItsLag)
 {
   CommonNoise common;
-  common.light = 0.5;
+  common.illumination = 0.5;
   common.rows = { 3.0, 2.0 };
   common.columns = { 7.0, 0.0, 5.0 };
   LagSums sums;
@@ -194,9 +194,9 @@ TEST(SensorNoiseCommonNoise, IsTakenOffTheSumsOfItsLag)
 
 TEST(SensorNoiseCommonNoise, SameBitsForAnyNumberOfThreads)
 {
-  const auto residuals = ComputeResiduals(Geometry, Frames, Light(), NoiseWith({ 0.01, 1.0, 1.0 }));
-  const auto serial = SumSharedLight(residuals, SerialFor);
-  const auto threads = SumSharedLight(residuals, Threads(3));
+  const auto residuals = ComputeResiduals(Geometry, Frames, Signal(), NoiseWith({ 0.01, 1.0, 1.0 }));
+  const auto serial = SumDistantSignalCovariance(residuals, SerialFor);
+  const auto threads = SumDistantSignalCovariance(residuals, Threads(3));
   ASSERT_EQ(serial.size(), threads.size());
   for (std::size_t i = 0; i < serial.size(); ++i)
   {

@@ -23,15 +23,15 @@ constexpr double      ReadNoiseDn2 = 9.0;
 NoiseResiduals
 Filtered(bool before)
 {
-  const std::vector<double> light = Ramp(Frame, 4.0, 100.0);
+  const std::vector<double> signal = Ramp(Frame, 4.0, 100.0);
   const FrameOf             shot = WhiteNoise(Frame, 21);
   const FrameOf             read = WhiteNoise(Frame, 22);
-  return ComputeResiduals(Frame, Frames, light, [=](std::size_t t) {
+  return ComputeResiduals(Frame, Frames, signal, [=](std::size_t t) {
     DoubleFrame       in = shot(t);
     const DoubleFrame own = read(t);
     for (std::size_t p = 0; p < in.values.size(); ++p)
     {
-      in.values[p] = std::sqrt(light[p]) * in.values[p] + (before ? std::sqrt(ReadNoiseDn2) * own.values[p] : 0.0);
+      in.values[p] = std::sqrt(signal[p]) * in.values[p] + (before ? std::sqrt(ReadNoiseDn2) * own.values[p] : 0.0);
     }
     DoubleFrame out = in;
     for (std::size_t p = 1; p + 1 < in.values.size(); ++p)
@@ -54,16 +54,16 @@ ExpectLine(const CovarianceLine & line, const Lag & lag, double slope, double in
   EXPECT_LT(line.interceptDn2.standardError, 0.6);
 }
 
-/** Returns the covariance with all neighbours at the signal \a lightDn and the variance \a varianceDn2, averaged over
+/** Returns the covariance with all neighbours at the signal \a signalDn and the variance \a varianceDn2, averaged over
  * the shapes. */
 double
-SharedAt(const NoiseCorrelation & found, double lightDn, double varianceDn2)
+CovarianceAt(const NoiseCorrelation & found, double signalDn, double varianceDn2)
 {
   double sum = 0.0;
   for (const WeightedShape & shape : found.shapes)
   {
     sum += shape.probability * shape.coefficient.value *
-           (shape.ofVariance * varianceDn2 + shape.ofLight * lightDn + shape.constantDn2);
+           (shape.ofVariance * varianceDn2 + shape.ofSignal * signalDn + shape.constantDn2);
   }
   return sum;
 }
@@ -83,17 +83,17 @@ TEST(SensorNoiseCovarianceLines, EachLagHasItsOwnTwoNumbers)
   }
 }
 
-TEST(SensorNoiseCovarianceLines, WhatNeighboursShareTellsWhetherTheReadNoiseWasFiltered)
+TEST(SensorNoiseCovarianceLines, CorrelationShowsWhetherTheReadNoiseWasFiltered)
 {
   const NoiseCorrelation late = MeasureNoiseCorrelation(Filtered(false), 0.0, SerialFor);
   EXPECT_EQ(late.kind, NoiseKind::Filtered);
   EXPECT_GT(late.ProbabilityOfLateNoise(), 0.95);
-  EXPECT_NEAR(SharedAt(late, 0.0, ReadNoiseDn2), 0.0, 2.0);
-  EXPECT_NEAR(SharedAt(late, 100.0, 37.5 + ReadNoiseDn2), 62.5, 2.0);
+  EXPECT_NEAR(CovarianceAt(late, 0.0, ReadNoiseDn2), 0.0, 2.0);
+  EXPECT_NEAR(CovarianceAt(late, 100.0, 37.5 + ReadNoiseDn2), 62.5, 2.0);
   EXPECT_EQ(late.covarianceLines.size(), 1U + 2U * static_cast<std::size_t>(late.reach * (late.reach + 1)));
 
   const NoiseCorrelation early = MeasureNoiseCorrelation(Filtered(true), 0.0, SerialFor);
   EXPECT_LT(early.ProbabilityOfLateNoise(), 0.05);
-  EXPECT_NEAR(SharedAt(early, 0.0, 0.375 * ReadNoiseDn2), 0.625 * ReadNoiseDn2, 0.8);
-  EXPECT_NEAR(SharedAt(early, 100.0, 37.5 + 0.375 * ReadNoiseDn2), 62.5 + 0.625 * ReadNoiseDn2, 2.0);
+  EXPECT_NEAR(CovarianceAt(early, 0.0, 0.375 * ReadNoiseDn2), 0.625 * ReadNoiseDn2, 0.8);
+  EXPECT_NEAR(CovarianceAt(early, 100.0, 37.5 + 0.375 * ReadNoiseDn2), 62.5 + 0.625 * ReadNoiseDn2, 2.0);
 }

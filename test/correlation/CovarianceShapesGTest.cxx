@@ -10,22 +10,22 @@ using namespace sensornoise;
 
 namespace
 {
-constexpr std::array<double, NoiseResiduals::IntensityBins> LightDn{ 10.0, 40.0, 100.0, 300.0 };
+constexpr std::array<double, NoiseResiduals::IntensityBins> SignalDn{ 10.0, 40.0, 100.0, 300.0 };
 
 /** Returns V = 20 + 0.5 z. Each bin has 100 pairs at one level. */
 double
-VarianceAt(double lightDn)
+VarianceAt(double signalDn)
 {
-  return 20.0 + 0.5 * lightDn;
+  return 20.0 + 0.5 * signalDn;
 }
 
 LagSums
 OwnSums()
 {
   LagSums sums;
-  for (std::size_t b = 0; b < LightDn.size(); ++b)
+  for (std::size_t b = 0; b < SignalDn.size(); ++b)
   {
-    const double z = LightDn[b];
+    const double z = SignalDn[b];
     const double v = VarianceAt(z);
     sums.bins[b] = { 100.0, 100.0, 100.0 / v, 100.0 * z / v, 100.0 * z * z / v };
   }
@@ -42,30 +42,30 @@ FitOf(const std::array<FittedShape, NumberOfShapes> & fits, CovarianceShape shap
 }
 } // namespace
 
-TEST(SensorNoiseSharedShapes, AreRelativeToTheVariance)
+TEST(SensorNoiseCovarianceShapes, AreRelativeToTheVariance)
 {
   constexpr double codesDn2 = 2.0;
   const auto       shapes = CovarianceShapes(OwnSums(), 0.0, codesDn2).InBins();
-  for (std::size_t b = 0; b < LightDn.size(); ++b)
+  for (std::size_t b = 0; b < SignalDn.size(); ++b)
   {
-    const double z = LightDn[b];
+    const double z = SignalDn[b];
     const double v = VarianceAt(z);
     const auto   row = static_cast<Eigen::Index>(b);
     EXPECT_NEAR(shapes(row, static_cast<Eigen::Index>(CovarianceShape::Variance)), (v - codesDn2) / v, 1e-14);
-    EXPECT_NEAR(shapes(row, static_cast<Eigen::Index>(CovarianceShape::Light)), z / v, 1e-14);
+    EXPECT_NEAR(shapes(row, static_cast<Eigen::Index>(CovarianceShape::Signal)), z / v, 1e-14);
     EXPECT_NEAR(shapes(row, static_cast<Eigen::Index>(CovarianceShape::Square)), z * z / v, 1e-12);
     EXPECT_NEAR(shapes(row, static_cast<Eigen::Index>(CovarianceShape::Constant)), 1.0 / v, 1e-15);
   }
 }
 
-TEST(SensorNoiseSharedShapes, BinWithoutPairsSharesNothing)
+TEST(SensorNoiseCovarianceShapes, BinWithoutPairsHasNoCovariance)
 {
   LagSums own = OwnSums();
   own.bins[2] = {};
   EXPECT_EQ(CovarianceShapes(own, 0.0, 1.0).InBins().row(2).norm(), 0.0);
 }
 
-TEST(SensorNoiseSharedShapes, PartsOfTheNoiseWithoutLightMayComeAfterAFilter)
+TEST(SensorNoiseCovarianceShapes, ReadNoiseMayBeAddedAfterAFilter)
 {
   constexpr double       codesDn2 = 2.0;
   const CovarianceShapes shapes(OwnSums(), 0.0, codesDn2);
@@ -75,9 +75,9 @@ TEST(SensorNoiseSharedShapes, PartsOfTheNoiseWithoutLightMayComeAfterAFilter)
     const double late = (20.0 - codesDn2) * static_cast<double>(part) / PartsAfterFilter;
     EXPECT_EQ(shapes.UnitOf(k).ofVariance, 1.0);
     EXPECT_NEAR(shapes.UnitOf(k).constantDn2, -late, 1e-12);
-    for (std::size_t b = 0; b < LightDn.size(); ++b)
+    for (std::size_t b = 0; b < SignalDn.size(); ++b)
     {
-      const double v = VarianceAt(LightDn[b]);
+      const double v = VarianceAt(SignalDn[b]);
       EXPECT_NEAR(
         shapes.InBins()(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(k)), (v - codesDn2 - late) / v, 1e-12);
     }
@@ -87,7 +87,7 @@ TEST(SensorNoiseSharedShapes, PartsOfTheNoiseWithoutLightMayComeAfterAFilter)
   EXPECT_NEAR(CovarianceShapes(OwnSums(), 6.0, codesDn2).UnitOf(last).constantDn2, -(21.0 + 2.0 - codesDn2), 1e-12);
 }
 
-TEST(SensorNoiseSharedShapes, EachIsRecoveredExactlyAndNoOtherFits)
+TEST(SensorNoiseCovarianceShapes, EachIsRecoveredExactlyAndNoOtherFits)
 {
   const auto shapes = CovarianceShapes(OwnSums(), 0.0, 2.0).InBins();
   for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(CovarianceShape::FirstPart); ++k)
@@ -110,7 +110,7 @@ TEST(SensorNoiseSharedShapes, EachIsRecoveredExactlyAndNoOtherFits)
   }
 }
 
-TEST(SensorNoiseSharedShapes, ChiSquareIsThatOfTheWeightedResiduals)
+TEST(SensorNoiseCovarianceShapes, ChiSquareIsThatOfTheWeightedResiduals)
 {
   const auto            shapes = CovarianceShapes(OwnSums(), 0.0, 2.0).InBins();
   const Eigen::VectorXd shared = Eigen::Vector4d(0.02, 0.05, 0.01, 0.04);
@@ -124,7 +124,7 @@ TEST(SensorNoiseSharedShapes, ChiSquareIsThatOfTheWeightedResiduals)
   }
 }
 
-TEST(SensorNoiseSharedShapes, BinsWithoutErrorAreLeftOut)
+TEST(SensorNoiseCovarianceShapes, BinsWithoutErrorAreLeftOut)
 {
   const auto      shapes = CovarianceShapes(OwnSums(), 0.0, 0.0).InBins();
   Eigen::VectorXd shared = 0.03 * shapes.col(0);

@@ -101,7 +101,7 @@ TEST(SensorNoiseFrameEnergies, AreTheMeanSquaresOfTheTakenPixelsOfEachTile)
     if (pixels > 0.0)
     {
       EXPECT_EQ(energies.Pixels()(row), pixels);
-      EXPECT_NEAR(energies.LightDn()(row), 10.0, 1e-9);
+      EXPECT_NEAR(energies.SignalDn()(row), 10.0, 1e-9);
       EXPECT_TRUE(energies.SquaresDn2().row(row).transpose().isApprox(sums / pixels, 1e-12)) << i;
       ++row;
     }

@@ -106,7 +106,7 @@ ResidualsOfSquares(std::size_t side, std::size_t phase)
 }
 } // namespace
 
-TEST(SensorNoiseLagSums, WhiteNoiseSharesNothing)
+TEST(SensorNoiseLagSums, WhiteNoiseHasNoCorrelation)
 {
   const auto found = Measure(Filtered({ { 0, 0, 1.0 } }), { { 1, 0, 0 }, { 0, 1, 0 }, { -2, 3, 0 }, { 0, 0, 1 } });
   for (Eigen::Index k = 0; k < 3; ++k)
@@ -118,7 +118,7 @@ TEST(SensorNoiseLagSums, WhiteNoiseSharesNothing)
   ExpectFigure(found, 3, -1.0 / Frames, 0.004);
 }
 
-TEST(SensorNoiseLagSums, ThreeTapsShareTwoThirdsAndASixth)
+TEST(SensorNoiseLagSums, ThreeTapsHaveCoefficientsOfTwoThirdsAndASixth)
 {
   // The autocorrelation of the weights is (1, 4, 6, 4, 1) / 16, along the columns alone.
   const auto found = Measure(Filtered({ { 0, 0, 0.25 }, { 0, 1, 0.5 }, { 0, 2, 0.25 } }),
@@ -138,7 +138,7 @@ TEST(SensorNoiseLagSums, DiagonalsAreNotMistakenForEachOther)
   ExpectFigure(found, 1, 0.0, 0.006);
 }
 
-TEST(SensorNoiseLagSums, FramesShareWhatTheNextOneTakes)
+TEST(SensorNoiseLagSums, RecursiveFilterCorrelatesNeighbouringFrames)
 {
   const auto white = WhiteNoise(Geometry, 2);
   const auto mixed = [&](std::size_t t) {
@@ -181,16 +181,16 @@ TEST(SensorNoiseLagSums, SquaresOfEqualPixelsSumUpWhereverOneBegins)
       const Eigen::VectorXd found = CoefficientsOf(tiles[0]);
       for (std::size_t k = 0; k < lags.size(); ++k)
       {
-        const double share = (1.0 - std::abs(lags[k].x) / static_cast<double>(side)) *
-                             (1.0 - std::abs(lags[k].y) / static_cast<double>(side));
-        EXPECT_NEAR(found(static_cast<Eigen::Index>(k)), share, 1e-6) << side << " " << phase << " " << k;
+        const double expected = (1.0 - std::abs(lags[k].x) / static_cast<double>(side)) *
+                                (1.0 - std::abs(lags[k].y) / static_cast<double>(side));
+        EXPECT_NEAR(found(static_cast<Eigen::Index>(k)), expected, 1e-6) << side << " " << phase << " " << k;
       }
       EXPECT_NEAR(found.tail<1>()(0), static_cast<double>(side * side), 1e-5) << side << " " << phase;
     }
   }
 }
 
-TEST(SensorNoiseLagSums, PairsAreSortedByTheLightOfTheFirst)
+TEST(SensorNoiseLagSums, PairsAreSortedByTheSignalOfTheFirst)
 {
   const auto residuals = ComputeResiduals(Geometry, Frames, Ramp(Geometry, 10.0, 200.0), Filtered({ { 0, 0, 1.0 } }));
   const auto sums = SumLags(residuals, { { 0, 0, 0 }, { 1, 0, 0 } }, SerialFor);
@@ -205,9 +205,9 @@ TEST(SensorNoiseLagSums, PairsAreSortedByTheLightOfTheFirst)
     EXPECT_GT(bin.pairs, 0.0);
     EXPECT_NEAR(
       bin.covariance / bin.pairs, 1.0, 0.02); // 4.5 sqrt(2 / (4000 x 23)), and more with the weights at the borders
-    EXPECT_GT(bin.light / bin.constant, last);
-    EXPECT_GE(bin.square * bin.constant, bin.light * bin.light);
-    last = bin.light / bin.constant;
+    EXPECT_GT(bin.signal / bin.constant, last);
+    EXPECT_GE(bin.square * bin.constant, bin.signal * bin.signal);
+    last = bin.signal / bin.constant;
   }
 }
 
@@ -222,7 +222,7 @@ TEST(SensorNoiseLagSums, SameBitsForAnyNumberOfThreads)
     for (std::size_t k = 0; k < lags.size(); ++k)
     {
       EXPECT_EQ(serial[i][k].Total().covariance, threads[i][k].Total().covariance);
-      EXPECT_EQ(serial[i][k].Total().light, threads[i][k].Total().light);
+      EXPECT_EQ(serial[i][k].Total().signal, threads[i][k].Total().signal);
     }
   }
 }

@@ -27,13 +27,13 @@ constexpr double        Period = 12.0;  ///< period of the signal [pixel]
 std::vector<double>
 Waves()
 {
-  std::vector<double> light;
+  std::vector<double> signal;
   for (std::size_t p = 0; p < Geometry.Pixels(); ++p)
   {
     const double turns = static_cast<double>(p % Geometry.width) / Period;
-    light.push_back(1000.0 + SlopeDn * Period / (2.0 * M_PI) * std::sin(2.0 * M_PI * turns));
+    signal.push_back(1000.0 + SlopeDn * Period / (2.0 * M_PI) * std::sin(2.0 * M_PI * turns));
   }
-  return light;
+  return signal;
 }
 
 /** Returns white noise of 1 DN in frames in which each strip of 16 rows is displaced independently, by \a rms pixels.

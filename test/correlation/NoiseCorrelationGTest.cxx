@@ -27,7 +27,7 @@ constexpr std::size_t Frames = 30;
 NoiseResiduals
 ComputeResiduals(const SensorFlaws & flaws, std::size_t size = Size, std::size_t frames = Frames)
 {
-  SimulationSettings settings = simulator::StillSettings('B', frames);
+  SimulationSettings settings = simulator::StaticSettings('B', frames);
   settings.flaws = flaws;
   const StackSimulator            simulator(MakeTextureScene(size, size), size, size, settings);
   const std::size_t               pixels = size * size;
@@ -129,18 +129,18 @@ TEST(SensorNoiseNoiseCorrelation, SmoothedFramesAreFilteredAndTheSumIsThatOfTheW
               0.1);
 }
 
-TEST(SensorNoiseNoiseCorrelation, CoupledChargeIsCrosstalkInProportionToTheLight)
+TEST(SensorNoiseNoiseCorrelation, CoupledChargeIsCrosstalkProportionalToTheSignal)
 {
   constexpr double c = 0.015;
   const auto       found = Measure(With([](SensorFlaws & flaws) { flaws.coupling.fraction = c; }), ManyFrames);
   EXPECT_EQ(found.kind, NoiseKind::Crosstalk);
   // The covariance with all neighbours is the decrease of the shot noise of the pixel, 1 DN/e-.
   const double lost = 1.0 - std::pow(1.0 - 4.0 * c, 2.0) - 4.0 * c * c;
-  ExpectNumber(found.Shape(CovarianceShape::Light).coefficient, lost, 0.02);
+  ExpectNumber(found.Shape(CovarianceShape::Signal).coefficient, lost, 0.02);
   EXPECT_NEAR(1.0 - found.Shape(CovarianceShape::Constant).probability, 1.0, 0.05);
 }
 
-TEST(SensorNoiseNoiseCorrelation, ChargeThatRepelsChargeGrowsWithTheSquareOfTheLight)
+TEST(SensorNoiseNoiseCorrelation, RepellingChargeGrowsWithTheSquareOfTheSignal)
 {
   constexpr double k = 2e-6; // 8 k Q = 5 % of the variance at 3000 e-
   const auto       found = Measure(With([](SensorFlaws & flaws) { flaws.brighterFatter.perElectron = k; }), ManyFrames);
@@ -172,7 +172,7 @@ TEST(SensorNoiseNoiseCorrelation, CorrectedDefectsAndMediansAreNotLinear)
   EXPECT_EQ(Measure(With([](SensorFlaws & flaws) { flaws.median.radiusPixels = 1; })).kind, NoiseKind::NotLinear);
 }
 
-TEST(SensorNoiseNoiseCorrelation, NoiseOfRowsAndColumnsIsTakenOffWhatNeighboursShare)
+TEST(SensorNoiseNoiseCorrelation, NoiseOfRowsAndColumnsIsSubtractedFromTheCorrelation)
 {
   const auto found = Measure(With([](SensorFlaws & flaws) {
     flaws.lineNoise.rowNoiseSdDn = 6.0;

@@ -23,7 +23,7 @@ constexpr FrameGeometry Geometry{ 128, 128, 1 };
 constexpr std::size_t   Frames = 30;
 
 std::vector<double>
-Light()
+Signal()
 {
   return Ramp(Geometry, 50.0, 250.0);
 }
@@ -37,11 +37,11 @@ NoiseUnderRows(double sd)
   return [=](std::size_t t) {
     DoubleFrame       frame = noise(t);
     const DoubleFrame changes = NormalFrame(2, Geometry.height, 77 + t);
-    const auto        light = Light();
+    const auto        signal = Signal();
     for (std::size_t p = 0; p < frame.values.size(); ++p)
     {
       const std::size_t y = p / Geometry.width;
-      frame.values[p] += sd * changes.values[2 * y] * light[p] + 100.0 * sd * changes.values[2 * y + 1];
+      frame.values[p] += sd * changes.values[2 * y] * signal[p] + 100.0 * sd * changes.values[2 * y + 1];
     }
     return frame;
   };
@@ -52,7 +52,7 @@ const std::vector<std::uint8_t> All(Geometry.Pixels(), 1);
 NoiseResiduals
 WithoutRows(double sd, std::vector<float> & left, const ParallelFor & parallelFor = SerialFor)
 {
-  auto residuals = ComputeResiduals(Geometry, Frames, Light(), NoiseUnderRows(sd));
+  auto residuals = ComputeResiduals(Geometry, Frames, Signal(), NoiseUnderRows(sd));
   left = residuals.TakeOffLines(LineAxis::Rows, All, parallelFor);
   return residuals;
 }
@@ -72,15 +72,15 @@ ForValues(const NoiseResiduals & residuals, TFunction function)
 }
 } // namespace
 
-TEST(SensorNoiseNoiseResidualLines, NothingOfTheLightOfRowsIsLeft)
+TEST(SensorNoiseNoiseResidualLines, IlluminationOfRowsIsRemoved)
 {
   std::vector<float>   left;
-  const NoiseResiduals still = WithoutRows(0.0, left);
+  const NoiseResiduals uniform = WithoutRows(0.0, left);
   const NoiseResiduals lit = WithoutRows(0.05, left); // up to 12 DN
   double               square = 0.0;
   double               count = 0.0;
-  ForValues(still, [&](std::size_t i, std::size_t k) {
-    const double difference = static_cast<double>(lit.OfTile(i)[k]) - static_cast<double>(still.OfTile(i)[k]);
+  ForValues(uniform, [&](std::size_t i, std::size_t k) {
+    const double difference = static_cast<double>(lit.OfTile(i)[k]) - static_cast<double>(uniform.OfTile(i)[k]);
     square += difference * difference;
     count += 1.0;
   });
@@ -119,9 +119,9 @@ TEST(SensorNoiseNoiseResidualLines, RowsOfOneLevelLoseTheirMeanAlone)
   EXPECT_NEAR(left.front(), 1.0 - 1.0 / 128.0, 1e-6);
 }
 
-TEST(SensorNoiseNoiseResidualLines, RowsWithoutPixelsTellNothing)
+TEST(SensorNoiseNoiseResidualLines, RowsWithoutPixelsAreSkipped)
 {
-  auto                      residuals = ComputeResiduals(Geometry, Frames, Light(), NoiseUnderRows(0.05));
+  auto                      residuals = ComputeResiduals(Geometry, Frames, Signal(), NoiseUnderRows(0.05));
   std::vector<std::uint8_t> take = All;
   std::fill_n(take.begin(), Geometry.width, std::uint8_t{ 0 });
   const std::vector<float> left = residuals.TakeOffLines(LineAxis::Rows, take, SerialFor);
@@ -150,7 +150,7 @@ TEST(SensorNoiseNoiseResidualLines, ColumnsOfTheTransposedFrameAreItsRows)
     return other;
   };
   const auto frameOf = NoiseUnderRows(0.05);
-  auto       turned = ComputeResiduals(Geometry, Frames, transposed(Light()), [&](std::size_t t) {
+  auto       turned = ComputeResiduals(Geometry, Frames, transposed(Signal()), [&](std::size_t t) {
     DoubleFrame frame = frameOf(t);
     frame.values = transposed(frame.values);
     return frame;

@@ -51,19 +51,19 @@ SceneFrame(std::size_t t)
 
 /** Returns white noise whose variance is 10 DN^2 at the signal 0 and 50 DN^2 at the largest signal, 200 DN. */
 double
-VarianceAt(double lightDn)
+VarianceAt(double signalDn)
 {
-  return 10.0 + 0.2 * lightDn;
+  return 10.0 + 0.2 * signalDn;
 }
 
 DoubleFrame
 ShotNoiseFrame(std::size_t t)
 {
-  const std::vector<double> light = Ramp(Geometry, 0.0, 200.0);
+  const std::vector<double> signal = Ramp(Geometry, 0.0, 200.0);
   DoubleFrame               frame = NormalFrame(Geometry.width, Geometry.height, 300 + t);
-  for (std::size_t p = 0; p < light.size(); ++p)
+  for (std::size_t p = 0; p < signal.size(); ++p)
   {
-    frame.values[p] *= std::sqrt(VarianceAt(light[p]));
+    frame.values[p] *= std::sqrt(VarianceAt(signal[p]));
   }
   return frame;
 }
@@ -113,18 +113,18 @@ TEST(SensorNoiseNoiseResiduals, NothingIsLeftOfASceneWithoutNoise)
   }
 }
 
-TEST(SensorNoiseNoiseResiduals, WeightsAreTheInverseVarianceAtThePixelsLight)
+TEST(SensorNoiseNoiseResiduals, WeightsAreTheInverseVarianceAtThePixelSignal)
 {
-  const auto light = Ramp(Geometry, 50.0, 250.0);
+  const auto signal = Ramp(Geometry, 50.0, 250.0);
   const auto take = std::vector<std::uint8_t>(Geometry.Pixels(), 1);
   // The signal is measured from the dark offset, 50 DN.
   const NoiseResiduals residuals(
-    SampleOf(Geometry, Frames, ShotNoiseFrame), Eigen::MatrixXd(), { light, take, 50.0 }, SerialFor);
+    SampleOf(Geometry, Frames, ShotNoiseFrame), Eigen::MatrixXd(), { signal, take, 50.0 }, SerialFor);
   for (std::size_t i = 0; i < residuals.GetTiles().origins.size(); ++i)
   {
     for (std::size_t p = 0; p < residuals.GetTiles().Pixels(); ++p)
     {
-      const double zDn = residuals.LightOf(i)[p];
+      const double zDn = residuals.SignalOf(i)[p];
       const auto   x = static_cast<double>(residuals.GetTiles().origins[i].x + p % residuals.GetTiles().side);
       ASSERT_NEAR(zDn, 200.0 * x / 127.0, 1e-4);
       // Bins of 512 pixels: 5 sqrt(2 / (512 x 29)) = 0.06. Half a bin at the ends is a signal of 3 DN, 0.06 of 10 DN^2.
@@ -133,7 +133,7 @@ TEST(SensorNoiseNoiseResiduals, WeightsAreTheInverseVarianceAtThePixelsLight)
   }
 }
 
-TEST(SensorNoiseNoiseResiduals, BinsOfTheLightGrowWithItAndHoldAsMany)
+TEST(SensorNoiseNoiseResiduals, SignalBinsRiseAndHoldAsManyPixels)
 {
   const auto residuals = ComputeResiduals(Geometry, Frames, Ramp(Geometry, 0.0, 200.0), ShotNoiseFrame);
   std::array<std::size_t, NoiseResiduals::IntensityBins> counts{};
@@ -147,8 +147,8 @@ TEST(SensorNoiseNoiseResiduals, BinsOfTheLightGrowWithItAndHoldAsMany)
     {
       const std::size_t bin = residuals.BinOf(i)[p];
       ++counts.at(bin);
-      lowest.at(bin) = std::min(lowest.at(bin), residuals.LightOf(i)[p]);
-      highest.at(bin) = std::max(highest.at(bin), residuals.LightOf(i)[p]);
+      lowest.at(bin) = std::min(lowest.at(bin), residuals.SignalOf(i)[p]);
+      highest.at(bin) = std::max(highest.at(bin), residuals.SignalOf(i)[p]);
     }
   }
   for (std::size_t b = 0; b < counts.size(); ++b)
@@ -183,12 +183,12 @@ TEST(SensorNoiseNoiseResiduals, PixelsThatAreNotTakenHaveNoWeight)
 TEST(SensorNoiseNoiseResiduals, WithoutTheFirstFramesTheyAreThoseOfTheRest)
 {
   constexpr std::size_t dropped = 7;
-  const auto            light = Ramp(Geometry, 0.0, 200.0);
+  const auto            signal = Ramp(Geometry, 0.0, 200.0);
   const auto            noise = WhiteNoise(Geometry, 3);
-  auto                  residuals = ComputeResiduals(Geometry, Frames, light, noise, Series());
+  auto                  residuals = ComputeResiduals(Geometry, Frames, signal, noise, Series());
   residuals.DropFirst(dropped, Threads(3));
   const auto rest = ComputeResiduals(
-    Geometry, Frames - dropped, light, [&](std::size_t t) { return noise(t + dropped); }, Series().bottomRows(23));
+    Geometry, Frames - dropped, signal, [&](std::size_t t) { return noise(t + dropped); }, Series().bottomRows(23));
   ASSERT_EQ(residuals.GetDof(), rest.GetDof());
   for (std::size_t i = 0; i < rest.GetTiles().origins.size(); ++i)
   {

@@ -17,22 +17,22 @@ TEST(SensorNoiseSortPixelsBySignal, AreInTheOrderOfAComparison)
 {
   std::mt19937_64                            random(17);
   std::normal_distribution<float>            normal(0.0F, 1.0F);
-  std::vector<float>                         light(5000);
-  std::vector<std::uint8_t>                  take(light.size());
+  std::vector<float>                         signal(5000);
+  std::vector<std::uint8_t>                  take(signal.size());
   std::vector<std::pair<float, std::size_t>> expected;
-  for (std::size_t p = 0; p < light.size(); ++p)
+  for (std::size_t p = 0; p < signal.size(); ++p)
   {
     const float size = std::exp2(10.0F * normal(random)); // of all magnitudes, and of both signs
-    light[p] = p % 5 == 0 ? std::round(normal(random)) : std::copysign(size, normal(random));
+    signal[p] = p % 5 == 0 ? std::round(normal(random)) : std::copysign(size, normal(random));
     take[p] = p % 7 != 3 ? 1 : 0;
     if (take[p] != 0)
     {
-      expected.emplace_back(light[p], p);
+      expected.emplace_back(signal[p], p);
     }
   }
-  ASSERT_GT(std::count(light.begin(), light.end(), 0.0F), 100); // zeros of both signs, too
+  ASSERT_GT(std::count(signal.begin(), signal.end(), 0.0F), 100); // zeros of both signs, too
   std::sort(expected.begin(), expected.end());
-  const std::vector<std::uint32_t> order = SortPixelsBySignal(light, take);
+  const std::vector<std::uint32_t> order = SortPixelsBySignal(signal, take);
   ASSERT_EQ(order.size(), expected.size());
   for (std::size_t rank = 0; rank < order.size(); ++rank)
   {

@@ -127,7 +127,7 @@ TEST(SensorNoiseBlockPhases, WhiteNoiseHasNoPlace)
   EXPECT_EQ(RmsOfPhases(tiles), 0.0);
 }
 
-TEST(SensorNoiseBlockPhases, NeighboursOfABlockShareItsMeanAndThoseOfTwoDoNot)
+TEST(SensorNoiseBlockPhases, MeansOfBlocksCorrelateNeighboursOfOneBlockOnly)
 {
   // The variance is 7/8, the covariance within a block -1/8.
   for (const std::size_t first : { std::size_t{ 0 }, std::size_t{ 3 } })

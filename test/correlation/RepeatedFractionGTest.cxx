@@ -20,7 +20,7 @@ constexpr FrameGeometry Geometry{ Side, Side, 1 };
 /** Returns the fraction of repeated values in frames of noise of the standard deviation \a sd, in quantization steps.
  * Each value is blended with the previous value of its pixel, or repeats it with a probability. */
 double
-ShareOf(double sd, double blend, double probability, double step = 1.0)
+FractionOf(double sd, double blend, double probability, double step = 1.0)
 {
   std::mt19937                random(4);
   std::normal_distribution<>  noise(0.0, sd);
@@ -48,10 +48,10 @@ TEST(SensorNoiseRepeatedFraction, NoiseAndFiltersHaveNone)
   {
     for (const double blend : { 0.0, 0.6 })
     {
-      EXPECT_LT(ShareOf(sd, blend, 0.0), 0.01) << sd << ' ' << blend;
+      EXPECT_LT(FractionOf(sd, blend, 0.0), 0.01) << sd << ' ' << blend;
     }
   }
-  EXPECT_LT(ShareOf(10.0, 0.0, 0.0, 16.0), 0.01);
+  EXPECT_LT(FractionOf(10.0, 0.0, 0.0, 16.0), 0.01);
 }
 
 TEST(SensorNoiseRepeatedFraction, RepeatedValuesAreCounted)
@@ -60,7 +60,7 @@ TEST(SensorNoiseRepeatedFraction, RepeatedValuesAreCounted)
   {
     for (const double step : { 1.0, 16.0 })
     {
-      EXPECT_NEAR(ShareOf(10.0, 0.0, probability, step), probability, 0.02) << step;
+      EXPECT_NEAR(FractionOf(10.0, 0.0, probability, step), probability, 0.02) << step;
     }
   }
 }

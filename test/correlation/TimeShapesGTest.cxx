@@ -61,12 +61,12 @@ White(std::uint64_t seed)
 NoiseCorrelation
 Measure(const std::vector<DoubleFrame> & shot, const std::vector<DoubleFrame> & read)
 {
-  const std::vector<double> light = Ramp(Frame, DarkestDn, BrightestDn);
-  const NoiseResiduals      residuals = ComputeResiduals(Frame, Frames, light, [&](std::size_t t) {
+  const std::vector<double> signal = Ramp(Frame, DarkestDn, BrightestDn);
+  const NoiseResiduals      residuals = ComputeResiduals(Frame, Frames, signal, [&](std::size_t t) {
     DoubleFrame frame = shot[t];
     for (std::size_t p = 0; p < frame.values.size(); ++p)
     {
-      frame.values[p] = std::sqrt(light[p]) * frame.values[p] + std::sqrt(ReadNoiseDn2) * read[t].values[p];
+      frame.values[p] = std::sqrt(signal[p]) * frame.values[p] + std::sqrt(ReadNoiseDn2) * read[t].values[p];
     }
     return frame;
   });
@@ -81,7 +81,7 @@ SlopeOverTime(const NoiseCorrelation & found, double slopeOfVariance)
   double slope = 0.0;
   for (const WeightedShape & shape : found.timeShapes)
   {
-    slope += shape.probability * shape.coefficient.value * (shape.ofVariance * slopeOfVariance + shape.ofLight);
+    slope += shape.probability * shape.coefficient.value * (shape.ofVariance * slopeOfVariance + shape.ofSignal);
   }
   return slope;
 }
@@ -119,19 +119,19 @@ TEST(SensorNoiseTimeShapes, ImageLagOfBrightPixelsIsFoundWhereMostPixelsAreDark)
 {
   // One pixel in four has signal: a lag of 3 % makes a coefficient of 0.022 there, and of 0.0057 over all pixels.
   constexpr double    a = 0.03;
-  std::vector<double> light(Frame.Pixels(), 1.0);
+  std::vector<double> signal(Frame.Pixels(), 1.0);
   const auto          shot = White(37);
   const auto          read = White(38);
-  for (std::size_t p = 0; p < light.size(); p += 4)
+  for (std::size_t p = 0; p < signal.size(); p += 4)
   {
-    light[p] = 300.0;
+    signal[p] = 300.0;
   }
-  const NoiseResiduals   residuals = ComputeResiduals(Frame, Frames, light, [&](std::size_t t) {
+  const NoiseResiduals   residuals = ComputeResiduals(Frame, Frames, signal, [&](std::size_t t) {
     DoubleFrame frame = shot[t];
     for (std::size_t p = 0; p < frame.values.size(); ++p)
     {
       const double lagged = t == 0 ? shot[t].values[p] : (1.0 - a) * shot[t].values[p] + a * shot[t - 1].values[p];
-      frame.values[p] = std::sqrt(light[p]) * lagged + std::sqrt(ReadNoiseDn2) * read[t].values[p];
+      frame.values[p] = std::sqrt(signal[p]) * lagged + std::sqrt(ReadNoiseDn2) * read[t].values[p];
     }
     return frame;
   });

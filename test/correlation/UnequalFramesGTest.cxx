@@ -63,17 +63,17 @@ ProjectorOf(const Eigen::MatrixXd & basis)
 NoiseResiduals
 ShotNoise(const Eigen::VectorXd & gamma)
 {
-  const std::vector<double> light = Ramp(Geometry, 100.0, 1000.0);
+  const std::vector<double> signal = Ramp(Geometry, 100.0, 1000.0);
   const auto                frameOf = [=](std::size_t t) {
     DoubleFrame  frame = NormalFrame(Geometry.width, Geometry.height, 900 + t);
     const double factor = 1.0 + gamma(static_cast<Eigen::Index>(t));
-    for (std::size_t p = 0; p < light.size(); ++p)
+    for (std::size_t p = 0; p < signal.size(); ++p)
     {
-      frame.values[p] *= std::sqrt(ReadNoiseDn2 + Gain * factor * light[p]);
+      frame.values[p] *= std::sqrt(ReadNoiseDn2 + Gain * factor * signal[p]);
     }
     return frame;
   };
-  return ComputeResiduals(Geometry, static_cast<std::size_t>(Frames), light, frameOf, gamma);
+  return ComputeResiduals(Geometry, static_cast<std::size_t>(Frames), signal, frameOf, gamma);
 }
 
 NoiseCorrelation

@@ -30,10 +30,10 @@ ExpectTruth(const Quantity & quantity, double truth, double largest, const std::
 /** Returns the linearity error of the signal u + bend (u - u^2) without noise [%], for the exposures u in the range of
  * the report: by the sums of (58) to (63). */
 double
-ExactLinearityError(const EmvaReport & report, double bend)
+ExactLinearityError(const EmvaReport & report, double nonlinearity)
 {
   double     sums[5] = {};
-  const auto signalOf = [bend](double u) { return u + bend * (u - u * u); };
+  const auto signalOf = [nonlinearity](double u) { return u + nonlinearity * (u - u * u); };
   for (const EmvaPoint & point : report.points)
   {
     const double u = point.exposure;
@@ -108,7 +108,7 @@ TEST(SensorNoiseEmvaRecovery, IntervalsOfTheWeightedGainHoldTheTruth)
   EXPECT_GE(held, 34);
 }
 
-TEST(SensorNoiseEmvaRecovery, ABentResponseHasItsLinearityError)
+TEST(SensorNoiseEmvaRecovery, ANonlinearResponseHasItsLinearityError)
 {
   SimulationSettings settings = SteadySettings(4);
   settings.camera.electrons = 3500.0;

@@ -123,7 +123,7 @@ TEST_F(ProfileCheck, FewPercentAreNoContradiction)
   EXPECT_EQ(Check(LineProfile(1.06 * slope, 1.06 * intercept)).verdict, NoiseModelCheck::Verdict::DoesNotFit);
 }
 
-TEST_F(ProfileCheck, TooFewPixelsTellNothing)
+TEST_F(ProfileCheck, TooFewPixelsAreNotTested)
 {
   Report frames = Frames();
   for (auto & count : frames.scatter.count)

@@ -24,7 +24,7 @@ TEST(ByteRanges, FindsBytesThatHoldPixelsTwice)
   EXPECT_EQ(ranges.FirstConflict(), 50u);
 }
 
-TEST(ByteRanges, TablesMayShareTheirBytesButNotWithPixels)
+TEST(ByteRanges, TablesMayOverlapButNotWithPixels)
 {
   ByteRanges ranges;
   EXPECT_TRUE(ranges.AddTable(0, 8));
@@ -50,7 +50,7 @@ TEST(ByteRanges, AByteOfPixelsFitsBetweenTables)
   EXPECT_EQ(ranges.FirstConflict(), std::nullopt);
 }
 
-TEST(ByteRanges, TellsTheGaps)
+TEST(ByteRanges, ListsTheGaps)
 {
   using Gaps = std::vector<ByteRanges::Range>;
   ByteRanges ranges;

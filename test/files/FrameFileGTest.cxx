@@ -156,7 +156,7 @@ TEST_F(FrameFileInspection, AFileIsTheSameByAllOfItsNames)
   EXPECT_FALSE(AreSameFile(IdentityOf(file), IdentityOf(Write("b.tif", "a"))));
 }
 
-TEST_F(FrameFileInspection, WhatIsDeclaredIsToldBeforeItIsInflated)
+TEST_F(FrameFileInspection, DeclaredFramesAreReportedBeforeInflation)
 {
   struct TooMuch
   {};

@@ -229,7 +229,7 @@ TEST_F(RawCameraFile, SeveralColoursAPixelAreRefused)
 }
 
 // By the contents, whatever the name; a TIFF stays one.
-TEST(RawCameraFiles, AreToldFromTiff)
+TEST(RawCameraFiles, AreDistinguishedFromTiff)
 {
   class Files : public FrameFileTest
   {

@@ -62,7 +62,7 @@ TEST_F(SerFile, IsReadInEitherOrderWhateverTheFlagSays)
 }
 
 // Codes of 8 bits in the high byte make sense either way: then it is as programs write it.
-TEST_F(SerFile, AnOrderThatCannotBeToldIsThatOfTheFlag)
+TEST_F(SerFile, AnUnclearByteOrderIsTakenFromTheFlag)
 {
   Codes codes;
   for (unsigned i = 0; i < 140; ++i)

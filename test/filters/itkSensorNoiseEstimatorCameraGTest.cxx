@@ -71,7 +71,7 @@ TEST(SensorNoiseEstimatorCamera, NumbersMayBeOfAnyType)
   EXPECT_EQ(sensornoise::CameraSettingsOf(dictionary).bitDepth, 0U);
 }
 
-TEST(SensorNoiseEstimatorCamera, MaskedPixelsTellTheOffset)
+TEST(SensorNoiseEstimatorCamera, MaskedPixelsDetermineTheOffset)
 {
   sensornoise::CameraSettings camera;
   camera.opticalBlackDn = 100.25;

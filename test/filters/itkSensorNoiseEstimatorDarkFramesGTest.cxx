@@ -37,7 +37,7 @@ TYPED_TEST_SUITE(SensorNoiseEstimatorDarkFramesOf, PixelTypes, );
 } // namespace
 
 // Camera B, mu = 100 DN and sigma = 8 DN (20 and 2 in 8 bits): within 4 standard errors.
-TYPED_TEST(SensorNoiseEstimatorDarkFramesOf, DarkFramesTellOffsetAndReadNoise)
+TYPED_TEST(SensorNoiseEstimatorDarkFramesOf, DarkFramesDetermineOffsetAndReadNoise)
 {
   using Stack = itk::Image<TypeParam, 3>;
   const auto estimator = EstimatorOf<Stack>(TargetStack<Stack>(Width, Height, Frames));
@@ -55,7 +55,7 @@ TYPED_TEST(SensorNoiseEstimatorDarkFramesOf, DarkFramesTellOffsetAndReadNoise)
   EXPECT_NEAR(*report.offset.standardError, (isByte ? 2.0 : 8.0) / std::sqrt(Width * Height * 12.0), 0.004);
 }
 
-TEST(SensorNoiseEstimatorDarkFrames, OneDarkFrameTellsTheOffsetAlone)
+TEST(SensorNoiseEstimatorDarkFrames, OneDarkFrameDeterminesTheOffsetAlone)
 {
   const auto estimator = EstimatorOf<StackType>(SimulatedStack());
   estimator->SetDark(DarkStack<StackType>(1));
@@ -204,12 +204,12 @@ TEST(SensorNoiseEstimatorDarkFrames, PixelsThatAreMaskedHaveNone)
 // A black level that drifts is in no pixel's noise, whatever the chunks.
 TEST(SensorNoiseEstimatorDarkFrames, DriftOfTheBlackLevelIsNoReadNoise)
 {
-  const auto still = DarkStack<StackType>(12);
+  const auto steady = DarkStack<StackType>(12);
   const auto drifting = ImageOf<StackType>({ { Width, Height, 12 } }, [&](const auto & index) {
-    return static_cast<StackType::PixelType>(still->GetPixel(index) + 10 * (index[2] % 3));
+    return static_cast<StackType::PixelType>(steady->GetPixel(index) + 10 * (index[2] % 3));
   });
   const auto expected = EstimatorOf<StackType>(SimulatedStack());
-  expected->SetDark(still);
+  expected->SetDark(steady);
   expected->Update();
   for (const unsigned int chunks : { 1u, 4u })
   {

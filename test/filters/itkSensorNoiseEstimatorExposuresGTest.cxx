@@ -28,7 +28,7 @@ AnyExposures(unsigned int frames)
 }
 
 std::string
-RefusalOf(const std::vector<double> & exposures, const std::string & method = "refined")
+SettingErrorOf(const std::vector<double> & exposures, const std::string & method = "refined")
 {
   const auto estimator = EstimatorOf<StackType>(SimulatedStack(), method);
   try
@@ -79,8 +79,8 @@ TEST(SensorNoiseEstimatorExposures, OfAMosaicEveryChannelHasThem)
 
 TEST(SensorNoiseEstimatorExposures, WrongUseIsRefused)
 {
-  EXPECT_SAYS(RefusalOf({ 1.0, 2.0, 3.0 }), "there are 3 exposures, but 25 frames");
-  EXPECT_SAYS(RefusalOf({ 1.0, 2.0, -3.0 }), "the exposure of frame 2 is -3");
-  EXPECT_SAYS(RefusalOf(AnyExposures(Frames), "published"), "exposures cannot be used by the method published");
-  EXPECT_SAYS(RefusalOf(AnyExposures(Frames), "published"), "set the method to refined");
+  EXPECT_SAYS(SettingErrorOf({ 1.0, 2.0, 3.0 }), "there are 3 exposures, but 25 frames");
+  EXPECT_SAYS(SettingErrorOf({ 1.0, 2.0, -3.0 }), "the exposure of frame 2 is -3");
+  EXPECT_SAYS(SettingErrorOf(AnyExposures(Frames), "published"), "exposures cannot be used by the method published");
+  EXPECT_SAYS(SettingErrorOf(AnyExposures(Frames), "published"), "set the method to refined");
 }

@@ -17,7 +17,7 @@ TEST(FrameFormats, AreNamedInSentences)
   EXPECT_EQ(NamesOfFrameFormats(), "camera raw, TIFF, PNG, MetaImage, NRRD, SER, MRAW, FITS, NPY or PGM");
 }
 
-TEST(FrameFormats, AreToldByContentsFirst)
+TEST(FrameFormats, AreRecognisedByContentsFirst)
 {
   EXPECT_STREQ(FindFrameFormat("\x89PNG\r\n\x1A\nIHDR:", "a.mha")->name, "PNG");
   EXPECT_STREQ(FindFrameFormat(std::string("II*\0=", 5), "a.mha")->name, "TIFF");

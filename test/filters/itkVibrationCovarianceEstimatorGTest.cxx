@@ -128,7 +128,7 @@ TEST(VibrationCovarianceEstimator, UnknownPixelsAreLeftOutWithoutAMask)
   EXPECT_EQ(estimator->GetResult().pixels, (Width - 2) * (Height - 2) - 6); // with the four that have no gradient
 }
 
-TEST(VibrationCovarianceEstimator, EvenSceneTellsNothing)
+TEST(VibrationCovarianceEstimator, EvenSceneHasNoVibration)
 {
   const auto estimator = EstimatorType::New();
   estimator->SetMean(ConstantImage<FrameType>(Size, 500.0));

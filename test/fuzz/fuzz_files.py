@@ -92,7 +92,7 @@ def damage(case: Case, folder: str, random: Random) -> tuple[str, str]:
     return how, "checked" if kinds == {"checked"} else "raw" if kinds else "nothing"
 
 
-def judge(answer: Answer, expected: str, touched: str) -> str:
+def verdict_of(answer: Answer, expected: str, touched: str) -> str:
     """The class of an answer; those in capitals are findings."""
     if answer.hung:
         return "HANG"
@@ -142,7 +142,7 @@ class Fuzzer:
         write(case, place)
         how, touched = damage(case, place, random)
         answer = self.target.ask(place, case, role, good)
-        found = judge(answer, self.expected[case.name, role], touched)
+        found = verdict_of(answer, self.expected[case.name, role], touched)
         return found, case.name, f"{case.name}, {how}, {touched} changed, as {role}", answer.error.strip()[-300:]
 
 
@@ -162,7 +162,7 @@ def ask_known(
     def ask(asked: tuple[tuple[str, Case, str], str]) -> str | None:
         (what, case, place), role = asked
         answer = target.ask(place, case, role, good)
-        found = judge(answer, "", "checked")
+        found = verdict_of(answer, "", "checked")
         return None if found == "refused" else f"{found}: {what}, as {role}: {answer.error.strip()[-300:]}"
 
     return [line for line in pool.map(ask, itertools.product(files, sorted(set(ROLES)))) if line]

@@ -33,13 +33,13 @@ using FrameOf = std::function<DoubleFrame(std::size_t t)>;
 inline std::vector<double>
 Ramp(const FrameGeometry & geometry, double low, double high)
 {
-  std::vector<double> light(geometry.Pixels());
-  for (std::size_t p = 0; p < light.size(); ++p)
+  std::vector<double> signal(geometry.Pixels());
+  for (std::size_t p = 0; p < signal.size(); ++p)
   {
     const auto x = static_cast<double>(p % geometry.width) / static_cast<double>(geometry.width - 1);
-    light[p] = low + (high - low) * x;
+    signal[p] = low + (high - low) * x;
   }
-  return light;
+  return signal;
 }
 
 inline NoiseSample
@@ -58,12 +58,12 @@ SampleOf(const FrameGeometry & geometry, std::size_t frames, const FrameOf & fra
 inline NoiseResiduals
 ComputeResiduals(const FrameGeometry &       geometry,
                  std::size_t                 frames,
-                 const std::vector<double> & light,
+                 const std::vector<double> & signal,
                  const FrameOf &             frameOf,
                  const Eigen::MatrixXd &     series = {})
 {
   const std::vector<std::uint8_t> all(geometry.Pixels(), 1);
-  return { SampleOf(geometry, frames, frameOf), series, { light, all, 0.0 }, SerialFor };
+  return { SampleOf(geometry, frames, frameOf), series, { signal, all, 0.0 }, SerialFor };
 }
 
 /** ofTile(i) of every tile. */

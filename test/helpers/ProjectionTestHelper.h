@@ -30,7 +30,7 @@ inline constexpr std::size_t Width = 80;
 inline constexpr std::size_t Height = 65;
 inline constexpr std::size_t Pixels = Width * Height;
 inline constexpr std::size_t Frames = 30;
-inline constexpr std::size_t Light = 2;
+inline constexpr std::size_t IlluminationFactors = 2;
 
 inline Eigen::VectorXd
 Wave(double periods, double phase)

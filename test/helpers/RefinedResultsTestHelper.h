@@ -81,7 +81,7 @@ struct HandMadeResults
       reestimated.line.gamma.push_back(t % 2 == 0 ? 0.02 : -0.02);
     }
     // Any offset gives the same flicker, of precision 1e8.
-    reestimated.line.light << 0.0, 0.0, 0.0, 1e8;
+    reestimated.line.illumination << 0.0, 0.0, 0.0, 1e8;
     reestimated.line.response = Eigen::MatrixX2d::Zero(20, 2);
     for (Eigen::Index t = 0; t < 20; ++t)
     {

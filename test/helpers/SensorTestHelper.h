@@ -27,7 +27,7 @@ using Codes = unsigned short;
 
 /** A camera that holds still, with flicker of 2 %. */
 inline SimulationSettings
-StillCamera(std::size_t frames, std::uint64_t seed = 21)
+StaticCamera(std::size_t frames, std::uint64_t seed = 21)
 {
   SimulationSettings settings;
   settings.conditions = { 0.02, 0.0, 0.0 };

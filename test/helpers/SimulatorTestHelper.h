@@ -17,7 +17,7 @@ namespace sensornoise::test::simulator
 
 /** No flicker, no vibration. */
 inline SimulationSettings
-StillSettings(char camera, std::size_t frames)
+StaticSettings(char camera, std::size_t frames)
 {
   SimulationSettings settings;
   settings.camera = PaperCamera(camera);

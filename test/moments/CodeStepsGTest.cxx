@@ -120,7 +120,7 @@ TEST(SensorNoiseCodeSteps, KneesOfStraightPiecesAreFound)
   EXPECT_EQ(steps.VarianceAt(3000.0), 32.0 * 32.0 / 12.0);
 }
 
-TEST(SensorNoiseCodeSteps, CodesMissingByChanceTellNothing)
+TEST(SensorNoiseCodeSteps, CodesMissingByChanceHaveNoEffect)
 {
   // The bright end of a scene: every tenth code, attained by a few pixels.
   std::vector<SeenCode> codes = EvenCodes(0, 1, 2000);
@@ -141,7 +141,7 @@ TEST(SensorNoiseCodeSteps, CodesMissingByChanceTellNothing)
   EXPECT_FALSE(FindCodeSteps(codes).IsCompanded());
 }
 
-TEST(SensorNoiseCodeSteps, StrayCodesTellNothing)
+TEST(SensorNoiseCodeSteps, StrayCodesHaveNoEffect)
 {
   std::vector<SeenCode> codes;
   for (const SeenCode & code : RootCodes(8))

@@ -147,7 +147,7 @@ TEST(SensorNoiseCodes, BitDepthIsTheSmallestThatHoldsTheCodes)
   EXPECT_EQ(aligned.clipHighDn, 4095.0 * 16.0);
 }
 
-TEST(SensorNoiseCodes, WithoutPileUpTheCodeRangeClips)
+TEST(SensorNoiseCodes, WithoutClipLevelTheCodeRangeClips)
 {
   CodeSettings settings;
   settings.bitDepth = 12;
@@ -167,7 +167,7 @@ TEST(SensorNoiseCodes, DataBeyondTheBitDepthAreRefusedWithBothNumbers)
   EXPECT_THROW(Extremes().Find(), std::invalid_argument); // no pixel
 }
 
-TEST(SensorNoiseCodes, PileUpsAreFound)
+TEST(SensorNoiseCodes, ClipLevelsAreFound)
 {
   Extremes extremes = PixelsAtEveryCode(100, 3400, 1, 40);
   extremes.AddPixels(200, 3350, 3400); // these pixels saturate at 3,400 of 4,095
@@ -185,7 +185,7 @@ TEST(SensorNoiseCodes, PileUpsAreFound)
   EXPECT_FALSE(range.IsClipped(101.0, 3399.0));
 }
 
-TEST(SensorNoiseCodes, PileUpNeedsEightPixelsAndThreeTimesItsNeighbours)
+TEST(SensorNoiseCodes, ClipLevelNeedsEightPixelsAndThreeTimesItsNeighbours)
 {
   for (const int pixels : { 5, 6, 50 }) // besides the 2 pixels of PixelsAtEveryCode
   {
@@ -197,7 +197,7 @@ TEST(SensorNoiseCodes, PileUpNeedsEightPixelsAndThreeTimesItsNeighbours)
   }
 }
 
-TEST(SensorNoiseCodes, PileUpOfLeftAlignedCodesIsFound)
+TEST(SensorNoiseCodes, ClipLevelOfLeftAlignedCodesIsFound)
 {
   Extremes extremes = PixelsAtEveryCode(1600, 3400 * 16, 16, 40);
   extremes.AddPixels(200, 3350 * 16, 3400 * 16);
@@ -235,7 +235,7 @@ TEST(SensorNoiseCodes, NoiseBelowHalfAStepTrustsTheCodeRangeOnly)
   EXPECT_EQ(extremes.Find({}, 0.25).clipHighDn, 3400.0); // (1/2)^2, the least variance for pile-ups
 }
 
-TEST(SensorNoiseCodes, ConstantStackHasNoPileUp)
+TEST(SensorNoiseCodes, ConstantStackHasNoClipLevel)
 {
   Extremes extremes;
   extremes.AddPixels(1000, 700, 700);

@@ -39,7 +39,7 @@ TEST(SensorNoiseCountsFromZero, TheirVarianceIsInProportionToTheirMean)
   EXPECT_FALSE(AreCountsFromZero(MapsOf(5.0, 30.0, 1.0), 1.0));
 }
 
-TEST(SensorNoiseCountsFromZero, OneLevelTellsNothing)
+TEST(SensorNoiseCountsFromZero, OneLevelShowsNoCounts)
 {
   EXPECT_FALSE(AreCountsFromZero(MapsOf(4.0, 6.0, 0.0), 1.0));
   EXPECT_FALSE(AreCountsFromZero(MapsOf(40.0, 60.0, 0.0), 1.0));

@@ -90,18 +90,18 @@ TEST(SensorNoiseDarkDrift, WithoutFramesNothingIsTakenOff)
 TEST(SensorNoiseDarkDrift, ItAddsNothingToThePixelsVariances)
 {
   const DarkSensor  sensor = MakeDarkSensor(Pixels, 4.0, LogNormalNoise(0.3));
-  const KnownOffset still = MeasureDarkStack(DarkStackOf<unsigned short>(sensor, 8));
+  const KnownOffset steady = MeasureDarkStack(DarkStackOf<unsigned short>(sensor, 8));
   const KnownOffset drifting = MeasureDarkStack(DarkStackOf<unsigned short>(sensor, 8, DriftOf(8)));
-  EXPECT_NEAR(drifting.variance->valueDn2, still.variance->valueDn2, 0.02 * still.variance->valueDn2);
+  EXPECT_NEAR(drifting.variance->valueDn2, steady.variance->valueDn2, 0.02 * steady.variance->valueDn2);
   // The noise is the same but for the rounding: it agrees pixel by pixel, not only on average.
   double difference = 0.0;
   for (std::size_t p = 0; p < Pixels; ++p)
   {
-    difference += std::abs(drifting.maps->varianceDn2[p] - still.maps->varianceDn2[p]) / Pixels;
+    difference += std::abs(drifting.maps->varianceDn2[p] - steady.maps->varianceDn2[p]) / Pixels;
   }
-  EXPECT_LT(difference, 0.1 * still.variance->valueDn2);
+  EXPECT_LT(difference, 0.1 * steady.variance->valueDn2);
   EXPECT_NEAR(drifting.driftVarianceDn2, VarianceOfNumbers(DriftOf(8)), 0.05 * VarianceOfNumbers(DriftOf(8)));
-  EXPECT_LT(still.driftVarianceDn2, 0.02);
+  EXPECT_LT(steady.driftVarianceDn2, 0.02);
   // The error of the offset is the standard error of the mean of 8 levels.
   EXPECT_NEAR(drifting.standardErrorDn, std::sqrt(drifting.driftVarianceDn2 / 8.0), 0.05 * drifting.standardErrorDn);
 }

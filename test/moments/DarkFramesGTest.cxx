@@ -67,7 +67,7 @@ ExpectTheTruth(const KnownOffset & dark, const SimulationSettings & settings, do
 }
 
 std::string
-RefusalOf(const Stack<unsigned short> & stack, const std::vector<std::uint8_t> & mask = {})
+ErrorOf(const Stack<unsigned short> & stack, const std::vector<std::uint8_t> & mask = {})
 {
   try
   {
@@ -170,21 +170,20 @@ TEST(SensorNoiseDarkFrames, MaskedPixelsTakeNoPart)
     }
   }
   ExpectTheTruth(Measure(stack, {}, mask), settings);
-  EXPECT_EQ(RefusalOf(stack).rfind("50 % of the pixels of the dark frames reach a clip level, 0 or ", 0), 0U)
-    << RefusalOf(stack);
-  EXPECT_EQ(RefusalOf(stack).find("000000"), std::string::npos) << RefusalOf(stack);
+  EXPECT_EQ(ErrorOf(stack).rfind("50 % of the pixels of the dark frames reach a clip level, 0 or ", 0), 0U)
+    << ErrorOf(stack);
+  EXPECT_EQ(ErrorOf(stack).find("000000"), std::string::npos) << ErrorOf(stack);
   std::fill(mask.begin(), mask.end() - 29, std::uint8_t{ 0 });
-  EXPECT_NE(RefusalOf(stack, mask).find("pixels of the dark frames are usable; expected at least 30"),
-            std::string::npos);
+  EXPECT_NE(ErrorOf(stack, mask).find("pixels of the dark frames are usable; expected at least 30"), std::string::npos);
 }
 
 TEST(SensorNoiseDarkFrames, BlackLevelThatIsCutOffIsRefused)
 {
   SimulationSettings settings = DarkSettings(10);
   settings.camera.offsetDn = 12.0; // 7 % of the samples would be below 0
-  EXPECT_NE(RefusalOf(SimulateDark(settings)).find("their black level is cut off"), std::string::npos);
+  EXPECT_NE(ErrorOf(SimulateDark(settings)).find("their black level is cut off"), std::string::npos);
   settings.camera.offsetDn = 40.0;
-  EXPECT_EQ(RefusalOf(SimulateDark(settings)), "none");
+  EXPECT_EQ(ErrorOf(SimulateDark(settings)), "none");
 }
 
 TEST(SensorNoiseDarkFrames, NaNIsPassedOverAndThreadsChangeNothing)

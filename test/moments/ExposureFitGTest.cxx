@@ -27,15 +27,15 @@ CodesOf12Bits()
 
 /** Signal of a quadratic response, as ResponseShape::Quadratic [DN]. */
 double
-Signal(double exposure, double bend)
+Signal(double exposure, double nonlinearity)
 {
-  return FullDn * (exposure + bend * (exposure - exposure * exposure));
+  return FullDn * (exposure + nonlinearity * (exposure - exposure * exposure));
 }
 
 ExposureLevel
-ExactLevel(double exposure, double bend, std::size_t frames = 2)
+ExactLevel(double exposure, double nonlinearity, std::size_t frames = 2)
 {
-  return { exposure, frames, OffsetDn + Signal(exposure, bend), 0.0, 0.0, 0.0 };
+  return { exposure, frames, OffsetDn + Signal(exposure, nonlinearity), 0.0, 0.0, 0.0 };
 }
 
 /** Returns exposures from 0.1 to 1. */
@@ -51,30 +51,30 @@ Exposures(std::size_t levels)
 }
 
 std::vector<ExposureLevel>
-ExactLevels(std::size_t levels, double bend, bool hasDark)
+ExactLevels(std::size_t levels, double nonlinearity, bool hasDark)
 {
   std::vector<ExposureLevel> all;
   if (hasDark)
   {
-    all.push_back(ExactLevel(0.0, bend));
+    all.push_back(ExactLevel(0.0, nonlinearity));
   }
   for (const double exposure : Exposures(levels))
   {
-    all.push_back(ExactLevel(exposure, bend));
+    all.push_back(ExactLevel(exposure, nonlinearity));
   }
   return all;
 }
 
 /** Returns the linearity error of EMVA 1288 for a response without noise [1], from the normal equations of the line. */
 double
-TrueError(std::size_t levels, double bend, bool hasDark)
+TrueError(std::size_t levels, double nonlinearity, bool hasDark)
 {
   double       sums[5] = {};
   const auto   exposures = Exposures(levels);
   const double dark = hasDark ? 1.0 : 0.0;
   for (const double e : exposures)
   {
-    const double y = Signal(e, bend);
+    const double y = Signal(e, nonlinearity);
     const double weight = 1.0 / (hasDark ? y * y : e * e);
     sums[0] += weight;
     sums[1] += weight * e;
@@ -88,7 +88,7 @@ TrueError(std::size_t levels, double bend, bool hasDark)
   double       sum = 0.0;
   for (const double e : exposures)
   {
-    sum += std::abs(Signal(e, bend) - intercept - slope * e) / (dark * intercept + slope * e);
+    sum += std::abs(Signal(e, nonlinearity) - intercept - slope * e) / (dark * intercept + slope * e);
   }
   return sum / static_cast<double>(levels);
 }
@@ -118,10 +118,10 @@ TEST(SensorNoiseExposureFit, AnExactParabolaHasTheErrorOfTheDefinition)
 {
   for (const bool hasDark : { false, true })
   {
-    for (const double bend : { 0.01, 0.04, -0.03 })
+    for (const double nonlinearity : { 0.01, 0.04, -0.03 })
     {
-      const ExposureFit fit = FitExposures(ExactLevels(8, bend, hasDark), CodesOf12Bits());
-      EXPECT_NEAR(ErrorOf(fit), TrueError(8, bend, hasDark), 1e-9);
+      const ExposureFit fit = FitExposures(ExactLevels(8, nonlinearity, hasDark), CodesOf12Bits());
+      EXPECT_NEAR(ErrorOf(fit), TrueError(8, nonlinearity, hasDark), 1e-9);
       ASSERT_TRUE(fit.offsetDn);
       // The line deviates from the offset at exposure 0. The parabola does not, and their distance is the error.
       EXPECT_NEAR(fit.offsetDn->value, OffsetDn, hasDark ? 1e-8 : 1.0001 * fit.offsetDn->standardError);
@@ -219,17 +219,17 @@ namespace
 /** Returns levels of frames whose illumination has the standard deviation \a flicker [1], with the shot noise of 1500
  * pixels of 0.35 DN/e-. */
 std::vector<ExposureLevel>
-NoisyLevels(std::size_t levels, std::size_t frames, double bend, double flicker, CounterSeededRandom & random)
+NoisyLevels(std::size_t levels, std::size_t frames, double nonlinearity, double flicker, CounterSeededRandom & random)
 {
   std::vector<ExposureLevel> all;
   for (const double exposure : Exposures(levels))
   {
-    const double        noiseDn2 = 0.35 * Signal(exposure, bend) / 1500.0;
+    const double        noiseDn2 = 0.35 * Signal(exposure, nonlinearity) / 1500.0;
     ExposureLevel       level{ exposure, frames, 0.0, 0.0, noiseDn2, 0.0 };
     std::vector<double> own;
     for (std::size_t k = 0; k < frames; ++k)
     {
-      own.push_back(OffsetDn + Signal(exposure * (1.0 + flicker * random.Normal()), bend) +
+      own.push_back(OffsetDn + Signal(exposure * (1.0 + flicker * random.Normal()), nonlinearity) +
                     std::sqrt(noiseDn2) * random.Normal());
       level.meanDn += own.back() / static_cast<double>(frames);
     }
@@ -261,7 +261,7 @@ TEST(SensorNoiseExposureFit, IntervalsHoldTheTruthAndNoiseIsNoError)
   {
     std::size_t levels;
     std::size_t frames;
-    double      bend;
+    double      nonlinearity;
   };
   constexpr int       bursts = 400;
   CounterSeededRandom random(3);
@@ -273,7 +273,7 @@ TEST(SensorNoiseExposureFit, IntervalsHoldTheTruthAndNoiseIsNoError)
                              Case{ 12, 10, 0.04 },
                              Case{ 12, 1, 0.04 } })
   {
-    const double truth = TrueError(each.levels, each.bend, false);
+    const double truth = TrueError(each.levels, each.nonlinearity, false);
     int          held = 0;
     int          offsetsHeld = 0;
     double       mean = 0.0;
@@ -281,7 +281,7 @@ TEST(SensorNoiseExposureFit, IntervalsHoldTheTruthAndNoiseIsNoError)
     for (int i = 0; i < bursts; ++i)
     {
       const ExposureFit fit =
-        FitExposures(NoisyLevels(each.levels, each.frames, each.bend, 0.003, random), CodesOf12Bits());
+        FitExposures(NoisyLevels(each.levels, each.frames, each.nonlinearity, 0.003, random), CodesOf12Bits());
       ASSERT_TRUE(fit.squaredError);
       held += Holds(fit, truth) ? 1 : 0;
       mean += fit.squaredError->value / bursts;
@@ -291,9 +291,9 @@ TEST(SensorNoiseExposureFit, IntervalsHoldTheTruthAndNoiseIsNoError)
                                                                                                                   : 0;
     }
     const double least = 0.95 - 4.0 * std::sqrt(0.95 * 0.05 / bursts) - 0.015;
-    EXPECT_GE(held, least * bursts) << each.levels << ' ' << each.frames << ' ' << each.bend;
-    EXPECT_GE(offsetsHeld, least * bursts) << each.levels << ' ' << each.frames << ' ' << each.bend;
-    if (each.bend == 0.0)
+    EXPECT_GE(held, least * bursts) << each.levels << ' ' << each.frames << ' ' << each.nonlinearity;
+    EXPECT_GE(offsetsHeld, least * bursts) << each.levels << ' ' << each.frames << ' ' << each.nonlinearity;
+    if (each.nonlinearity == 0.0)
     {
       // Without the correction the mean is the variance of a level, (0.3 %)^2 / frames, times 3/5 or 10/12.
       const double noise = 0.003 * 0.003 / static_cast<double>(each.frames);

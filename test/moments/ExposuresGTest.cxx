@@ -24,7 +24,7 @@ constexpr FrameGeometry ExposuresGeometry{ ExposuresSize, ExposuresSize };
 constexpr std::size_t   ExposuresPixels = ExposuresSize * ExposuresSize;
 
 std::string
-RefusalOf(const std::function<void()> & function)
+ErrorOf(const std::function<void()> & function)
 {
   try
   {
@@ -63,27 +63,27 @@ LevelsOf(const std::vector<double> &                            exposures,
 
 TEST(SensorNoiseExposures, ImpossibleOnesAreRefused)
 {
-  const auto refusal = [](const std::vector<double> & exposures) {
-    return RefusalOf([&] { ValidateExposures(exposures); });
+  const auto errorOf = [](const std::vector<double> & exposures) {
+    return ErrorOf([&] { ValidateExposures(exposures); });
   };
-  EXPECT_EQ(refusal({}), "no error");
-  EXPECT_EQ(refusal({ 0.0, 1.0, 2.0, 2.0 }), "no error");
-  EXPECT_EQ(refusal({ 1.0, -2.0, 3.0 }),
+  EXPECT_EQ(errorOf({}), "no error");
+  EXPECT_EQ(errorOf({ 0.0, 1.0, 2.0, 2.0 }), "no error");
+  EXPECT_EQ(errorOf({ 1.0, -2.0, 3.0 }),
             "the exposure of frame 1 is -2; expected a finite number, 0 (a dark frame) or more");
-  EXPECT_NE(refusal({ 1.0, 2.0, std::numeric_limits<double>::infinity() }), "no error");
-  EXPECT_NE(refusal({ std::nan(""), 2.0, 3.0 }), "no error");
-  EXPECT_EQ(refusal({ 1.0, 2.0, 2.0 }).find("the exposures have 2 different values; expected at least 3"), 0u);
-  EXPECT_EQ(refusal({ 1.0, 1.0 }).find("the exposures have 1 value; expected at least 3"), 0u);
+  EXPECT_NE(errorOf({ 1.0, 2.0, std::numeric_limits<double>::infinity() }), "no error");
+  EXPECT_NE(errorOf({ std::nan(""), 2.0, 3.0 }), "no error");
+  EXPECT_EQ(errorOf({ 1.0, 2.0, 2.0 }).find("the exposures have 2 different values; expected at least 3"), 0u);
+  EXPECT_EQ(errorOf({ 1.0, 1.0 }).find("the exposures have 1 value; expected at least 3"), 0u);
 }
 
 TEST(SensorNoiseExposures, ThereIsOneForEachFrame)
 {
-  const auto refusal = [](const std::vector<double> & exposures) {
-    return RefusalOf([&] { RequireExposuresOfFrames(exposures, 3); });
+  const auto errorOf = [](const std::vector<double> & exposures) {
+    return ErrorOf([&] { RequireExposuresOfFrames(exposures, 3); });
   };
-  EXPECT_EQ(refusal({}), "no error");
-  EXPECT_EQ(refusal({ 1.0, 2.0, 3.0 }), "no error");
-  EXPECT_EQ(refusal({ 1.0, 2.0 }),
+  EXPECT_EQ(errorOf({}), "no error");
+  EXPECT_EQ(errorOf({ 1.0, 2.0, 3.0 }), "no error");
+  EXPECT_EQ(errorOf({ 1.0, 2.0 }),
             "there are 2 exposures, but 3 frames; expected one exposure for each frame, in the order of the frames");
 }
 

@@ -63,7 +63,7 @@ struct Extremes
 };
 } // namespace
 
-TEST(SensorNoiseFloatingLevels, PileUpsAreFoundAndTheOtherEndStaysOpen)
+TEST(SensorNoiseFloatingLevels, ClipLevelsAreFoundAndTheOtherEndStaysOpen)
 {
   Extremes extremes;
   extremes.AddRamp(100, 3400);

@@ -52,11 +52,11 @@ Wave(double x, double y)
 }
 } // namespace
 
-TEST(SensorNoiseFrameThumbnails, FlickerAndDriftOfAStillSceneAreNoChange)
+TEST(SensorNoiseFrameThumbnails, FlickerAndDriftOfAStaticSceneAreNoChange)
 {
   const auto change =
     ChangeOf(Stack([](double t, double x, double y) { return (1.0 + 0.3 * std::sin(t)) * Wave(x, y) + 5.0 * t; }));
-  EXPECT_LT(change.share, 1e-20);
+  EXPECT_LT(change.fraction, 1e-20);
   EXPECT_FALSE(change.IsLarge());
 }
 
@@ -65,19 +65,19 @@ TEST(SensorNoiseFrameThumbnails, NoiseIsNoChange)
   // A flat field in the dark: noise alone, as large as the level.
   CounterSeededRandom random(3, 1, 0);
   const auto          change = ChangeOf(Stack([&](auto, auto, auto) { return 10.0 + 10.0 * random.Normal(); }));
-  EXPECT_FALSE(change.IsLarge()) << change.share << ' ' << change.ofTheLevel;
+  EXPECT_FALSE(change.IsLarge()) << change.fraction << ' ' << change.ofTheLevel;
 }
 
 TEST(SensorNoiseFrameThumbnails, ScenesOfTheirOwnAreAllChange)
 {
   const auto change =
     ChangeOf(Stack([](double t, double x, double y) { return Wave(x + 37.0 * t * t, y - 53.0 * t * t); }));
-  EXPECT_GT(change.share, 0.5);
+  EXPECT_GT(change.fraction, 0.5);
   EXPECT_GT(change.ofTheLevel, 0.15);
   EXPECT_TRUE(change.IsLarge());
 }
 
-TEST(SensorNoiseFrameThumbnails, ShareIsThatOfTheVariance)
+TEST(SensorNoiseFrameThumbnails, FractionIsTakenOfTheVariance)
 {
   // The frames alternate between a + b and a - b, where a and b are not correlated over the tiles. The fraction of b is
   // 9 / (16 + 9), over 0.6745^2, as all tiles differ by the same amount.
@@ -87,7 +87,7 @@ TEST(SensorNoiseFrameThumbnails, ShareIsThatOfTheVariance)
     return 20.0 + 4.0 * a + (std::fmod(t, 2.0) < 1.0 ? 3.0 : -3.0) * b;
   });
   const auto change = ChangeOf(stack);
-  EXPECT_NEAR(change.share, 9.0 / 25.0 / 0.6745 / 0.6745, 4.0 / 256.0); // degrees of freedom of 256 tiles
+  EXPECT_NEAR(change.fraction, 9.0 / 25.0 / 0.6745 / 0.6745, 4.0 / 256.0); // degrees of freedom of 256 tiles
   EXPECT_NEAR(change.ofTheLevel, 3.0 / 20.0 / 0.6745, 0.001);
 }
 
@@ -100,14 +100,14 @@ TEST(SensorNoiseFrameThumbnails, WhatIsMaskedOrNotFiniteIsLeftOut)
     mask[p] = p % Width < 24 ? 1 : 0;
   }
   const auto half = [](double t, double x, double y) { return x < 24.0 ? Wave(x, y) : Wave(x + 90.0 * t, y * t); };
-  EXPECT_GT(ChangeOf(Stack(half)).share, 0.01);
-  EXPECT_LT(ChangeOf(Stack(half), mask).share, 1e-20);
+  EXPECT_GT(ChangeOf(Stack(half)).fraction, 0.01);
+  EXPECT_LT(ChangeOf(Stack(half), mask).fraction, 1e-20);
   EXPECT_LT(
     ChangeOf(Stack([&](double t, double x, double y) { return x < 24.0  ? Wave(x, y)
                                                               : t > 3.0 ? nan
-                                                                        : 9.0; })).share,
+                                                                        : 9.0; })).fraction,
     1e-20);
-  EXPECT_EQ(ChangeOf(Stack([&](auto, auto, auto) { return nan; })).share, 0.0);
+  EXPECT_EQ(ChangeOf(Stack([&](auto, auto, auto) { return nan; })).fraction, 0.0);
 }
 
 TEST(SensorNoiseFrameThumbnails, CodesHaveTheBitsOfNumbers)
@@ -130,15 +130,15 @@ TEST(SensorNoiseFrameThumbnails, CodesHaveTheBitsOfNumbers)
   EXPECT_EQ(saved[0].str(), saved[1].str());
 }
 
-TEST(SensorNoiseFrameThumbnails, FewFramesOrCellsTellNothing)
+TEST(SensorNoiseFrameThumbnails, FewFramesOrCellsShowNoChange)
 {
   const auto      stack = Stack([](double t, double x, double y) { return Wave(x * t, y * t); });
   FrameThumbnails few(Geometry, 4, {});
   few.AddFrames(stack.data(), 0, 4, SerialFor);
-  EXPECT_EQ(few.FindChange(test::AllFrames(few)).share, 0.0);
+  EXPECT_EQ(few.FindChange(test::AllFrames(few)).fraction, 0.0);
   FrameThumbnails small({ 2, 3 }, Frames, {});
   small.AddFrames(stack.data(), 0, Frames, SerialFor);
-  EXPECT_EQ(small.FindChange(test::AllFrames(small)).share, 0.0);
+  EXPECT_EQ(small.FindChange(test::AllFrames(small)).fraction, 0.0);
 }
 
 TEST(SensorNoiseFrameThumbnails, PartsGiveTheBitsOfTheWhole)
@@ -151,6 +151,6 @@ TEST(SensorNoiseFrameThumbnails, PartsGiveTheBitsOfTheWhole)
   std::stringstream stream;
   second.Save(stream);
   first.Merge(first.ReadOther(stream));
-  EXPECT_EQ(first.FindChange(test::AllFrames(first)).share, ChangeOf(stack).share);
+  EXPECT_EQ(first.FindChange(test::AllFrames(first)).fraction, ChangeOf(stack).fraction);
   EXPECT_THROW(first.ReadOther(stream), std::runtime_error);
 }

@@ -115,12 +115,12 @@ ExpectTwoPointLaw(std::size_t n, std::size_t high, TPixel bottom, TPixel top)
     stack[2 * (n - 1 - t) + 1] = top;
   }
   const auto   moments = MomentsOf(stack, 2);
-  const double share = static_cast<double>(high) / static_cast<double>(n);
+  const double fraction = static_cast<double>(high) / static_cast<double>(n);
   const double height = static_cast<double>(top) - static_cast<double>(bottom);
   for (std::size_t p = 0; p < 2; ++p)
   {
-    EXPECT_NEAR(moments.GetMean(p), bottom + share * height, 65536.0 * std::numeric_limits<double>::epsilon());
-    EXPECT_DOUBLE_EQ(moments.GetSumOfSquaredDeviations(p), share * static_cast<double>(n - high) * height * height);
+    EXPECT_NEAR(moments.GetMean(p), bottom + fraction * height, 65536.0 * std::numeric_limits<double>::epsilon());
+    EXPECT_DOUBLE_EQ(moments.GetSumOfSquaredDeviations(p), fraction * static_cast<double>(n - high) * height * height);
   }
 }
 } // namespace

@@ -47,12 +47,12 @@ Expose(const Scene &               scene,
 }
 
 Scene
-MakeScene(const std::function<double(double x, double y)> & light)
+MakeScene(const std::function<double(double x, double y)> & signal)
 {
   Scene scene(Size * Size);
   for (std::size_t p = 0; p < scene.size(); ++p)
   {
-    scene[p] = light(static_cast<double>(p % Size), static_cast<double>(p / Size));
+    scene[p] = signal(static_cast<double>(p % Size), static_cast<double>(p / Size));
   }
   return scene;
 }
@@ -154,7 +154,7 @@ TEST(MosaicLevels, ColoursOfTheSceneDoNotHideIt)
   EXPECT_EQ(RecogniseMosaic(mosaic, Size, Size), BayerPattern::RGGB);
 }
 
-TEST(MosaicLevels, DefectivePixelsAndTinyFramesAreNoObstacle)
+TEST(MosaicLevels, DefectivePixelsAndTinyFramesAreRecognised)
 {
   Scene frame = Expose(sensornoise::MakeTargetScene(Size, Size), BayerPattern::GRBG, { 0.6, 1.0, 0.4 });
   for (std::size_t p = 0; p < frame.size(); p += 97)

@@ -156,7 +156,7 @@ TEST(SensorNoiseNoiseMedian, FewNumbersThatRoundingLeavesAreNoBias)
   }
 }
 
-TEST(SensorNoiseNoiseMedian, WhatTheVariancesCannotTellIsNull)
+TEST(SensorNoiseNoiseMedian, UndeterminedMedianIsNull)
 {
   const std::vector<double> some(1000, 2.0);
   EXPECT_TRUE(MedianReadNoiseOf(some, 5.0, 1.0));

@@ -38,7 +38,7 @@ RoundedNormal(std::size_t count, double sd, double scale = 1.0)
 }
 } // namespace
 
-TEST(SensorNoiseOutermostLevels, StuckPixelsBeyondAPileUpAreLeftOut)
+TEST(SensorNoiseOutermostLevels, StuckPixelsBeyondAClipLevelAreLeftOut)
 {
   std::vector<double> values = RoundedNormal(20000, 20.0, 0.25);
   const double        top = 0.25 * 960.0;

@@ -27,7 +27,7 @@ constexpr double        Gain = 0.5;
 constexpr double        ReadNoiseDn = 3.0;
 
 /** Function that returns the electrons at a place in a frame. */
-using Light = std::function<double(std::size_t t, double x, double y)>;
+using Electrons = std::function<double(std::size_t t, double x, double y)>;
 
 /** Returns between 500 and 3500 electrons. */
 double
@@ -38,7 +38,7 @@ Scene(double x, double y)
 
 /** Frames of a camera with normal noise. */
 std::vector<float>
-Expose(std::size_t frames, const Light & light)
+Expose(std::size_t frames, const Electrons & electronsOf)
 {
   std::vector<float>  stack;
   CounterSeededRandom random(7);
@@ -46,7 +46,7 @@ Expose(std::size_t frames, const Light & light)
   {
     for (std::size_t p = 0; p < Width * Height; ++p)
     {
-      const double electrons = light(t, static_cast<double>(p % Width), static_cast<double>(p / Width));
+      const double electrons = electronsOf(t, static_cast<double>(p % Width), static_cast<double>(p / Width));
       const double noise = std::sqrt(Gain * Gain * electrons + ReadNoiseDn * ReadNoiseDn);
       stack.push_back(static_cast<float>(std::rint(OffsetDn + Gain * electrons + noise * random.Normal())));
     }
@@ -144,12 +144,12 @@ TEST(SensorNoiseUnlikeFrames, AVibrationThatFewCellsSeeIsAlike)
 
 TEST(SensorNoiseUnlikeFrames, EachKindIsNamedWhereverItStands)
 {
-  const Light light = [](std::size_t t, double x, double y) {
+  const Electrons electronsOf = [](std::size_t t, double x, double y) {
     const double r2 = std::pow(x - 0.5 * Width, 2) + std::pow(y - 0.5 * Height, 2);
     const double dip = t == 44 ? 1.0 - 0.12 * std::exp(-r2 / (2.0 * std::pow(0.3 * Width, 2))) : 1.0;
     return dip * (t == 31 ? Scene(y, x) : Scene(x, y));
   };
-  std::vector<float> stack = Expose(60, light);
+  std::vector<float> stack = Expose(60, electronsOf);
   Fill(stack, 0, 0.0F);
   Fill(stack, 17, 4095.0F);
   Fill(stack, 59, std::numeric_limits<float>::quiet_NaN());

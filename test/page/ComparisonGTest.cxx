@@ -63,12 +63,12 @@ TEST(SensorNoiseComparison, ADifferenceHasBothErrorsAndItsSize)
   const Change within = ChangeOfGain(Value(2.0, 0.03), Value(2.1, 0.04));
   EXPECT_DOUBLE_EQ(*within.standardError, 0.05);
   EXPECT_NEAR(*within.difference, 0.1, 1e-15);
-  EXPECT_NEAR(*within.share, 0.05, 1e-15);
+  EXPECT_NEAR(*within.fraction, 0.05, 1e-15);
   EXPECT_EQ(within.kind, ChangeKind::Within);
   EXPECT_EQ(ChangeOfGain(Value(2.0, 0.03), Value(1.84, 0.04)).kind, ChangeKind::Changed); // 3.2 errors, 8 %
   const Change small = ChangeOfGain(Value(2.0, 0.0003), Value(2.016, 0.0004));            // 32 errors, 0.8 %
   EXPECT_EQ(small.kind, ChangeKind::Small);
-  EXPECT_NEAR(*small.share, 0.008, 1e-12);
+  EXPECT_NEAR(*small.fraction, 0.008, 1e-12);
 }
 
 TEST(SensorNoiseComparison, AnOffsetIsLargeBesideTheReadNoise)
@@ -78,12 +78,12 @@ TEST(SensorNoiseComparison, AnOffsetIsLargeBesideTheReadNoise)
     ComparedReport b = MakeReport("b");
     b.report.offset = Value(isSmall ? 98.2 : 97.8, 0.4); // 3.6 and 4.4 errors; 9 % and 11 % of the read noise
     const Change change = QuantityOf(MakeComparison({ MakeReport("a"), b }), "offset").changes[1];
-    EXPECT_NEAR(*change.share, isSmall ? -0.09 : -0.11, 1e-12);
+    EXPECT_NEAR(*change.fraction, isSmall ? -0.09 : -0.11, 1e-12);
     EXPECT_EQ(change.kind, isSmall ? ChangeKind::Small : ChangeKind::Changed);
   }
 }
 
-TEST(SensorNoiseComparison, OnlyAValueWithAnErrorIsJudged)
+TEST(SensorNoiseComparison, OnlyAValueWithAnErrorHasAVerdict)
 {
   const Change published = ChangeOfGain(Quantity::Identified(2.0), Quantity::Identified(3.0));
   EXPECT_EQ(published.kind, ChangeKind::NoErrors);
@@ -95,7 +95,7 @@ TEST(SensorNoiseComparison, OnlyAValueWithAnErrorIsJudged)
   EXPECT_EQ(failed.kind, ChangeKind::NoValue);
   EXPECT_FALSE(failed.difference);
   // of what may be 0 nothing is a share
-  EXPECT_FALSE(ChangeOfGain(Value(0.1, 0.1), Value(5.0, 0.1)).share);
+  EXPECT_FALSE(ChangeOfGain(Value(0.1, 0.1), Value(5.0, 0.1)).fraction);
 }
 
 TEST(SensorNoiseComparison, AChannelIsComparedWithItsOwn)
@@ -122,7 +122,7 @@ TEST(SensorNoiseComparison, AChannelIsComparedWithItsOwn)
   EXPECT_TRUE(Contains(page, "against the first report: gain g in one report (by up to 100\u00A0%)."));
 }
 
-TEST(SensorNoiseComparison, ScatterIsToldFromChance)
+TEST(SensorNoiseComparison, ScatterIsDistinguishedFromChance)
 {
   const auto meanOf = [](double error) {
     std::vector<ComparedReport> rows{ MakeReport("a"), MakeReport("b"), MakeReport("c") };

@@ -53,7 +53,7 @@ TEST(SensorNoiseFigureData, MeansByWhichPixelsAreSortedHaveNoiseToo)
   EXPECT_NEAR(MakeFigureData(report).residuals[0], 4.2 / std::hypot(4.2, 2.0 * ofLevel), 1e-9);
 }
 
-TEST(SensorNoiseFigureData, WhatFramesShareIsInTheErrorsOfResiduals)
+TEST(SensorNoiseFigureData, TemporalCorrelationIsInTheErrorsOfResiduals)
 {
   // frames one apart share 0.5: 1 + 2 * 0.25 = 1.5 times the variance of a variance
   Report report = MakeReport();
@@ -65,7 +65,7 @@ TEST(SensorNoiseFigureData, WhatFramesShareIsInTheErrorsOfResiduals)
   EXPECT_EQ(data.residualSpread, 1.0);
 }
 
-TEST(SensorNoiseFigureData, WhatNeighboursShareIsTheSpreadOfResidualsLessWhatChanceMakes)
+TEST(SensorNoiseFigureData, CorrelationIsTheDispersionOfResidualsBeyondChance)
 {
   Report report = MakeReport();
   report.noiseCorrelation.emplace();

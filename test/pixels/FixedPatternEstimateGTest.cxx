@@ -53,7 +53,7 @@ PatternOf(const Maps & maps, const ParallelFor & parallelFor = SerialFor)
 /** Returns the fraction of a PRNU pattern by its definition: its variance times the mean squared signal, over the
  * variance of the levels. */
 double
-GainShare(const FixedPatternEstimate & pattern, const Maps & maps, double sd)
+GainFraction(const FixedPatternEstimate & pattern, const Maps & maps, double sd)
 {
   const double fluxDn = LineOf(maps).pivotDn - BlackDn;
   return sd * sd * (fluxDn * fluxDn + pattern.levelVarianceDn2) / pattern.levelVarianceDn2;
@@ -79,7 +79,7 @@ NormalMap()
 }
 } // namespace
 
-TEST(SensorNoiseFixedPatternEstimate, WhitePatternOfGainHasItsShare)
+TEST(SensorNoiseFixedPatternEstimate, WhiteGainPatternHasItsFraction)
 {
   const std::vector<double> normal = NormalMap();
   for (const double sd : { 0.005, 0.01 })
@@ -88,11 +88,11 @@ TEST(SensorNoiseFixedPatternEstimate, WhitePatternOfGainHasItsShare)
     const FixedPatternEstimate pattern = PatternOf(maps);
     // The levels are uniformly distributed over 100 DN, with some noise.
     EXPECT_NEAR(pattern.levelVarianceDn2 / (1e4 / 12.0), 1.0, 0.05);
-    EXPECT_NEAR(pattern.gainFraction / GainShare(pattern, maps, sd), 1.0 + PatternError, 5.0 * PatternError) << sd;
+    EXPECT_NEAR(pattern.gainFraction / GainFraction(pattern, maps, sd), 1.0 + PatternError, 5.0 * PatternError) << sd;
   }
 }
 
-TEST(SensorNoiseFixedPatternEstimate, WhitePatternOfOffsetHasItsShare)
+TEST(SensorNoiseFixedPatternEstimate, WhiteOffsetPatternHasItsFraction)
 {
   const std::vector<double> normal = NormalMap();
   const Maps                maps(
@@ -119,7 +119,7 @@ TEST(SensorNoiseFixedPatternEstimate, SceneThatIsRoughEverywhereCountsAsTheLarge
   const std::vector<double> normal = NormalMap();
   const Maps maps([&](std::size_t x, std::size_t y) { return Pixel{ 4000.0 * (1.0 + 0.2 * normal[y * Size + x]) }; });
   const FixedPatternEstimate pattern = PatternOf(maps);
-  EXPECT_NEAR(pattern.gainFraction, GainShare(pattern, maps, 0.03), 1e-9 * pattern.gainFraction);
+  EXPECT_NEAR(pattern.gainFraction, GainFraction(pattern, maps, 0.03), 1e-9 * pattern.gainFraction);
   // The limit is five times the noise, which has the same variance at all pixels.
   EXPECT_NEAR(pattern.OffsetVarianceDn2(), 25.0 * LineOf(maps).intercept, 1e-9 * pattern.OffsetVarianceDn2());
 }
@@ -134,7 +134,7 @@ TEST(SensorNoiseFixedPatternEstimate, TextureAboutAFlatPlaceIsNoPattern)
                   1.0 + 0.01 * normal[y * Size + x] };
   });
   const FixedPatternEstimate pattern = PatternOf(maps);
-  EXPECT_NEAR(pattern.gainFraction / GainShare(pattern, maps, 0.01), 1.0 + PatternError, 5.0 * PatternError);
+  EXPECT_NEAR(pattern.gainFraction / GainFraction(pattern, maps, 0.01), 1.0 + PatternError, 5.0 * PatternError);
 }
 
 TEST(SensorNoiseFixedPatternEstimate, WithoutLevelsEverythingCouldBePattern)
@@ -150,7 +150,7 @@ TEST(SensorNoiseFixedPatternEstimate, WithoutLevelsEverythingCouldBePattern)
   EXPECT_EQ(PatternOf(few).offsetFraction, std::numeric_limits<double>::infinity());
 }
 
-TEST(SensorNoiseFixedPatternEstimate, DiagonalNeighboursShareNoRowAndNoColumn)
+TEST(SensorNoiseFixedPatternEstimate, DiagonalNeighboursHaveNoRowOrColumnInCommon)
 {
   std::vector<double> mean(49, 0.0);
   for (std::size_t i = 0; i < 7; ++i)

@@ -55,11 +55,11 @@ TEST(SensorNoiseGainByParts, UniformSensorHasNone)
   EXPECT_EQ(CompareParts(TilesOf([](const TileExcess &) { return 0.0; })).Larger(), nullptr);
 }
 
-TEST(SensorNoiseGainByParts, ResponseThatBendsIsNoPart)
+TEST(SensorNoiseGainByParts, NonlinearResponseIsNoPart)
 {
   // The excess depends on the level of a tile, not on its place.
-  const auto bend = [](const TileExcess & tile) { return 0.001 * std::abs(tile.levelDn - 150.0); };
-  EXPECT_EQ(CompareParts(TilesOf(bend)).Larger(), nullptr);
+  const auto curve = [](const TileExcess & tile) { return 0.001 * std::abs(tile.levelDn - 150.0); };
+  EXPECT_EQ(CompareParts(TilesOf(curve)).Larger(), nullptr);
 }
 
 TEST(SensorNoiseGainByParts, FindsEachPartition)

@@ -27,7 +27,7 @@ namespace
 struct Lines
 {
   VarianceLine all;
-  VarianceLine light;
+  VarianceLine instrumental;
 
   explicit Lines(const Maps & maps, const ParallelFor & parallelFor = SerialFor)
   {
@@ -35,29 +35,30 @@ struct Lines
     fit.Iterate(8);
     fit.FillErrors();
     all = fit.GetLine();
-    light = FitInstrumental(fit, maps.Data(), maps.frame);
+    instrumental = FitInstrumental(fit, maps.Data(), maps.frame);
   }
   /** Returns the fraction of a component of the variance of the levels [1]. */
   double
-  ShareOf(double varianceDn2) const
+  FractionOf(double varianceDn2) const
   {
     return varianceDn2 / (all.spreadDn2 / all.weightSum);
   }
 };
 
-/** Expects that the instrumental-variable fit is unbiased, and that the line of all pixels is biased by \a share. */
+/** Expects that the instrumental-variable fit is unbiased, and that the line of all pixels is biased by \a fraction. */
 void
-ExpectOnlyTheLightLineIsRight(const Lines & lines, double share, double gainDn = GainDn)
+ExpectOnlyTheInstrumentalFitIsRight(const Lines & lines, double fraction, double gainDn = GainDn)
 {
-  ASSERT_TRUE(lines.all.isDetermined && lines.light.isDetermined);
-  const double error = std::sqrt(lines.light.covariance(0, 0));
+  ASSERT_TRUE(lines.all.isDetermined && lines.instrumental.isDetermined);
+  const double error = std::sqrt(lines.instrumental.covariance(0, 0));
   EXPECT_LT(error, 0.01 * GainDn);
-  EXPECT_NEAR(lines.light.gain, gainDn, 5.0 * error);
-  EXPECT_NEAR(
-    lines.light.intercept + lines.light.gain * BlackDn, ReadVarianceDn2, 5.0 * error * (lines.light.pivotDn - BlackDn));
+  EXPECT_NEAR(lines.instrumental.gain, gainDn, 5.0 * error);
+  EXPECT_NEAR(lines.instrumental.intercept + lines.instrumental.gain * BlackDn,
+              ReadVarianceDn2,
+              5.0 * error * (lines.instrumental.pivotDn - BlackDn));
   // The bias is known within sqrt(2 / 256), for a pattern of columns, and the weights differ by 30 %.
-  EXPECT_GT(std::abs(share), 0.02);
-  EXPECT_NEAR(lines.all.gain / gainDn - 1.0, share, 5.0 * 0.09 * std::abs(share));
+  EXPECT_GT(std::abs(fraction), 0.02);
+  EXPECT_NEAR(lines.all.gain / gainDn - 1.0, fraction, 5.0 * 0.09 * std::abs(fraction));
 }
 
 std::vector<double>
@@ -74,42 +75,42 @@ NormalNumbers(std::size_t count)
 }
 
 /** Mean of the squared signal of the ramp over the pixels [DN^2]. */
-constexpr double SquaredLightDn2 = 1e4 + 1e4 / 12.0;
+constexpr double SquaredSignalDn2 = 1e4 + 1e4 / 12.0;
 } // namespace
 
-TEST(SensorNoiseLightLine, WithoutPatternsItIsTheLineOfAllPixels)
+TEST(SensorNoiseInstrumentalFit, WithoutPatternsItIsTheLineOfAllPixels)
 {
   const Lines lines(Maps([](std::size_t, std::size_t y) { return Pixel{ Ramp(y) }; }));
   EXPECT_NEAR(lines.all.gain, GainDn, 1e-8);
-  EXPECT_NEAR(lines.light.gain, GainDn, 1e-8);
-  EXPECT_NEAR(lines.light.intercept, ReadVarianceDn2 - GainDn * BlackDn, 1e-6);
+  EXPECT_NEAR(lines.instrumental.gain, GainDn, 1e-8);
+  EXPECT_NEAR(lines.instrumental.intercept, ReadVarianceDn2 - GainDn * BlackDn, 1e-6);
 }
 
-TEST(SensorNoiseLightLine, GainsThatDifferHaveNoPart)
+TEST(SensorNoiseInstrumentalFit, GainsThatDifferHaveNoPart)
 {
   const std::vector<double> normal = NormalNumbers(Pixels);
   const Lines               lines(
     Maps([&](std::size_t x, std::size_t y) { return Pixel{ Ramp(y), 1.0 + 0.1 * normal[y * Size + x] }; }));
   // With gains of variance s^2 the shot noise is 1 + s^2 times the shot noise of the mean gain.
-  ExpectOnlyTheLightLineIsRight(lines, lines.ShareOf(0.01 * SquaredLightDn2), 1.01 * GainDn);
+  ExpectOnlyTheInstrumentalFitIsRight(lines, lines.FractionOf(0.01 * SquaredSignalDn2), 1.01 * GainDn);
 }
 
-TEST(SensorNoiseLightLine, OffsetsThatDifferHaveNoPart)
+TEST(SensorNoiseInstrumentalFit, OffsetsThatDifferHaveNoPart)
 {
   const std::vector<double> normal = NormalNumbers(Pixels);
   const Lines               lines(
     Maps([&](std::size_t x, std::size_t y) { return Pixel{ Ramp(y), 1.0, 1.0, 12.0 * normal[y * Size + x] }; }));
-  ExpectOnlyTheLightLineIsRight(lines, -lines.ShareOf(144.0));
+  ExpectOnlyTheInstrumentalFitIsRight(lines, -lines.FractionOf(144.0));
 }
 
-TEST(SensorNoiseLightLine, NoiseOfTheMeansHasNoPart)
+TEST(SensorNoiseInstrumentalFit, NoiseOfTheMeansHasNoPart)
 {
   const Lines  lines(Maps([](std::size_t, std::size_t y) { return Pixel{ Ramp(y) }; }, FewFrames));
   const double noiseDn2 = (ReadVarianceDn2 + GainDn * 100.0) / static_cast<double>(FewFrames);
-  ExpectOnlyTheLightLineIsRight(lines, -lines.ShareOf(noiseDn2));
+  ExpectOnlyTheInstrumentalFitIsRight(lines, -lines.FractionOf(noiseDn2));
 }
 
-TEST(SensorNoiseLightLine, ColumnsThatDifferHaveNoPart)
+TEST(SensorNoiseInstrumentalFit, ColumnsThatDifferHaveNoPart)
 {
   const std::vector<double> normal = NormalNumbers(Size);
   double                    square = 0.0;
@@ -122,37 +123,38 @@ TEST(SensorNoiseLightLine, ColumnsThatDifferHaveNoPart)
   const double variance = square - mean * mean;
   const Lines  offsets(
     Maps([&](std::size_t x, std::size_t y) { return Pixel{ Ramp(y), 1.0, 1.0, 12.0 * (normal[x] - mean) }; }));
-  ExpectOnlyTheLightLineIsRight(offsets, -offsets.ShareOf(144.0 * variance));
+  ExpectOnlyTheInstrumentalFitIsRight(offsets, -offsets.FractionOf(144.0 * variance));
   const Lines gains(
     Maps([&](std::size_t x, std::size_t y) { return Pixel{ Ramp(y), 1.0 + 0.05 * (normal[x] - mean) }; }));
-  ExpectOnlyTheLightLineIsRight(
-    gains, gains.ShareOf(0.0025 * variance * SquaredLightDn2), (1.0 + 0.0025 * variance) * GainDn);
+  ExpectOnlyTheInstrumentalFitIsRight(
+    gains, gains.FractionOf(0.0025 * variance * SquaredSignalDn2), (1.0 + 0.0025 * variance) * GainDn);
 }
 
-TEST(SensorNoiseLightLine, EfficienciesThatDifferAreLikeLight)
+TEST(SensorNoiseInstrumentalFit, UnequalEfficienciesActLikeSignal)
 {
   const std::vector<double> normal = NormalNumbers(Pixels);
   const Lines               lines(
     Maps([&](std::size_t x, std::size_t y) { return Pixel{ Ramp(y), 1.0, 1.0 + 0.1 * normal[y * Size + x] }; }));
   EXPECT_NEAR(lines.all.gain, GainDn, 1e-8);
-  EXPECT_NEAR(lines.light.gain, GainDn, 1e-8);
+  EXPECT_NEAR(lines.instrumental.gain, GainDn, 1e-8);
 }
 
-TEST(SensorNoiseLightLine, OneIntensityDeterminesNone)
+TEST(SensorNoiseInstrumentalFit, OneIntensityDeterminesNone)
 {
   const std::vector<double> normal = NormalNumbers(Pixels);
   const Lines               lines(
     Maps([&](std::size_t x, std::size_t y) { return Pixel{ 100.0, 1.0, 1.0, 5.0 * normal[y * Size + x] }; }));
   // The levels of neighbours have only noise in common: there is no slope, or its error is as large as the slope.
-  EXPECT_TRUE(!lines.light.isDetermined || std::abs(lines.light.gain) < 5.0 * std::sqrt(lines.light.covariance(0, 0)))
-    << lines.light.gain << ' ' << lines.light.covariance(0, 0);
+  EXPECT_TRUE(!lines.instrumental.isDetermined ||
+              std::abs(lines.instrumental.gain) < 5.0 * std::sqrt(lines.instrumental.covariance(0, 0)))
+    << lines.instrumental.gain << ' ' << lines.instrumental.covariance(0, 0);
 }
 
-TEST(SensorNoiseLightLine, ThreadsChangeNoBit)
+TEST(SensorNoiseInstrumentalFit, ThreadsChangeNoBit)
 {
   const Maps  maps([](std::size_t, std::size_t y) { return Pixel{ Ramp(y) }; }, FewFrames);
   const Lines expected(maps);
   const Lines lines(maps, test::Threads(3));
-  EXPECT_EQ(lines.light.gain, expected.light.gain);
-  EXPECT_EQ(lines.light.covariance, expected.light.covariance);
+  EXPECT_EQ(lines.instrumental.gain, expected.instrumental.gain);
+  EXPECT_EQ(lines.instrumental.covariance, expected.instrumental.covariance);
 }

@@ -57,7 +57,7 @@ struct Scene
 
 /** Illumination that is uniform, and illumination that decreases slightly from the left. */
 Eigen::Vector2d
-TwoLamps(std::size_t p, double mean)
+TwoSources(std::size_t p, double mean)
 {
   const double x = static_cast<double>(p % Width) / Width;
   return (mean - OffsetDn) * Eigen::Vector2d(0.3, 0.4 + 0.02 * x);
@@ -65,15 +65,15 @@ TwoLamps(std::size_t p, double mean)
 
 /** Illumination that is uniform, and a level that drifts. */
 Eigen::Vector2d
-OneLampAndADrift(std::size_t, double mean)
+OneSourceAndADrift(std::size_t, double mean)
 {
   return { 0.3 * (mean - OffsetDn), 300.0 };
 }
 } // namespace
 
-TEST(SensorNoiseLocalOffset, LampsMeetInTheOffset)
+TEST(SensorNoiseLocalOffset, SourcesHaveOneOffset)
 {
-  const Scene scene(TwoLamps);
+  const Scene scene(TwoSources);
   const auto  found = FindLocalOffset(scene.Data());
   ASSERT_TRUE(found);
   EXPECT_GT(found->tiles, 0u);
@@ -84,7 +84,7 @@ TEST(SensorNoiseLocalOffset, LampsMeetInTheOffset)
   EXPECT_LT(found->phi, 3.0);
 }
 
-TEST(SensorNoiseLocalOffset, LampsWithoutACommonZeroAreTold)
+TEST(SensorNoiseLocalOffset, SourcesWithoutACommonZeroAreReported)
 {
   // The illumination by the second lamp is not proportional to that by the first: a part of the scene glows.
   const Scene scene([](std::size_t p, double mean) {
@@ -96,6 +96,6 @@ TEST(SensorNoiseLocalOffset, LampsWithoutACommonZeroAreTold)
 
 TEST(SensorNoiseLocalOffset, DriftingLevelIsOneLineOverTheFrame)
 {
-  EXPECT_TRUE(IsOffsetDrift(Scene(OneLampAndADrift).Data()));
-  EXPECT_FALSE(IsOffsetDrift(Scene(TwoLamps).Data()));
+  EXPECT_TRUE(IsOffsetDrift(Scene(OneSourceAndADrift).Data()));
+  EXPECT_FALSE(IsOffsetDrift(Scene(TwoSources).Data()));
 }

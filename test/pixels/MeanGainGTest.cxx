@@ -83,10 +83,10 @@ struct Response
 /** Returns a response with the local gain 0.3 (1 + bend (1 - 2 x / 10000)), for 10,000 electrons and a read noise of 2
  * electrons. */
 Response
-BentResponse(double bend)
+NonlinearResponse(double nonlinearity)
 {
-  const auto codeOf = [=](double x) { return 100.0 + 0.3 * x * (1.0 + bend * (1.0 - x / 1e4)); };
-  return Response(0.0, 1e4, 4.0, codeOf, [=](double x) { return 0.3 * (1.0 + bend * (1.0 - 2.0 * x / 1e4)); });
+  const auto codeOf = [=](double x) { return 100.0 + 0.3 * x * (1.0 + nonlinearity * (1.0 - x / 1e4)); };
+  return Response(0.0, 1e4, 4.0, codeOf, [=](double x) { return 0.3 * (1.0 + nonlinearity * (1.0 - 2.0 * x / 1e4)); });
 }
 } // namespace
 
@@ -110,7 +110,7 @@ TEST(SensorNoiseMeanGain, StraightLineGivesItsSlope)
   EXPECT_NEAR(found->value, 0.3, 1e-9);
 }
 
-TEST(SensorNoiseMeanGain, PowerOfTheLightIsExactWithTheOffset)
+TEST(SensorNoiseMeanGain, PowerOfTheSignalIsExactWithTheOffset)
 {
   // y = c x^p with shot noise alone: V is the power q = 2 - 1 / p of y. Over a quarter of y a cubic through it is exact
   // within 2 (1 / 16)^4 |q (q - 1) (q - 2) (q - 3)| / 24 or 1e-6. Its slope at the end, from which q follows, is exact
@@ -130,15 +130,15 @@ TEST(SensorNoiseMeanGain, PowerOfTheLightIsExactWithTheOffset)
   }
 }
 
-TEST(SensorNoiseMeanGain, BendIsRecoveredToSecondOrder)
+TEST(SensorNoiseMeanGain, NonlinearityIsRecoveredToSecondOrder)
 {
-  for (const double bend : { -0.04, -0.02, 0.02, 0.04 })
+  for (const double nonlinearity : { -0.04, -0.02, 0.02, 0.04 })
   {
-    const Response response = BentResponse(bend);
+    const Response response = NonlinearResponse(nonlinearity);
     // The slope of the line contains twice the change of the gain, so that its relative error is `bend`.
-    EXPECT_GT(std::abs(response.Slope() / response.meanGain - 1.0), 0.5 * std::abs(bend)) << bend;
-    EXPECT_NEAR(response.Found(2) / response.meanGain, 1.0, bend * bend) << bend;
-    EXPECT_NEAR(response.Found(3) / response.meanGain, 1.0, bend * bend) << bend;
+    EXPECT_GT(std::abs(response.Slope() / response.meanGain - 1.0), 0.5 * std::abs(nonlinearity)) << nonlinearity;
+    EXPECT_NEAR(response.Found(2) / response.meanGain, 1.0, nonlinearity * nonlinearity) << nonlinearity;
+    EXPECT_NEAR(response.Found(3) / response.meanGain, 1.0, nonlinearity * nonlinearity) << nonlinearity;
   }
 }
 
@@ -146,14 +146,14 @@ TEST(SensorNoiseMeanGain, VarianceIsThatOfTheDifferenceFromTheLine)
 {
   // The variance of 400 draws is known within sqrt(2 / 400) = 7 %; 5 standard errors are allowed.
   constexpr int              draws = 400;
-  const Response             response = BentResponse(0.04);
+  const Response             response = NonlinearResponse(0.04);
   std::mt19937               random(9);
   std::normal_distribution<> normal(0.0, 1.0 / std::sqrt(Weight));
   for (const int degree : { 2, 3 })
   {
     double sum = 0.0;
     double squares = 0.0;
-    double told = 0.0;
+    double reported = 0.0;
     for (int i = 0; i < draws; ++i)
     {
       std::vector<double> variance = response.variance;
@@ -167,13 +167,13 @@ TEST(SensorNoiseMeanGain, VarianceIsThatOfTheDifferenceFromTheLine)
       const double difference = found->value - curve.line.gain;
       sum += difference / draws;
       squares += difference * difference / draws;
-      told += found->variance / draws;
+      reported += found->variance / draws;
     }
-    EXPECT_NEAR((squares - sum * sum) / told, 1.0, 0.35) << degree;
+    EXPECT_NEAR((squares - sum * sum) / reported, 1.0, 0.35) << degree;
   }
 }
 
-TEST(SensorNoiseMeanGain, IsNullWhereTheVarianceTellsNone)
+TEST(SensorNoiseMeanGain, IsNullWhereTheVarianceDeterminesNone)
 {
   const Response straight(50.0, 1e4, 25.0, [](double x) { return 100.0 + 0.3 * x; }, [](double) { return 0.3; });
   // The variance decreases with the level.

@@ -28,7 +28,7 @@ DofWithoutMotion()
 TEST(SensorNoiseProjectedVariance, IsTheExplicitResidualOverItsDegreesOfFreedom)
 {
   ASSERT_EQ(Basis().Size(), 3u);
-  ASSERT_EQ(Basis().NumberOfIlluminationFactors(), Light);
+  ASSERT_EQ(Basis().NumberOfIlluminationFactors(), IlluminationFactors);
   const Eigen::MatrixXd   series = NormalSeries();
   Input                   input(series);
   const ProjectedSquares  squares = input.Project();
@@ -87,8 +87,8 @@ TEST(SensorNoiseProjectedVariance, ExpectedVarianceOfFlickeringNoiseIsUnbiased)
   double                  expectedRss = 0.0;
   for (Eigen::Index t = 0; t < q.rows(); ++t)
   {
-    const double share = 1.0 - 1.0 / Frames - q.row(t).squaredNorm();
-    expectedRss += (variance + gain * q.row(t).dot(responses)) * share;
+    const double remaining = 1.0 - 1.0 / Frames - q.row(t).squaredNorm();
+    expectedRss += (variance + gain * q.row(t).dot(responses)) * remaining;
   }
   // Noise with exactly this sum of squares, orthogonal to the basis and to the constant, plus the signal.
   Eigen::VectorXd noise = NormalSeries().col(0);

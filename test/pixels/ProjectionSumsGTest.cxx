@@ -186,7 +186,7 @@ TEST(SensorNoiseProjectionSums, ResidualSquaresOfMergedChunksAreTheWholes)
 
 TYPED_TEST(SensorNoiseProjectionSumsOf, AllFramesAtOnceHaveTheResidualSquaresOfTheirSums)
 {
-  constexpr std::size_t      light = 2;
+  constexpr std::size_t      factors = 2;
   const auto                 stack = Stack<TypeParam>();
   TemporalMoments<TypeParam> moments(Pixels);
   ReferenceFrame             frame;
@@ -200,20 +200,20 @@ TYPED_TEST(SensorNoiseProjectionSumsOf, AllFramesAtOnceHaveTheResidualSquaresOfT
   }
   ProjectionSums   sums = SumsOf(stack, 0, Frames);
   ResidualSquares  expected;
-  PixelCoordinates coordinates(Pixels, light);
+  PixelCoordinates coordinates(Pixels, factors);
   AppendResidualSquares(frame, Basis(), sums, SerialFor, expected, coordinates);
   EXPECT_EQ(sums.FirstPixel(), ProjectionSums::SlabPixels);
 
-  PixelCoordinates kept(Pixels, light);
+  PixelCoordinates kept(Pixels, factors);
   kept.AllocateSlabOf(0);
   const ProjectedFrames frames(Basis(), stack.data(), PixelLayout::OfFrames({ Pixels, 1, 1 }), 0, Frames);
   ResidualSquares       squares{ std::vector<double>(Pixels), std::vector<float>(Pixels) };
   FillResidualSquares(frame, Basis(), frames, 0, Pixels, squares, kept);
   EXPECT_EQ(squares.rss, expected.rss);
   EXPECT_EQ(squares.skew, expected.skew);
-  for (std::size_t i = 0; i < Pixels * light; ++i)
+  for (std::size_t i = 0; i < Pixels * factors; ++i)
   {
-    ASSERT_EQ(kept.At(i / light, i % light), coordinates.At(i / light, i % light)) << i;
+    ASSERT_EQ(kept.At(i / factors, i % factors), coordinates.At(i / factors, i % factors)) << i;
   }
 }
 

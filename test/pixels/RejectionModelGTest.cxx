@@ -35,7 +35,7 @@ constexpr double      BlackDn = 100.0;
 
 /** Returns a signal that rises from 20 to 1,020 DN along the rows. */
 double
-LightAt(std::size_t p)
+SignalAt(std::size_t p)
 {
   return 20.0 + 1000.0 * static_cast<double>(p % Width) / (Width - 1.0);
 }
@@ -47,7 +47,7 @@ MakeLine()
   VarianceLine line;
   line.gain = 0.4;
   line.intercept = 100.0 - 0.4 * BlackDn;
-  line.lowestDn2 = InPixels.lowestShare * 108.0;
+  line.lowestDn2 = InPixels.lowestFraction * 108.0;
   line.pivotDn = BlackDn + 520.0;
   line.weightSum = 1.0;
   line.spreadDn2 = 1e6 / 12.0;
@@ -74,7 +74,7 @@ struct Burst
     std::vector<double>        variance(Pixels, 0.0);
     for (std::size_t p = 0; p < Pixels; ++p)
     {
-      const double level = BlackDn + LightAt(p) + offsetSdDn * normal(random);
+      const double level = BlackDn + SignalAt(p) + offsetSdDn * normal(random);
       for (std::size_t t = 0; t < Frames; ++t)
       {
         stack[t * Pixels + p] = level + std::sqrt(varianceOf(p)) * normal(random);
@@ -109,14 +109,14 @@ struct Burst
     projected = std::make_unique<ProjectedVariance>(*squares, 0.0);
   }
   RejectionModel
-  Judge(const ParallelFor & parallelFor = SerialFor) const
+  FitModel(const ParallelFor & parallelFor = SerialFor) const
   {
     return FitRejectionModel(MakeLine(), *projected, frame.usable, BlackDn, parallelFor);
   }
   std::vector<std::uint8_t>
-  Misfit(const RejectionModel & judging) const
+  Rejected(const RejectionModel & rejection) const
   {
-    return RejectNeighbourhoods(*projected, judging, frame.usable, SerialFor);
+    return RejectNeighbourhoods(*projected, rejection, frame.usable, SerialFor);
   }
 };
 
@@ -129,14 +129,14 @@ Count(const std::vector<std::uint8_t> & marks)
 double
 StraightVariance(std::size_t p)
 {
-  return 100.0 + 0.4 * LightAt(p);
+  return 100.0 + 0.4 * SignalAt(p);
 }
 
 /** Returns the variance of a non-linear response: it is 30 % larger in the middle of the levels than at the ends. */
 double
-BentVariance(std::size_t p)
+NonlinearVariance(std::size_t p)
 {
-  const double u = LightAt(p) / 1020.0;
+  const double u = SignalAt(p) / 1020.0;
   return StraightVariance(p) * (0.85 + 1.2 * u * (1.0 - u));
 }
 
@@ -148,45 +148,45 @@ IsInPatch(std::size_t p)
 }
 } // namespace
 
-TEST(SensorNoiseRejectionModel, StraightSensorIsJudgedByItsLine)
+TEST(SensorNoiseRejectionModel, LinearSensorIsTestedByItsLine)
 {
   const Burst          burst(StraightVariance);
-  const RejectionModel judging = burst.Judge();
-  EXPECT_TRUE(judging.levels.empty() && judging.ratios.empty());
-  EXPECT_FALSE(judging.byNeighbours);
-  EXPECT_EQ(judging.line.noiseDispersionDn4, 0.0);
-  EXPECT_EQ(judging.At(500.0), MakeLine().At(500.0));
-  EXPECT_EQ(Count(burst.Misfit(judging)), 0u);
+  const RejectionModel rejection = burst.FitModel();
+  EXPECT_TRUE(rejection.levels.empty() && rejection.ratios.empty());
+  EXPECT_FALSE(rejection.byNeighbours);
+  EXPECT_EQ(rejection.line.noiseDispersionDn4, 0.0);
+  EXPECT_EQ(rejection.At(500.0), MakeLine().At(500.0));
+  EXPECT_EQ(Count(burst.Rejected(rejection)), 0u);
 }
 
-TEST(SensorNoiseRejectionModel, BentResponseIsFollowedAndBlamesNoPixel)
+TEST(SensorNoiseRejectionModel, NonlinearResponseIsFollowedAndRejectsNoPixel)
 {
-  const Burst          burst(BentVariance);
-  const RejectionModel judging = burst.Judge();
-  ASSERT_GE(judging.levels.size(), 8u);
-  EXPECT_TRUE(std::is_sorted(judging.levels.begin(), judging.levels.end()));
+  const Burst          burst(NonlinearVariance);
+  const RejectionModel rejection = burst.FitModel();
+  ASSERT_GE(rejection.levels.size(), 8u);
+  EXPECT_TRUE(std::is_sorted(rejection.levels.begin(), rejection.levels.end()));
   // The median of six tiles of 256 pixels with 20 degrees of freedom: 5 x 1.25 x sqrt(2 / 20 / 256 / 6) = 5 %.
   for (std::size_t x = 20; x < Width - 20; x += 20)
   {
-    EXPECT_NEAR(judging.At(BlackDn + LightAt(x)) / BentVariance(x), 1.0, 0.05) << x;
+    EXPECT_NEAR(rejection.At(BlackDn + SignalAt(x)) / NonlinearVariance(x), 1.0, 0.05) << x;
   }
-  EXPECT_EQ(Count(burst.Misfit(judging)), 0u);
+  EXPECT_EQ(Count(burst.Rejected(rejection)), 0u);
   // With the straight line pixels at the middle levels are rejected.
-  EXPECT_GT(Count(burst.Misfit({ MakeLine(), {}, {} })), Pixels / 10);
+  EXPECT_GT(Count(burst.Rejected({ MakeLine(), {}, {} })), Pixels / 10);
 }
 
-TEST(SensorNoiseRejectionModel, MovingPatchIsFoundUnderABentResponse)
+TEST(SensorNoiseRejectionModel, MovingPatchIsFoundUnderANonlinearResponse)
 {
-  const Burst burst([](std::size_t p) { return (IsInPatch(p) ? 3.0 : 1.0) * BentVariance(p); });
-  const auto  misfit = burst.Misfit(burst.Judge());
+  const Burst burst([](std::size_t p) { return (IsInPatch(p) ? 3.0 : 1.0) * NonlinearVariance(p); });
+  const auto  rejected = burst.Rejected(burst.FitModel());
   for (std::size_t p = 0; p < Pixels; ++p)
   {
-    EXPECT_FALSE(IsInPatch(p) && misfit[p] == 0) << p % Width << ' ' << p / Width;
+    EXPECT_FALSE(IsInPatch(p) && rejected[p] == 0) << p % Width << ' ' << p / Width;
   }
-  EXPECT_LT(Count(misfit), 50u * 50u); // the moving tile with a margin of one core
+  EXPECT_LT(Count(rejected), 50u * 50u); // the moving tile with a margin of one core
 }
 
-TEST(SensorNoiseRejectionModel, PixelsOfTheirOwnNoiseAreNotBlamed)
+TEST(SensorNoiseRejectionModel, PixelsWithUnequalReadNoiseAreNotRejected)
 {
   // The logarithm of the read noise has the standard deviation 0.4. The mean of its square is 1.38 times the median.
   std::vector<double>        read(Pixels);
@@ -203,40 +203,40 @@ TEST(SensorNoiseRejectionModel, PixelsOfTheirOwnNoiseAreNotBlamed)
   {
     spread += (value - mean) * (value - mean) / Pixels;
   }
-  const auto           varianceOf = [&](std::size_t p) { return read[p] + 0.4 * LightAt(p); };
-  const RejectionModel judging = Burst(varianceOf).Judge();
-  EXPECT_FALSE(judging.levels.empty());
+  const auto           varianceOf = [&](std::size_t p) { return read[p] + 0.4 * SignalAt(p); };
+  const RejectionModel rejection = Burst(varianceOf).FitModel();
+  EXPECT_FALSE(rejection.levels.empty());
   // The median tile has fewer pixels of the heavy tail than the mean of all tiles.
-  EXPECT_GT(judging.line.noiseDispersionDn4, 0.3 * spread);
-  EXPECT_LT(judging.line.noiseDispersionDn4, 1.5 * spread);
-  EXPECT_EQ(Count(Burst(varianceOf).Misfit(judging)), 0u);
+  EXPECT_GT(rejection.line.noiseDispersionDn4, 0.3 * spread);
+  EXPECT_LT(rejection.line.noiseDispersionDn4, 1.5 * spread);
+  EXPECT_EQ(Count(Burst(varianceOf).Rejected(rejection)), 0u);
   const auto  moved = [&](std::size_t p) { return (IsInPatch(p) ? 3.0 : 1.0) * varianceOf(p); };
   const Burst patch(moved);
-  const auto  misfit = patch.Misfit(patch.Judge());
-  EXPECT_EQ(misfit[90 * Width + 160], 1);
-  EXPECT_LT(Count(misfit), 50u * 50u);
+  const auto  rejected = patch.Rejected(patch.FitModel());
+  EXPECT_EQ(rejected[90 * Width + 160], 1);
+  EXPECT_LT(Count(rejected), 50u * 50u);
 }
 
-TEST(SensorNoiseRejectionModel, PixelsOfTheirOwnOffsetAreJudgedByTheirNeighbours)
+TEST(SensorNoiseRejectionModel, PixelsWithUnequalOffsetsAreTestedAtTheMeanOfTheirNeighbours)
 {
   // With these offsets the value of the line changes by 0.4 x 60 DN^2, a fifth of its value at the darkest level.
   const Burst          burst(StraightVariance, 60.0);
-  const RejectionModel judging = burst.Judge();
-  EXPECT_TRUE(judging.byNeighbours);
-  EXPECT_EQ(judging.LevelsOf(burst.frame)[1000], burst.frame.neighbourMean[1000]);
-  EXPECT_EQ(Count(burst.Misfit(judging)), 0u);
+  const RejectionModel rejection = burst.FitModel();
+  EXPECT_TRUE(rejection.byNeighbours);
+  EXPECT_EQ(rejection.LevelsOf(burst.frame)[1000], burst.frame.neighbourMean[1000]);
+  EXPECT_EQ(Count(burst.Rejected(rejection)), 0u);
 }
 
 TEST(SensorNoiseRejectionModel, RatioIsLinearBetweenLevelsAndConstantBeyond)
 {
-  const RejectionModel judging{ MakeLine(), { 200.0, 400.0 }, { 1.0, 1.2 } };
-  EXPECT_EQ(judging.At(100.0), MakeLine().At(100.0));
-  EXPECT_NEAR(judging.At(250.0), 1.05 * MakeLine().At(250.0), 1e-9);
-  EXPECT_NEAR(judging.At(900.0), 1.2 * MakeLine().At(900.0), 1e-9);
+  const RejectionModel rejection{ MakeLine(), { 200.0, 400.0 }, { 1.0, 1.2 } };
+  EXPECT_EQ(rejection.At(100.0), MakeLine().At(100.0));
+  EXPECT_NEAR(rejection.At(250.0), 1.05 * MakeLine().At(250.0), 1e-9);
+  EXPECT_NEAR(rejection.At(900.0), 1.2 * MakeLine().At(900.0), 1e-9);
 }
 
 TEST(SensorNoiseRejectionModel, ThreadsChangeNoBit)
 {
-  const Burst burst(BentVariance);
-  EXPECT_EQ(burst.Judge().ratios, burst.Judge(test::Threads(3)).ratios);
+  const Burst burst(NonlinearVariance);
+  EXPECT_EQ(burst.FitModel().ratios, burst.FitModel(test::Threads(3)).ratios);
 }

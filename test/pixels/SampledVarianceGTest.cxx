@@ -19,7 +19,7 @@ using namespace sensornoise;
 namespace
 {
 constexpr std::size_t Pixels = 60000;
-constexpr double      Freedom = 30.0;
+constexpr double      Dof = 30.0;
 constexpr double      Gain = 0.05;
 constexpr double      Intercept = -2.0;
 
@@ -29,20 +29,20 @@ struct Maps
   std::vector<double>       mean;
   std::vector<double>       neighbourMean;
   std::vector<double>       variance;
-  std::vector<float>        dof = std::vector<float>(Pixels, static_cast<float>(Freedom));
+  std::vector<float>        dof = std::vector<float>(Pixels, static_cast<float>(Dof));
   std::vector<std::uint8_t> mask = std::vector<std::uint8_t>(Pixels, 1);
 
   Maps()
   {
     std::mt19937                     random(44);
     std::uniform_real_distribution<> uniform(100.0, 1100.0);
-    std::chi_squared_distribution<>  chiSquare(Freedom);
+    std::chi_squared_distribution<>  chiSquare(Dof);
     for (std::size_t p = 0; p < Pixels; ++p)
     {
       mask[p] = p % 7 == 3 ? 0 : 1;
       mean.push_back(mask[p] != 0 ? uniform(random) : std::nan(""));
       neighbourMean.push_back(mean.back() + 1.0);
-      variance.push_back((Intercept + Gain * mean.back()) * chiSquare(random) / Freedom);
+      variance.push_back((Intercept + Gain * mean.back()) * chiSquare(random) / Dof);
     }
   }
   VarianceData

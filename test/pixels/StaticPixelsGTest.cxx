@@ -49,12 +49,12 @@ struct Noise
     return series;
   }
   ClassFit
-  Judge() const
+  Test() const
   {
     return TestClasses(projected, line, input.mask, SerialFor);
   }
   std::vector<std::uint8_t>
-  Misfit() const
+  Rejected() const
   {
     return RejectNeighbourhoods(projected, line, input.mask, SerialFor);
   }
@@ -91,7 +91,7 @@ IsInArea(std::size_t p, std::size_t margin = 0)
 TEST(SensorNoiseStaticPixels, NoiseFitsInAllClassesAndPlaces)
 {
   const Noise noise(Everywhere);
-  const auto  fit = noise.Judge();
+  const auto  fit = noise.Test();
   EXPECT_EQ(fit.firstBad, ProjectedVariance::Classes);
   ASSERT_EQ(fit.ratio.size(), ProjectedVariance::Classes);
   EXPECT_NEAR(fit.reducedChi2, 1.0, 1.5); // 23 degrees of freedom: 5 standard deviations of sqrt(2 / 23)
@@ -99,15 +99,15 @@ TEST(SensorNoiseStaticPixels, NoiseFitsInAllClassesAndPlaces)
   {
     EXPECT_NEAR(fit.ratio[c], 1.0, 0.08) << c; // 5 sqrt(2 / 26 / 280 pixels)
   }
-  const auto misfit = noise.Misfit();
-  EXPECT_EQ(std::count(misfit.begin(), misfit.end(), std::uint8_t{ 1 }), 0);
+  const auto rejected = noise.Rejected();
+  EXPECT_EQ(std::count(rejected.begin(), rejected.end(), std::uint8_t{ 1 }), 0);
 }
 
 TEST(SensorNoiseStaticPixels, RoughPixelsOfTooLargeAVarianceAreLeftOut)
 {
   const Noise plain(Everywhere);
   const Noise noise([&](std::size_t p) { return plain.projected.ClassOf(p) >= 16 ? 1.8 : 1.0; });
-  const auto  fit = noise.Judge();
+  const auto  fit = noise.Test();
   // The class of a pixel hardly depends on its noise: some pixels near the bounds of class 16 change their class.
   EXPECT_GE(fit.firstBad, 15u);
   EXPECT_LE(fit.firstBad, 17u);
@@ -116,31 +116,31 @@ TEST(SensorNoiseStaticPixels, RoughPixelsOfTooLargeAVarianceAreLeftOut)
 
 TEST(SensorNoiseStaticPixels, AreaOfTooLargeAVarianceIsFound)
 {
-  const auto misfit = Noise([](std::size_t p) { return IsInArea(p) ? 2.5 : 1.0; }).Misfit();
+  const auto rejected = Noise([](std::size_t p) { return IsInArea(p) ? 2.5 : 1.0; }).Rejected();
   for (std::size_t p = 0; p < Pixels; ++p)
   {
     if (IsInArea(p))
     {
-      EXPECT_EQ(misfit[p], 1) << p % Width << ' ' << p / Width;
+      EXPECT_EQ(rejected[p], 1) << p % Width << ' ' << p / Width;
     }
     const bool isFar = p % Width < 10 || p % Width >= 64 || p / Width < 5 || p / Width >= 59;
-    EXPECT_FALSE(isFar && misfit[p] != 0) << p % Width << ' ' << p / Width;
+    EXPECT_FALSE(isFar && rejected[p] != 0) << p % Width << ' ' << p / Width;
   }
 }
 
 TEST(SensorNoiseStaticPixels, AreaOfMovingThingsIsFound)
 {
-  const auto misfit = Noise([](std::size_t p) { return IsInArea(p) ? 100.0 : 1.0; }).Misfit();
+  const auto rejected = Noise([](std::size_t p) { return IsInArea(p) ? 100.0 : 1.0; }).Rejected();
   for (std::size_t p = 0; p < Pixels; ++p)
   {
-    EXPECT_FALSE(IsInArea(p) && misfit[p] == 0) << p % Width << ' ' << p / Width;
+    EXPECT_FALSE(IsInArea(p) && rejected[p] == 0) << p % Width << ' ' << p / Width;
   }
 }
 
 TEST(SensorNoiseStaticPixels, SingleNoisyPixelsAreNotTheirSurroundings)
 {
-  const auto misfit = Noise([](std::size_t p) { return p % 97 == 0 ? 100.0 : 1.0; }).Misfit();
-  EXPECT_EQ(std::count(misfit.begin(), misfit.end(), std::uint8_t{ 1 }), 0);
+  const auto rejected = Noise([](std::size_t p) { return p % 97 == 0 ? 100.0 : 1.0; }).Rejected();
+  EXPECT_EQ(std::count(rejected.begin(), rejected.end(), std::uint8_t{ 1 }), 0);
 }
 
 TEST(SensorNoiseStaticPixels, FarOffIsFiveStandardDeviations)
@@ -158,27 +158,27 @@ TEST(SensorNoiseStaticPixels, FarOffIsFiveStandardDeviations)
   }
 }
 
-TEST(SensorNoiseStaticPixels, RunsAreJudgedAsSinglePixelsAre)
+TEST(SensorNoiseStaticPixels, RunsAreTestedAsSinglePixelsAre)
 {
   Noise noise([](std::size_t p) { return p % 97 == 0 ? 3.0 : p % 89 == 0 ? 0.1 : 1.0; });
   noise.line.line.gain = 0.1;
   noise.line.line.noiseDispersionDn4 = 900.0;
   const ReferenceFrame & frame = noise.projected.GetFrame();
   const auto [darkest, brightest] = std::minmax_element(frame.mean.begin(), frame.mean.end());
-  for (const bool departs : { false, true })
+  for (const bool deviates : { false, true })
   {
-    if (departs)
+    if (deviates)
     {
       const double range = *brightest - *darkest;
       noise.line.levels = { *darkest + 0.2 * range, *darkest + 0.3 * range, *darkest + 0.7 * range };
       noise.line.ratios = { 0.9, 1.2, 1.05 };
     }
-    noise.line.byNeighbours = departs;
+    noise.line.byNeighbours = deviates;
     TestedRun   run;
     std::size_t far = 0;
     ForRuns(Width, 20 * Width, [&](std::size_t first, std::size_t pixels) {
       ASSERT_LE(pixels, PixelsPerRun);
-      run.Judge(noise.projected, noise.line, first, pixels);
+      run.Test(noise.projected, noise.line, first, pixels);
       for (std::size_t i = 0; i < pixels; ++i)
       {
         const std::size_t p = first + i;

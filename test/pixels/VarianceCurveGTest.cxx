@@ -75,7 +75,7 @@ CurveOfPixels(double gain, double wave)
 }
 } // namespace
 
-TEST(SensorNoiseVarianceCurve, StraightLineDepartsFromItselfNowhere)
+TEST(SensorNoiseVarianceCurve, LineHasNoDeviationFromItself)
 {
   const VarianceCurve curve = EvenCurve([](double) { return 0.0; });
   EXPECT_EQ(curve.ReducedChi2(), 0.0);
@@ -160,7 +160,7 @@ TEST(SensorNoiseVarianceCurve, HalvesOfTheInformationArePartedWhereItIs)
   EXPECT_EQ(curve.FitHalves().size(), 3u);
 }
 
-TEST(SensorNoiseVarianceCurve, DarkestShareIsThatOfTheLight)
+TEST(SensorNoiseVarianceCurve, DarkestFractionIsARatioOfSignals)
 {
   const VarianceCurve curve = EvenCurve([](double) { return 0.0; }); // from 437 to 563 DN
   EXPECT_NEAR(curve.DarkestFraction(413.0), 24.0 / 150.0, 1e-12);

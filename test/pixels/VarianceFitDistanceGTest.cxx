@@ -25,7 +25,7 @@ using namespace sensornoise;
 namespace
 {
 constexpr std::size_t Pixels = 40000;
-constexpr float       Freedom = 30.0F;
+constexpr float       Dof = 30.0F;
 constexpr double      Gain = 0.05; // many electrons per DN, so that the noise is nearly normal
 constexpr double      BlackDn = 100.0;
 
@@ -35,19 +35,19 @@ struct Maps
   std::vector<double>       mean;
   std::vector<double>       variance;
   std::vector<double>       readVariance;
-  std::vector<float>        dof = std::vector<float>(Pixels, Freedom);
+  std::vector<float>        dof = std::vector<float>(Pixels, Dof);
   std::vector<std::uint8_t> mask = std::vector<std::uint8_t>(Pixels, 1);
 
   explicit Maps(const std::function<double(std::mt19937 &)> & readVarianceOf)
   {
     std::mt19937                     random(43);
     std::uniform_real_distribution<> uniform(110.0, 600.0);
-    std::chi_squared_distribution<>  chiSquare(Freedom);
+    std::chi_squared_distribution<>  chiSquare(Dof);
     for (std::size_t p = 0; p < Pixels; ++p)
     {
       mean.push_back(uniform(random));
       readVariance.push_back(readVarianceOf(random));
-      variance.push_back((readVariance[p] + Gain * (mean[p] - BlackDn)) * chiSquare(random) / Freedom);
+      variance.push_back((readVariance[p] + Gain * (mean[p] - BlackDn)) * chiSquare(random) / Dof);
     }
   }
   VarianceData
@@ -131,14 +131,14 @@ TEST(SensorNoiseVarianceFitDistance, ErrorsAreThoseOfTheWeights)
   for (const double mean : maps.mean)
   {
     const Eigen::Vector2d row(mean, 1.0);
-    information += row * row.transpose() / (2.0 * std::pow(line.At(mean), 2) / Freedom + line.noiseDispersionDn4);
+    information += row * row.transpose() / (2.0 * std::pow(line.At(mean), 2) / Dof + line.noiseDispersionDn4);
   }
   const Eigen::Matrix2d fisher = information.inverse();
   EXPECT_NEAR(line.covariance(0, 0) / fisher(0, 0), 1.0, 0.2); // heavy tails: twice the scatter of normal noise
   EXPECT_NEAR(line.covariance(1, 1) / fisher(1, 1), 1.0, 0.2);
 }
 
-TEST(SensorNoiseVarianceFitDistance, NoisyPixelsRaiseTheLineByTheirShare)
+TEST(SensorNoiseVarianceFitDistance, NoisyPixelsRaiseTheLineByTheirFraction)
 {
   // 4 % of the pixels have 60 % more variance. They are not identifiable one by one, and are part of the mean.
   Maps         maps([](std::mt19937 &) { return 1.0; });

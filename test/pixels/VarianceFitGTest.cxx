@@ -20,7 +20,7 @@ using namespace sensornoise;
 namespace
 {
 constexpr std::size_t Pixels = 20000; // more than two blocks
-constexpr float       Freedom = 30.0F;
+constexpr float       Dof = 30.0F;
 constexpr double      Gain = 0.05; // many electrons per DN, so that the noise is nearly normal
 constexpr double      Intercept = -2.0;
 
@@ -30,20 +30,20 @@ struct Maps
   std::vector<double>       mean;
   std::vector<double>       neighbourMean;
   std::vector<double>       variance;
-  std::vector<float>        dof = std::vector<float>(Pixels, Freedom);
+  std::vector<float>        dof = std::vector<float>(Pixels, Dof);
   std::vector<std::uint8_t> mask = std::vector<std::uint8_t>(Pixels, 1);
 
   explicit Maps(bool isNoisy)
   {
     std::mt19937                     random(41);
     std::uniform_real_distribution<> uniform(100.0, 1100.0);
-    std::chi_squared_distribution<>  chiSquare(Freedom);
+    std::chi_squared_distribution<>  chiSquare(Dof);
     std::normal_distribution<>       normal;
     for (std::size_t p = 0; p < Pixels; ++p)
     {
       mean.push_back(uniform(random));
       neighbourMean.push_back(mean.back() + (isNoisy ? 5.0 * normal(random) : 0.0));
-      variance.push_back((Intercept + Gain * mean.back()) * (isNoisy ? chiSquare(random) / Freedom : 1.0));
+      variance.push_back((Intercept + Gain * mean.back()) * (isNoisy ? chiSquare(random) / Dof : 1.0));
     }
   }
   VarianceData
@@ -65,7 +65,7 @@ struct Maps
 TEST(SensorNoiseVarianceFit, ExactLineIsRecovered)
 {
   // Every variance is on the line, but is treated as the mean of a trimmed distribution.
-  const double trimmed = ChiSquareTrim(Freedom, Freedom).Of(Freedom).mean;
+  const double trimmed = ChiSquareTrim(Dof, Dof).Of(Dof).mean;
   const auto   line = Maps(false).Fit();
   ASSERT_TRUE(line.isDetermined);
   EXPECT_NEAR(line.gain * trimmed, Gain, 1e-9);
@@ -91,7 +91,7 @@ TEST(SensorNoiseVarianceFit, NoisyLineIsRecoveredWithinItsErrors)
   for (const double mean : maps.mean)
   {
     const Eigen::Vector2d row(mean, 1.0);
-    information += 0.5 * Freedom / std::pow(Intercept + Gain * mean, 2) * row * row.transpose();
+    information += 0.5 * Dof / std::pow(Intercept + Gain * mean, 2) * row * row.transpose();
   }
   const Eigen::Matrix2d fisher = information.inverse();
   EXPECT_NEAR(line.covariance(0, 0) / fisher(0, 0), 1.0, 0.1); // sd of a sum of 20,000 squares and wrong weights: 3 %
@@ -129,7 +129,7 @@ TEST(SensorNoiseVarianceFit, ParabolaIsFoundBesideTheLine)
   {
     maps.variance[p] = parabola(maps.mean[p]);
   }
-  const double trimmed = ChiSquareTrim(Freedom, Freedom).Of(Freedom).mean;
+  const double trimmed = ChiSquareTrim(Dof, Dof).Of(Dof).mean;
   const auto   line = maps.Fit();
   EXPECT_NEAR(line.curvature * trimmed, curvature, 1e-6 * curvature);
   for (const double x : { 100.0, 600.0, 1100.0 })
@@ -165,7 +165,7 @@ TEST(SensorNoiseVarianceFit, OutliersAndPixelsOutsideTheMaskHaveNoPart)
   EXPECT_EQ(masked.Fit().covariance, part.covariance);
 }
 
-TEST(SensorNoiseVarianceFit, TrimmedPixelsAreTold)
+TEST(SensorNoiseVarianceFit, TrimmedPixelsAreReported)
 {
   Maps maps(true);
   for (std::size_t p = 0; p < Pixels; p += 100)
@@ -203,7 +203,7 @@ TEST(SensorNoiseVarianceFit, StartsBetweenPatchesOfFewLevels)
     maps.mean[p] = 200.0 + gain * electrons;
     maps.neighbourMean[p] = maps.mean[p] + uniform(random);
     const double                    variance = 9.0 + gain * gain * electrons;
-    const double                    dof = Freedom / (1.0 + 0.5 * gain * gain / variance);
+    const double                    dof = Dof / (1.0 + 0.5 * gain * gain / variance);
     std::gamma_distribution<double> gamma(0.5 * dof, 2.0 / dof);
     maps.variance[p] = variance * gamma(random);
   }

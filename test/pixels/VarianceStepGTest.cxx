@@ -82,12 +82,12 @@ TEST(SensorNoiseVarianceStep, FindsNoneInALine)
   }
 }
 
-TEST(SensorNoiseVarianceStep, FindsNoneInResponsesThatBend)
+TEST(SensorNoiseVarianceStep, FindsNoneInNonlinearResponses)
 {
-  const auto bent = [](double bend) {
-    return [bend](double level) {
+  const auto nonlinear = [](double size) {
+    return [size](double level) {
       const double x = (level - OffsetDn) / 2600.0;
-      return LineAt(level) * (1.0 + bend * x * (1.0 - x));
+      return LineAt(level) * (1.0 + size * x * (1.0 - x));
     };
   };
   const auto power = [](double exponent) {
@@ -97,9 +97,9 @@ TEST(SensorNoiseVarianceStep, FindsNoneInResponsesThatBend)
   const auto shoulder = [](double level) { return LineAt(level) / (1.0 + std::exp((level - 2600.0) / 60.0)); };
   for (unsigned int seed = 1; seed <= 20; ++seed)
   {
-    for (const double bend : { -0.4, -0.1, 0.1, 0.4 })
+    for (const double size : { -0.4, -0.1, 0.1, 0.4 })
     {
-      EXPECT_FALSE(FindVarianceStep(CurveOf(bent(bend), seed))) << bend << ' ' << seed;
+      EXPECT_FALSE(FindVarianceStep(CurveOf(nonlinear(size), seed))) << size << ' ' << seed;
     }
     for (const double exponent : { 0.7, 1.3, 1.8 })
     {

@@ -227,7 +227,7 @@ TEST(SensorNoiseFlickerEstimate, StrongFlickerWithLittleOrNoNoiseIsIdentified)
   EXPECT_GT(Stack(gamma, gamma, 100.0, 0.5).Estimate().flickerZ, Significance.everyPixel);
 }
 
-TEST(SensorNoiseFlickerEstimate, DifferentLampsForBrightAndDarkMissTheLine)
+TEST(SensorNoiseFlickerEstimate, UnequalFlickerOfBrightAndDarkMissesTheLine)
 {
   const FlickerEstimate estimate =
     Stack(NormalFlicker(100, 0.05, 9), NormalFlicker(100, 0.05, 10), 100.0, 20.0).Estimate();

@@ -76,7 +76,7 @@ TEST(SensorNoiseNoiseParameters, CameraIsRecoveredFromItsLineAndOffset)
   EXPECT_TRUE(report.IsUsable());
 }
 
-TEST(SensorNoiseNoiseParameters, WithoutOffsetTheBracketsStand)
+TEST(SensorNoiseNoiseParameters, WithoutOffsetTheBoundsRemain)
 {
   const Report report = ReportOf(LineOfCamera(0.5, 40.0, 3.0), std::nullopt, 60.0);
   EXPECT_EQ(report.gain.status, EstimateStatus::Identified);
@@ -92,7 +92,7 @@ TEST(SensorNoiseNoiseParameters, WithoutOffsetTheBracketsStand)
   ExpectInterval(report.readNoiseElectrons.bracket, 0.0, std::sqrt(19.0) / 0.5);
 }
 
-TEST(SensorNoiseNoiseParameters, WithoutDarkestMeanThereIsNoBracket)
+TEST(SensorNoiseNoiseParameters, WithoutDarkestMeanThereAreNoBounds)
 {
   const Report report = ReportOf(LineOfCamera(0.5, 40.0, 3.0), std::nullopt, std::nullopt);
   EXPECT_FALSE(report.offset.bracket || report.readNoise.bracket);

@@ -103,12 +103,12 @@ TEST(SensorNoisePublishedMethod, StacksWithoutInformationFailWithAReason)
   const auto clipped = Measure(ConstantStack<unsigned char>(255));
   ExpectNothingMeasured(clipped.GetReport(), WarningCode::NothingToMeasure);
   EXPECT_EQ(clipped.GetReport().pixels.clipped, 320u);
-  auto still = ConstantStack<Codes>(700);
-  for (std::size_t t = 0; t < still.frames; ++t)
+  auto changing = ConstantStack<Codes>(700);
+  for (std::size_t t = 0; t < changing.frames; ++t)
   {
-    still.pixels[t * 20 * 16] = static_cast<Codes>(700 + t); // otherwise all frames are equal
+    changing.pixels[t * 20 * 16] = static_cast<Codes>(700 + t); // otherwise all frames are equal
   }
-  const auto constant = Measure(still);
+  const auto constant = Measure(changing);
   ExpectNothingMeasured(constant.GetReport(), WarningCode::NothingToMeasure);
   EXPECT_EQ(constant.GetPixelUse()[30], static_cast<std::uint8_t>(PixelUse::Constant));
   EXPECT_EQ(constant.GetPixelUse()[5], static_cast<std::uint8_t>(PixelUse::Border));

@@ -105,22 +105,22 @@ TEST(SensorNoiseCompandedCodes, TooCoarseInTheDarkIsRefused)
   EXPECT_TRUE(HasWarning(report, WarningCode::CodesTooCoarse)) << ToJson(report);
 }
 
-TEST(SensorNoiseCompandedCodes, TooCoarseInTheLightIsLeftOut)
+TEST(SensorNoiseCompandedCodes, TooCoarseWhereBrightIsLeftOut)
 {
   const auto   stack = SimulateCompanded(7, 0.05, 15.0);
   const auto   method = Measure(stack, {});
   const Report report = method.GetReport();
   EXPECT_FALSE(HasWarning(report, WarningCode::CodesTooCoarse)) << ToJson(report);
   std::size_t coarse = 0;
-  std::size_t usedInLight = 0;
+  std::size_t usedWhereBright = 0;
   for (std::size_t p = 0; p < Size * Size; ++p)
   {
     const auto use = static_cast<PixelUse>(method.GetPixelUse()[p]);
     coarse += use == PixelUse::CoarseCodes ? 1 : 0;
     // The step is 49 DN, and the noise 18.6 DN. The mean of the neighbours decides, so that pixels at edges are used.
-    usedInLight += method.GetMean()[p] > 2400.0 && use == PixelUse::Used ? 1 : 0;
+    usedWhereBright += method.GetMean()[p] > 2400.0 && use == PixelUse::Used ? 1 : 0;
   }
-  EXPECT_LT(usedInLight, coarse / 20);
+  EXPECT_LT(usedWhereBright, coarse / 20);
   EXPECT_GT(coarse, 100u);
   ASSERT_TRUE(report.gain.value) << ToJson(report);
   EXPECT_NEAR(*report.gain.value, 0.05, 3.0 * *report.gain.standardError);

@@ -95,11 +95,12 @@ TEST(SensorNoiseCorrelationReport, EachKindIsSaidInItsWords)
   EXPECT_EQ(temporal.rfind("noise-correlated: the camera mixes its frames", 0), 0U) << temporal;
   EXPECT_TRUE(Has(temporal, "frames 1 apart share 20.0 +- 1.0 % of their noise")) << temporal;
 
-  const std::string bent = WarningOf(CorrelationOf(NoiseKind::NotLinear));
-  EXPECT_EQ(bent.rfind("noise-not-linear: ", 0), 0U) << bent;
-  EXPECT_TRUE(Has(bent, "excess kurtosis -0.125 +- 0.010, of differences in 2 x 2 pixels 0.500 +- 0.010, expected 0"))
-    << bent;
-  EXPECT_TRUE(Has(bent, "Set the camera to raw frames")) << bent;
+  const std::string notLinear = WarningOf(CorrelationOf(NoiseKind::NotLinear));
+  EXPECT_EQ(notLinear.rfind("noise-not-linear: ", 0), 0U) << notLinear;
+  EXPECT_TRUE(
+    Has(notLinear, "excess kurtosis -0.125 +- 0.010, of differences in 2 x 2 pixels 0.500 +- 0.010, expected 0"))
+    << notLinear;
+  EXPECT_TRUE(Has(notLinear, "Set the camera to raw frames")) << notLinear;
 }
 
 // The message contains the number that decided.

@@ -28,7 +28,7 @@ constexpr std::size_t Frames = 20;
 SimulationSettings
 FlatCamera()
 {
-  SimulationSettings settings = StillCamera(Frames);
+  SimulationSettings settings = StaticCamera(Frames);
   settings.conditions.flickerSd = 0.0;
   return settings;
 }
@@ -74,9 +74,9 @@ TEST(SensorNoiseDarkPoint, FlatAndDarkFramesArePhotonTransfer)
   const SimulationSettings settings = FlatCamera();
   const Stack<Codes>       flat = Simulate<Codes>(settings, Size, Size, FlatScene(Size));
   const Stack<Codes>       dark = DarkFramesOf(settings, Size);
-  const FlatMoments        light(flat);
+  const FlatMoments        bright(flat);
   const FlatMoments        black(dark);
-  const double             gain = (light.variance - black.variance) / (light.mean - black.mean);
+  const double             gain = (bright.variance - black.variance) / (bright.mean - black.mean);
   const Report             report = Measure(flat, WithDarkFrames(dark)).GetReport();
   // The method removes the common component of the frames from the variance, 1 or 2 of 19 degrees of freedom. This is a
   // third of the error of 700,000 samples, 0.17 %.
@@ -114,7 +114,7 @@ TEST(SensorNoiseDarkPoint, PixelsThatDifferDoNotBiasAFlat)
 TEST(SensorNoiseDarkPoint, DarkFramesOfAnotherCameraAreNoticed)
 {
   // The levels extend to the dark, so that no non-linearity can lie between them and the dark frames.
-  const Stack<Codes> stack = Simulate<Codes>(StillCamera(40), 128, 128);
+  const Stack<Codes> stack = Simulate<Codes>(StaticCamera(40), 128, 128);
   const auto         reportOf = [&](double varianceDn2) {
     RefinedSettings settings;
     settings.offset = KnownOffset{ 100.0, 0.02, 20, DarkVariance{ varianceDn2, 0.3 } };
@@ -137,7 +137,7 @@ TEST(SensorNoiseDarkPoint, DarkFramesThatHoldSignalAreNoticed)
 {
   // The shutter is not closed: the dark frames show the scene with a fraction of its signal. The pixels have DSNU and
   // PRNU.
-  SimulationSettings settings = StillCamera(40);
+  SimulationSettings settings = StaticCamera(40);
   settings.dsnuSdDn = 10.0;
   settings.prnuSd = 0.01;
   const Stack<Codes> stack = Simulate<Codes>(settings, Size, Size);
@@ -200,7 +200,7 @@ TEST(SensorNoiseDarkPoint, NarrowRangeIsTiedToTheDarkFrames)
 TEST(SensorNoiseDarkPoint, RefusedStackStillHasWhatTheDarkFramesTell)
 {
   // A gamma of 2.2 and a constant stack are no responses of a sensor.
-  SimulationSettings settings = StillCamera(Frames);
+  SimulationSettings settings = StaticCamera(Frames);
   const Stack<Codes> dark = DarkFramesOf(settings, Size);
   settings.flaws.response = { ResponseShape::Gamma, 2.2 };
   for (const Stack<Codes> & stack :

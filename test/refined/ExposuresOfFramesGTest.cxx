@@ -35,7 +35,7 @@ ExposuresOfBurst()
 }
 
 Stack<Codes>
-Burst(double bend)
+Burst(double nonlinearity)
 {
   SimulationSettings settings;
   settings.camera = { 7000.0, 0.5, 100.0, 3.0 };
@@ -43,7 +43,7 @@ Burst(double bend)
   settings.illumination.shape = IlluminationShape::Factors;
   settings.illumination.factors = ExposuresOfBurst();
   settings.frames = settings.illumination.factors.size();
-  settings.flaws.response = { ResponseShape::Quadratic, bend };
+  settings.flaws.response = { ResponseShape::Quadratic, nonlinearity };
   settings.seed = 4;
   return Simulate<Codes>(settings, 96, 96);
 }
@@ -51,20 +51,22 @@ Burst(double bend)
 /** Returns the signal u at exposure 1 [1] for its mean level [DN], the root of u + b (u - u^2) = (level - 100) / 3500.
  */
 double
-BrightestOf(double bend, double levelDn)
+BrightestOf(double nonlinearity, double levelDn)
 {
-  const double b = 1.0 + bend;
-  return (b - std::sqrt(b * b - 4.0 * bend * (levelDn - 100.0) / 3500.0)) / (2.0 * bend);
+  const double b = 1.0 + nonlinearity;
+  return (b - std::sqrt(b * b - 4.0 * nonlinearity * (levelDn - 100.0) / 3500.0)) / (2.0 * nonlinearity);
 }
 
 /** Returns the linearity error of EMVA 1288 for the response without noise, from the normal equations of its line [%].
  */
 double
-TrueErrorPercent(double bend, double brightest)
+TrueErrorPercent(double nonlinearity, double brightest)
 {
   const std::vector<double> exposures{ 0.15, 0.3, 0.45, 0.6, 0.8, 1.0 };
-  const auto signal = [&](double e) { return e * brightest + bend * (e * brightest - e * e * brightest * brightest); };
-  double     sums[5] = {};
+  const auto                signal = [&](double e) {
+    return e * brightest + nonlinearity * (e * brightest - e * e * brightest * brightest);
+  };
+  double sums[5] = {};
   for (const double e : exposures)
   {
     const double weight = 1.0 / (signal(e) * signal(e));
@@ -94,7 +96,7 @@ MeasureWith(const Stack<Codes> & stack, const std::vector<double> & exposures)
 }
 } // namespace
 
-TEST(SensorNoiseExposuresOfFrames, ABentResponseHasItsLinearityError)
+TEST(SensorNoiseExposuresOfFrames, ANonlinearResponseHasItsLinearityError)
 {
   const Report report = MeasureWith(Burst(0.04), ExposuresOfBurst());
   ASSERT_EQ(report.linearity.errorPercent.status, EstimateStatus::Identified) << report.linearity.reason;

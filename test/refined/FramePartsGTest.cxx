@@ -43,17 +43,17 @@ TilesOf(TFunction gainOf)
   const Eigen::MatrixXd basis = Eigen::MatrixXd::Constant(Frames, 1, 1.0 / std::sqrt(static_cast<double>(Frames)));
   const TileLevels      levels(std::vector<double>(Frames, 0.0), OffsetDn, OffsetDn);
   Eigen::MatrixXd       squares = Eigen::MatrixXd::Zero(Tiles, Frames);
-  Eigen::VectorXd       light(Tiles);
+  Eigen::VectorXd       signal(Tiles);
   const Eigen::VectorXd pixels = Eigen::VectorXd::Constant(Tiles, PixelsOfTile);
-  const FrameEnergies   model(squares, light, pixels, basis);
+  const FrameEnergies   model(squares, signal, pixels, basis);
   CounterSeededRandom   random(5, 0, 0);
   for (Eigen::Index i = 0; i < Tiles; ++i)
   {
-    light(i) = 1000.0 * (1.0 - LargestFraction * static_cast<double>(i) / static_cast<double>(Tiles));
+    signal(i) = 1000.0 * (1.0 - LargestFraction * static_cast<double>(i) / static_cast<double>(Tiles));
     Eigen::VectorXd variances(Frames);
     for (Eigen::Index t = 0; t < Frames; ++t)
     {
-      variances(t) = ReadDn2 + gainOf(t) * Gain * light(i);
+      variances(t) = ReadDn2 + gainOf(t) * Gain * signal(i);
     }
     squares.row(i) = model.ExpectedSquares(variances).transpose();
     for (Eigen::Index t = 0; t < Frames; ++t)
@@ -61,7 +61,7 @@ TilesOf(TFunction gainOf)
       squares(i, t) *= 1.0 + std::sqrt(2.0 / PixelsOfTile) * random.Normal();
     }
   }
-  return MakeFrameParts({ squares, light, pixels, basis }, levels, { Line(), OffsetDn, 1.0 });
+  return MakeFrameParts({ squares, signal, pixels, basis }, levels, { Line(), OffsetDn, 1.0 });
 }
 } // namespace
 

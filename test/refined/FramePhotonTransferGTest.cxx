@@ -57,20 +57,20 @@ FrameEnergies
 Energies(const std::vector<double> & gamma, TFunction factorOf)
 {
   const TileLevels    levels(gamma, OffsetDn, ZeroDn);
-  Eigen::VectorXd     light(Tiles);
+  Eigen::VectorXd     signal(Tiles);
   Eigen::MatrixXd     squares = Eigen::MatrixXd::Zero(Tiles, Frames);
   const FrameEnergies model(squares, Eigen::VectorXd::Zero(Tiles), Eigen::VectorXd::Ones(Tiles), BasisOf(gamma));
   for (Eigen::Index i = 0; i < Tiles; ++i)
   {
-    light(i) = 1000.0 + static_cast<double>(i);
-    Eigen::VectorXd variances = InterceptDn2 + Gain * levels.Of(light(i)).array();
+    signal(i) = 1000.0 + static_cast<double>(i);
+    Eigen::VectorXd variances = InterceptDn2 + Gain * levels.Of(signal(i)).array();
     squares.row(i) = model.ExpectedSquares(variances).transpose();
     for (Eigen::Index t = 0; t < Frames; ++t)
     {
       squares(i, t) *= factorOf(i, t);
     }
   }
-  return { squares, light, Eigen::VectorXd::Constant(Tiles, PixelsOfTile), BasisOf(gamma) };
+  return { squares, signal, Eigen::VectorXd::Constant(Tiles, PixelsOfTile), BasisOf(gamma) };
 }
 
 VarianceLine
@@ -122,7 +122,7 @@ TEST(SensorNoiseFramePhotonTransfer, IsNotMovedByWhatTilesDifferBy)
   {
     squares.row(i) += 20.0 * static_cast<double>(i) * plain.RemainingFraction().transpose();
   }
-  const FrameEnergies uneven(squares, plain.LightDn(), plain.Pixels(), BasisOf(Gamma()));
+  const FrameEnergies uneven(squares, plain.SignalDn(), plain.Pixels(), BasisOf(Gamma()));
   const VarianceLine  line = FitFramePhotonTransfer(uneven, { Gamma(), OffsetDn, ZeroDn }, LineOf(1.0, 0.0)).line;
   EXPECT_NEAR(line.gain, Gain, 1e-9);
 }
@@ -202,7 +202,7 @@ TEST(SensorNoiseFramePhotonTransfer, HasTheDeviationsOfTheFramesInTheOrderOfThei
 TEST(SensorNoiseFrameNoise, IsOneForAllFramesAndNamesTheOthers)
 {
   const TileLevels levels(Gamma(), OffsetDn, ZeroDn);
-  const auto       judge = [&](const FrameEnergies & energies) {
+  const auto       compare = [&](const FrameEnergies & energies) {
     return GroupFramesByNoise(
       NoiseOfFrames(energies, levels, LineOf(Gain, InterceptDn2), 0.0), 0.01, InRefined.leastUnlikeNoise);
   };
@@ -212,15 +212,15 @@ TEST(SensorNoiseFrameNoise, IsOneForAllFramesAndNamesTheOthers)
     EXPECT_NEAR(plain(t), 1.0, 1e-9) << t;
   }
   const auto isOther = [](Eigen::Index t) { return t == 3 || t == 11; };
-  const auto found = judge(Energies(Gamma(), [&](Eigen::Index, Eigen::Index t) { return isOther(t) ? 1.5 : 1.0; }));
+  const auto found = compare(Energies(Gamma(), [&](Eigen::Index, Eigen::Index t) { return isOther(t) ? 1.5 : 1.0; }));
   EXPECT_EQ(found.unlike, (std::vector<std::size_t>{ 3, 11 }));
   EXPECT_EQ(found.scatter, 0.0);
   // Changes in a few tiles belong to the scene.
   const auto local =
-    judge(Energies(Gamma(), [&](Eigen::Index i, Eigen::Index t) { return isOther(t) && i < 8 ? 5.0 : 1.0; }));
+    compare(Energies(Gamma(), [&](Eigen::Index i, Eigen::Index t) { return isOther(t) && i < 8 ? 5.0 : 1.0; }));
   EXPECT_TRUE(local.unlike.empty());
   // A difference below the limit.
-  const auto small = judge(Energies(Gamma(), [&](Eigen::Index, Eigen::Index t) { return isOther(t) ? 1.09 : 1.0; }));
+  const auto small = compare(Energies(Gamma(), [&](Eigen::Index, Eigen::Index t) { return isOther(t) ? 1.09 : 1.0; }));
   EXPECT_TRUE(small.unlike.empty());
 }
 
@@ -261,16 +261,16 @@ TEST(SensorNoiseFrameNoise, ThatIsKnownIsTakenOffTheOthers)
   Eigen::VectorXd    known = Eigen::VectorXd::Ones(Frames);
   known(1) = 40.0;
   Eigen::MatrixXd       squares(Tiles, Frames);
-  Eigen::VectorXd       light(Tiles);
+  Eigen::VectorXd       signal(Tiles);
   const Eigen::VectorXd ofTile = Eigen::VectorXd::Constant(Tiles, PixelsOfTile);
-  const FrameEnergies   model(squares, light, ofTile, BasisOf(Gamma()));
+  const FrameEnergies   model(squares, signal, ofTile, BasisOf(Gamma()));
   for (Eigen::Index i = 0; i < Tiles; ++i)
   {
-    light(i) = 1000.0 + static_cast<double>(i);
-    const Eigen::VectorXd variances = InterceptDn2 + Gain * levels.Of(light(i)).array();
+    signal(i) = 1000.0 + static_cast<double>(i);
+    const Eigen::VectorXd variances = InterceptDn2 + Gain * levels.Of(signal(i)).array();
     squares.row(i) = model.ExpectedSquares(variances.cwiseProduct(known)).transpose();
   }
-  const FrameEnergies   energies(squares, light, ofTile, BasisOf(Gamma()));
+  const FrameEnergies   energies(squares, signal, ofTile, BasisOf(Gamma()));
   const Eigen::VectorXd first = NoiseOfFrames(energies, levels, line, 0.0);
   EXPECT_GT((first - known).tail(Frames - 2).cwiseAbs().maxCoeff(), 0.1);
   const Eigen::VectorXd second = NoiseOfFrames(energies, levels, line, 0.0, known);
@@ -297,7 +297,7 @@ TEST(SensorNoiseFrameNoise, IsWithinTheErrorOfTheSlope)
   EXPECT_LT((unsure.array() - 1.0).abs().maxCoeff(), 1e-9);
 }
 
-TEST(SensorNoiseFrameNoise, OfALineThatTellsNoSlopeIsJudgedBySlopesOfSensors)
+TEST(SensorNoiseFrameNoise, OfALineWithoutSlopeIsTestedBySlopesOfSensors)
 {
   // Frames of different levels are then not compared; frames of one level are, with any slope.
   VarianceLine line = LineOf(0.5 * Gain, 0.0);

@@ -56,9 +56,9 @@ struct Found
     variance.line = LineOf(1.0, gainError);
     this->SetCurve([](double) { return 0.0; });
   }
-  /** Sets a curve at levels from 110 to 3,090 DN, with relative deviations \a departureOf from the line. */
+  /** Sets a curve at levels from 110 to 3,090 DN, with relative deviations \a deviationOf from the line. */
   void
-  SetCurve(const std::function<double(double levelDn)> & departureOf)
+  SetCurve(const std::function<double(double levelDn)> & deviationOf)
   {
     const VarianceLine & line = variance.line;
     variance.curve = { line, {} };
@@ -67,7 +67,7 @@ struct Found
       const double level = 110.0 + 2980.0 * static_cast<double>(b) / (VarianceCurve::Bins - 1.0);
       const double weight = 10.0;
       variance.curve.bins.push_back(
-        { 100.0, weight, weight * (level - PivotDn), weight * departureOf(level) * line.At(level) });
+        { 100.0, weight, weight * (level - PivotDn), weight * deviationOf(level) * line.At(level) });
     }
   }
   GainEstimate
@@ -92,13 +92,13 @@ TEST(SensorNoiseGainEstimate, StraightSensorKeepsItsLineAndItsErrors)
 
 TEST(SensorNoiseGainEstimate, LineIsChosenByErrorsAndNeverByValues)
 {
-  for (const double lightGain : { 0.9, 1.0, 1.1 })
+  for (const double instrumentalGain : { 0.9, 1.0, 1.1 })
   {
     Found found;
-    found.variance.instrumentalLine = LineOf(lightGain, 0.005);
-    EXPECT_EQ(found.Estimate().line.gain, 1.0) << lightGain; // no pattern: 0.002 is smaller
+    found.variance.instrumentalLine = LineOf(instrumentalGain, 0.005);
+    EXPECT_EQ(found.Estimate().line.gain, 1.0) << instrumentalGain; // no pattern: 0.002 is smaller
     found.variance.pattern.gainFraction = 0.01;
-    EXPECT_EQ(found.Estimate().line.gain, lightGain); // 0.01 is larger than 0.005
+    EXPECT_EQ(found.Estimate().line.gain, instrumentalGain); // 0.01 is larger than 0.005
     EXPECT_NEAR(found.Estimate().StandardError(), 0.005, 1e-12);
     found.variance.pattern.gainFraction = 0.004;
     const GainEstimate wider = found.Estimate();
@@ -110,7 +110,7 @@ TEST(SensorNoiseGainEstimate, LineIsChosenByErrorsAndNeverByValues)
   }
 }
 
-TEST(SensorNoiseGainEstimate, BentResponseHasTheMeanGain)
+TEST(SensorNoiseGainEstimate, NonlinearResponseHasTheMeanGain)
 {
   // The variance is about 3 % larger in the middle of the levels, and 6 % smaller at the ends.
   Found found;
@@ -133,11 +133,11 @@ TEST(SensorNoiseGainEstimate, OneLevelAndADarkPointArePhotonTransfer)
   Found found(10.0);
   found.settings.offset = KnownOffset{ 90.0, 0.03, 20, DarkVariance{ 50.0, 0.4 } };
   const GainEstimate estimate = found.Estimate();
-  const double       light = PivotDn - 90.0;
-  EXPECT_NEAR(estimate.line.gain, (1564.0 - 50.0) / light, 1e-6);
+  const double       signal = PivotDn - 90.0;
+  EXPECT_NEAR(estimate.line.gain, (1564.0 - 50.0) / signal, 1e-6);
   EXPECT_NEAR(estimate.line.intercept + estimate.line.gain * 90.0, 50.0, 1e-3);
   // Errors of the variance at the pivot, of the dark variance and of the offset.
-  const double error = std::hypot(PivotErrorDn2, std::hypot(0.4, estimate.scale * 0.03)) / light;
+  const double error = std::hypot(PivotErrorDn2, std::hypot(0.4, estimate.scale * 0.03)) / signal;
   EXPECT_NEAR(estimate.StandardError(), error, 1e-4 * error);
 }
 
@@ -147,9 +147,9 @@ TEST(SensorNoiseGainEstimate, LevelsThatMayAllBePatternLeaveThePhotonTransfer)
   found.variance.pattern.gainFraction = found.variance.pattern.offsetFraction = std::numeric_limits<double>::infinity();
   found.settings.offset = KnownOffset{ 90.0, 0.03, 20, DarkVariance{ 50.0, 0.4 } };
   const GainEstimate estimate = found.Estimate();
-  const double       light = PivotDn - 90.0;
-  EXPECT_NEAR(estimate.line.gain, (1564.0 - 50.0) / light, 1e-6);
-  const double error = std::hypot(PivotErrorDn2, std::hypot(0.4, estimate.scale * 0.03)) / light;
+  const double       signal = PivotDn - 90.0;
+  EXPECT_NEAR(estimate.line.gain, (1564.0 - 50.0) / signal, 1e-6);
+  const double error = std::hypot(PivotErrorDn2, std::hypot(0.4, estimate.scale * 0.03)) / signal;
   EXPECT_NEAR(estimate.StandardError(), error, 1e-4 * error);
 }
 
@@ -167,7 +167,7 @@ TEST(SensorNoiseGainEstimate, KnownLineAndDarkPointAreWeighted)
   EXPECT_LT(estimate.StandardError(), 0.002);
 }
 
-TEST(SensorNoiseGainEstimate, LineThatIsNotKnownHasNoDepartures)
+TEST(SensorNoiseGainEstimate, UnknownLineHasNoDeviations)
 {
   Found found(1.0);
   found.SetCurve([](double level) { return level > PivotDn ? 0.2 : -0.2; });

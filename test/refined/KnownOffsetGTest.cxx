@@ -52,8 +52,8 @@ SimulateVeil(double flickerSd, double veilElectrons)
     simulator.ExpectedElectronsRow(row / Size, row % Size, electrons.data());
     for (std::size_t x = 0; x < Size; ++x)
     {
-      const double light = static_cast<double>(random.Poisson(electrons[x] + veilElectrons));
-      stack.pixels[row * Size + x] = static_cast<Codes>(std::lround(light + 100.0 + 8.0 * random.Normal()));
+      const double signal = static_cast<double>(random.Poisson(electrons[x] + veilElectrons));
+      stack.pixels[row * Size + x] = static_cast<Codes>(std::lround(signal + 100.0 + 8.0 * random.Normal()));
     }
   }
   return stack;
@@ -86,7 +86,7 @@ ExpectTruth(const Quantity & quantity, double truth)
 }
 } // namespace
 
-TEST(SensorNoiseKnownOffset, SteadyLightIsToldFromTheOffset)
+TEST(SensorNoiseKnownOffset, SteadyLightIsDistinguishedFromTheOffset)
 {
   const Stack<Codes> stack = SimulateVeil(0.05, 200.0);
   const Report       blind = ReportOf(stack);
@@ -128,7 +128,7 @@ TEST(SensorNoiseKnownOffset, NoFlickerIsNeeded)
   EXPECT_GT(*report.readNoise.standardError, 0.031);
 }
 
-TEST(SensorNoiseKnownOffset, DarkFramesTellTheReadNoise)
+TEST(SensorNoiseKnownOffset, DarkFramesDetermineTheReadNoise)
 {
   const Stack<Codes> stack = Simulate<Codes>(WithFlicker(0.05), Size, Size);
   const Report       report = ReportOf(stack, DarkOf(64.0 + 1.0 / 12.0, 0.32));
@@ -207,7 +207,7 @@ TEST(SensorNoiseKnownOffset, OffsetThatIsNoNumberIsRefused)
 
 TEST(KnownOffset, ThatIsFarOutsideTheLevelsIsRefused)
 {
-  const auto refusalOf = [](const RefinedSettings & settings, double limitDn) -> std::string {
+  const auto errorOf = [](const RefinedSettings & settings, double limitDn) -> std::string {
     try
     {
       settings.RequireOffsetWithin(limitDn, "the test's limit");
@@ -219,15 +219,15 @@ TEST(KnownOffset, ThatIsFarOutsideTheLevelsIsRefused)
     return "";
   };
   RefinedSettings settings;
-  EXPECT_EQ(refusalOf(settings, 0.0), "");
+  EXPECT_EQ(errorOf(settings, 0.0), "");
   settings.offset = KnownOffset{ -65536.0, 0.5 };
-  EXPECT_EQ(refusalOf(settings, 65536.0), "");
+  EXPECT_EQ(errorOf(settings, 65536.0), "");
   settings.offset = KnownOffset{ 1e308, 0.0 };
   EXPECT_EQ(
-    refusalOf(settings, 65536.0),
+    errorOf(settings, 65536.0),
     "the offset is 1e+308 DN with a standard error of 0 DN; expected both within 65536 DN of 0, the test's limit");
   settings.offset = KnownOffset{ 100.0, 1e9 };
-  EXPECT_NE(refusalOf(settings, 65536.0), "");
+  EXPECT_NE(errorOf(settings, 65536.0), "");
 
   // For integer pixels the limit is known before a frame is read.
   settings.offset = KnownOffset{ 70000.0, 0.0 };

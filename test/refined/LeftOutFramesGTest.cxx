@@ -289,7 +289,7 @@ TEST(SensorNoiseLeftOutFrames, OfAStepOfTheGainAreNamedInGroups)
   EXPECT_NE(all.find("in groups (frames 0 to 19"), std::string::npos) << all;
 }
 
-TEST(SensorNoiseLeftOutFrames, OfNoiseAloneMakeNoLocalLight)
+TEST(SensorNoiseLeftOutFrames, OfNoiseAloneMakeNoLocalIllumination)
 {
   // Four times the noise variance at the same level, as in interpolated or amplified frames. The noise of a single
   // frame must not be removed as local illumination.

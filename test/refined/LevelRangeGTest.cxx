@@ -34,7 +34,7 @@ WithRange(double lowDn, double highDn)
 
 TEST(SensorNoiseLevelRange, PixelsOfOtherLevelsAreLeftOut)
 {
-  const Stack<Codes> stack = Simulate<Codes>(StillCamera(40), Size, Size);
+  const Stack<Codes> stack = Simulate<Codes>(StaticCamera(40), Size, Size);
   const auto         all = Measure(stack, {});
   const auto         method = Measure(stack, WithRange(300.0, 1500.0));
   const auto &       mean = method.GetMean();
@@ -62,10 +62,10 @@ TEST(SensorNoiseLevelRange, PixelsOfOtherLevelsAreLeftOut)
   EXPECT_GT(*method.GetReport().gain.standardError, *all.GetReport().gain.standardError);
 }
 
-TEST(SensorNoiseLevelRange, StraightPartOfABentResponseHasItsOwnGain)
+TEST(SensorNoiseLevelRange, LinearPartOfANonlinearResponseHasItsOwnGain)
 {
   // A shoulder from 60 % on. Below it the gain is 1.04.
-  SimulationSettings settings = StillCamera(40);
+  SimulationSettings settings = StaticCamera(40);
   settings.flaws.response = { ResponseShape::Shoulder, 0.04 };
   const Stack<Codes> stack = Simulate<Codes>(settings, Size, Size);
   const Report       all = Measure(stack, {}).GetReport();
@@ -77,7 +77,7 @@ TEST(SensorNoiseLevelRange, StraightPartOfABentResponseHasItsOwnGain)
 
 TEST(SensorNoiseLevelRange, RangeOfNoPixelsIsAReportWithAReason)
 {
-  const Report report = Measure(Simulate<Codes>(StillCamera(20), Size, Size), WithRange(50000.0, 60000.0)).GetReport();
+  const Report report = Measure(Simulate<Codes>(StaticCamera(20), Size, Size), WithRange(50000.0, 60000.0)).GetReport();
   EXPECT_FALSE(report.IsUsable());
   EXPECT_FALSE(report.warnings.empty());
 }

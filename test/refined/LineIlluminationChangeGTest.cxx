@@ -47,7 +47,7 @@ ReportOfInterlaced(double sd, bool areColumns = false)
 
 } // namespace
 
-TEST(SensorNoiseLineLight, InterlacedFramesAreMeasuredWithoutWhatLinesShare)
+TEST(SensorNoiseLineIlluminationChange, InterlacedFramesAreMeasuredWithoutTheIlluminationOfLines)
 {
   for (const bool areColumns : { false, true })
   {
@@ -64,7 +64,7 @@ TEST(SensorNoiseLineLight, InterlacedFramesAreMeasuredWithoutWhatLinesShare)
   }
 }
 
-TEST(SensorNoiseLineLight, FramesThatFlickerAsAWholeHaveNoLightOfRows)
+TEST(SensorNoiseLineIlluminationChange, GlobalFlickerIsNoIlluminationOfRows)
 {
   const Report report = ReportOfInterlaced(0.0);
   EXPECT_TRUE(report.gain.value);

@@ -78,7 +78,7 @@ TEST(SensorNoiseMakeRefinedReport, PixelsThatAreLeftOutAreSaidFromOneInAHundredO
   EXPECT_EQ(report.warnings.size(), 3u) << MakeText(report);
 }
 
-TEST(SensorNoiseMakeRefinedReport, LocalLightIsADriftOrLamps)
+TEST(SensorNoiseMakeRefinedReport, LocalLightIsADriftOrSeveralSources)
 {
   HandMadeResults results;
   results.MakeLocal();
@@ -133,7 +133,7 @@ TEST(SensorNoiseMakeRefinedReport, EnlargedFramesLeaveLimitsOfTheGainAndTheLineO
   EXPECT_FALSE(HasWarning(report, WarningCode::ReadNoiseUpperLimit));
 }
 
-TEST(SensorNoiseMakeRefinedReport, RefusalKeepsWhatDarkFramesTell)
+TEST(SensorNoiseMakeRefinedReport, FailureKeepsTheResultsOfDarkFrames)
 {
   HandMadeResults results;
   results.settings.offset = KnownOffset{ 97.0, 0.2, 20, DarkVariance{ 81.0, 0.3 } };

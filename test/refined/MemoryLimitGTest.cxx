@@ -47,9 +47,9 @@ FramesOf(bool isIlluminationLocal)
       for (std::size_t x = 0; x < Width; ++x)
       {
         const double wave = static_cast<double>((x / 4 + y / 8) % 16) / 16.0;
-        const double light = (200.0 + 1400.0 * wave) * brightness;
+        const double signal = (200.0 + 1400.0 * wave) * brightness;
         stack.pixels.push_back(
-          static_cast<Codes>(std::lround(200.0 + light + std::sqrt(10.0 + light) * normal(random))));
+          static_cast<Codes>(std::lround(200.0 + signal + std::sqrt(10.0 + signal) * normal(random))));
       }
     }
   }
@@ -138,8 +138,8 @@ TEST_P(SensorNoiseMemoryLimit, AllFramesAtOnceNeedNoSumsAndNoMorePasses)
   ExpectSameBits(inHalves, free);
 }
 
-INSTANTIATE_TEST_SUITE_P(Light, SensorNoiseMemoryLimit, ::testing::Bool(), [](const auto & light) {
-  return light.param ? "Local" : "Common";
+INSTANTIATE_TEST_SUITE_P(Light, SensorNoiseMemoryLimit, ::testing::Bool(), [](const auto & signal) {
+  return signal.param ? "Local" : "Common";
 });
 
 TEST(SensorNoiseMemoryLimit, SumsThatStayAreNotSavedOrMerged)

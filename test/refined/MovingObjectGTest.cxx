@@ -26,7 +26,7 @@ constexpr std::size_t Frames = 50;
 /** Returns frames with a textured object, a third of the frame wide, that moves through the lower two thirds of the
  * rows. */
 Stack<unsigned short>
-CrossedStack(const std::vector<double> & scene, int conditions, bool isVertical)
+TransientStack(const std::vector<double> & scene, int conditions, bool isVertical)
 {
   SimulationSettings settings;
   settings.conditions = PaperConditions(conditions);
@@ -41,7 +41,7 @@ CrossedStack(const std::vector<double> & scene, int conditions, bool isVertical)
     const std::size_t   t = row / Size;
     const std::size_t   y = row % Size;
     const double        front = (Size + length) * static_cast<double>(t) / (Frames - 1.0);
-    const double        light = settings.camera.electrons * (1.0 + simulator.GetTruth().series.gamma[t]);
+    const double        signal = settings.camera.electrons * (1.0 + simulator.GetTruth().series.gamma[t]);
     CounterSeededRandom random(settings.seed, 100, t, y);
     simulator.ExpectedElectronsRow(t, y, electrons.data());
     for (std::size_t x = 0; x < Size; ++x)
@@ -51,7 +51,7 @@ CrossedStack(const std::vector<double> & scene, int conditions, bool isVertical)
       const double depth = front - along;
       if (across >= length && depth > 0.0 && depth < length)
       {
-        electrons[x] = light * (0.4 + 0.2 * std::sin(depth / 4.0) * std::sin(across / 7.0));
+        electrons[x] = signal * (0.4 + 0.2 * std::sin(depth / 4.0) * std::sin(across / 7.0));
       }
       const double value = static_cast<double>(random.Poisson(electrons[x])) + settings.camera.offsetDn +
                            settings.camera.readNoiseDn * random.Normal();
@@ -86,29 +86,29 @@ ExpectTruth(const Stack<unsigned short> & stack, bool isVertical)
 }
 } // namespace
 
-TEST(SensorNoiseCrossingThing, GainComesFromTheRowsThatItNeverReaches)
+TEST(SensorNoiseMovingObject, GainComesFromTheRowsThatItNeverReaches)
 {
   for (const int conditions : { 1, 2, 3 })
   {
     SCOPED_TRACE(conditions);
-    ExpectTruth(CrossedStack(MakeTextureScene(Size, Size), conditions, false), false);
-    ExpectTruth(CrossedStack(MakeTargetScene(Size, Size), conditions, false), false);
+    ExpectTruth(TransientStack(MakeTextureScene(Size, Size), conditions, false), false);
+    ExpectTruth(TransientStack(MakeTargetScene(Size, Size), conditions, false), false);
   }
 }
 
-TEST(SensorNoiseCrossingThing, GainComesFromTheColumnsThatItNeverReaches)
+TEST(SensorNoiseMovingObject, GainComesFromTheColumnsThatItNeverReaches)
 {
   for (const int conditions : { 1, 3 })
   {
     SCOPED_TRACE(conditions);
-    ExpectTruth(CrossedStack(MakeTextureScene(Size, Size), conditions, true), true);
-    ExpectTruth(CrossedStack(MakeTargetScene(Size, Size), conditions, true), true);
+    ExpectTruth(TransientStack(MakeTextureScene(Size, Size), conditions, true), true);
+    ExpectTruth(TransientStack(MakeTargetScene(Size, Size), conditions, true), true);
   }
 }
 
-TEST(SensorNoiseCrossingThing, ResultDoesNotDependOnThreadsAndChunks)
+TEST(SensorNoiseMovingObject, ResultDoesNotDependOnThreadsAndChunks)
 {
-  const auto stack = CrossedStack(MakeTextureScene(Size, Size), 1, false);
+  const auto stack = TransientStack(MakeTextureScene(Size, Size), 1, false);
   const auto whole = Measure(stack);
   const auto parts = Measure(stack, WithCodes(), 7, Threads(3));
   EXPECT_EQ(*whole.GetReport().gain.value, *parts.GetReport().gain.value);

@@ -43,7 +43,7 @@ struct Results : HandMadeResults
 };
 } // namespace
 
-TEST(SensorNoiseOffsetEstimate, FlickerTellsItWithItsInterval)
+TEST(SensorNoiseOffsetEstimate, FlickerDeterminesItWithItsInterval)
 {
   const OffsetEstimate offset = Results().Estimate();
   EXPECT_TRUE(offset.IsIdentified());
@@ -53,7 +53,7 @@ TEST(SensorNoiseOffsetEstimate, FlickerTellsItWithItsInterval)
   EXPECT_DOUBLE_EQ(*offset.interval.high, 101.0);
 }
 
-TEST(SensorNoiseOffsetEstimate, PatternOfOffsetsWidensItInProportionToTheLight)
+TEST(SensorNoiseOffsetEstimate, OffsetPatternWidensItInProportionToTheSignal)
 {
   Results results;
   results.variance.pattern.offsetFraction = 0.01; // 1 % of 1,000 DN: 10 DN
@@ -65,14 +65,14 @@ TEST(SensorNoiseOffsetEstimate, PatternOfOffsetsWidensItInProportionToTheLight)
   EXPECT_DOUBLE_EQ(results.Estimate().standardErrorDn, 0.5);
 }
 
-TEST(SensorNoiseOffsetEstimate, BentResponseWidensIt)
+TEST(SensorNoiseOffsetEstimate, NonlinearResponseWidensIt)
 {
   Results results;
   results.gain.below = results.gain.above = 0.02; // 2 % of the gain
   EXPECT_DOUBLE_EQ(results.Estimate().standardErrorDn, std::hypot(0.5, 20.0));
 }
 
-TEST(SensorNoiseOffsetEstimate, WhatKeepsTheFlickerFromTellingItIsSaid)
+TEST(SensorNoiseOffsetEstimate, ReasonOfAnUnidentifiedOffsetIsReported)
 {
   const auto refusedWith = [](auto change, const std::string & reason) {
     Results results;
@@ -104,7 +104,7 @@ TEST(SensorNoiseOffsetEstimate, LimitsHoldButForThreeOfItsErrors)
   EXPECT_TRUE(results.Estimate().IsIdentified());
 }
 
-TEST(SensorNoiseOffsetEstimate, WhereLightIsLocalTheResponsesToItTell)
+TEST(SensorNoiseOffsetEstimate, ResponsesToLocalIlluminationDetermineIt)
 {
   Results results;
   results.MakeLocal();
@@ -121,7 +121,7 @@ TEST(SensorNoiseOffsetEstimate, WhereLightIsLocalTheResponsesToItTell)
   EXPECT_TRUE(results.IsRefused("the flicker"));
 }
 
-TEST(SensorNoiseOffsetEstimate, OffsetInUseIsKnownOrToldOrInTheMiddleOfTheLimits)
+TEST(SensorNoiseOffsetEstimate, OffsetInUseIsKnownOrIdentifiedOrBetweenTheLimits)
 {
   Results    results;
   const auto inUse = [&results] {

@@ -24,14 +24,14 @@ constexpr std::size_t Frames = 25;
 Report
 ReportOf(char camera, double flickerSd, std::uint64_t seed)
 {
-  SimulationSettings settings = StillCamera(Frames, seed);
+  SimulationSettings settings = StaticCamera(Frames, seed);
   settings.camera = PaperCamera(camera);
   settings.conditions.flickerSd = flickerSd;
   return Measure(Simulate<Codes>(settings, Size, Size), {}).GetReport();
 }
 } // namespace
 
-TEST(SensorNoiseOffsetLimits, WithoutFlickerTheBracketHoldsTheTruth)
+TEST(SensorNoiseOffsetLimits, WithoutFlickerTheBoundsHoldTheTruth)
 {
   // Each bound holds with at least 97.5 %: one of 24 stacks may violate it by chance (three or more: p < 0.02).
   int held = 0;
@@ -60,7 +60,7 @@ TEST(SensorNoiseOffsetLimits, WithoutFlickerTheBracketHoldsTheTruth)
   EXPECT_GE(held, stacks - 1);
 }
 
-TEST(SensorNoiseOffsetLimits, WhatIsIdentifiedIsWithinItsBracket)
+TEST(SensorNoiseOffsetLimits, IdentifiedOffsetIsWithinItsBounds)
 {
   for (std::uint64_t seed = 1; seed <= 6; ++seed)
   {

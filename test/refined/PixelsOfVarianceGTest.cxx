@@ -65,9 +65,9 @@ TEST(SensorNoisePixelsOfVariance, ARampHasNoEdges)
   EXPECT_TRUE(std::all_of(uses.begin(), uses.end(), [](std::uint8_t use) { return use == 0; }));
 }
 
-TEST(SensorNoisePixelsOfVariance, SmoothedEdgesAreNoBendOfTheResponse)
+TEST(SensorNoisePixelsOfVariance, SmoothedEdgesAreNoNonlinearity)
 {
-  SimulationSettings settings = StillCamera(50);
+  SimulationSettings settings = StaticCamera(50);
   const auto         edgesOf = [&settings] {
     const auto stack = Simulate<Codes>(settings, 256, 256);
     const auto method = Measure(stack, {});

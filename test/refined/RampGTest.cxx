@@ -52,7 +52,7 @@ class SensorNoiseRamp : public ::testing::TestWithParam<std::tuple<const char *,
 {};
 } // namespace
 
-TEST_P(SensorNoiseRamp, TellsTheGain)
+TEST_P(SensorNoiseRamp, DeterminesTheGain)
 {
   const auto [direction, flicker, vibration] = GetParam();
   for (const std::uint64_t seed : { 11, 12 })
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(,
                                             ::testing::Values(0.0, 0.01),
                                             ::testing::Values(0.0, 0.01, 0.1)));
 
-TEST(SensorNoiseRampAlongAnAxis, FlickerIsToldAndMotionIsNot)
+TEST(SensorNoiseRampAlongAnAxis, FlickerIsIdentifiableAndMotionIsNot)
 {
   for (const char * const direction : { "x", "y" })
   {

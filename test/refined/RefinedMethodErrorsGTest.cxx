@@ -37,7 +37,7 @@ MessageOf(TFunction function)
 
 } // namespace
 
-TEST(SensorNoiseRefinedMethodRefusal, SumsThatDoNotFitAreRefusedAndChangeNothing)
+TEST(SensorNoiseRefinedMethodErrors, SumsThatDoNotFitAreRefusedAndChangeNothing)
 {
   const auto & stack = SmallStack<Codes>();
   const auto   save = [](const auto & method) {
@@ -82,7 +82,7 @@ TEST(SensorNoiseRefinedMethodRefusal, SumsThatDoNotFitAreRefusedAndChangeNothing
   EXPECT_NO_THROW(method.EndPass());
 }
 
-TEST(SensorNoiseRefinedMethodRefusal, SumsOfOtherPassesBeforeAreRefused)
+TEST(SensorNoiseRefinedMethodErrors, SumsOfOtherPassesBeforeAreRefused)
 {
   const auto & stack = SmallStack<Codes>();
   const auto   brighter = stack.Map([](Codes u) { return u + 1; });
@@ -102,7 +102,7 @@ TEST(SensorNoiseRefinedMethodRefusal, SumsOfOtherPassesBeforeAreRefused)
   EXPECT_THROW(method.MergeSums(sums), std::runtime_error);
 }
 
-TEST(SensorNoiseRefinedMethodRefusal, MissingAndRepeatedFramesAreRefused)
+TEST(SensorNoiseRefinedMethodErrors, MissingAndRepeatedFramesAreRefused)
 {
   const auto & stack = SmallStack<Codes>();
   auto         method = MethodOf(stack);

@@ -170,11 +170,11 @@ TEST(SensorNoiseRefinedMethod, StacksWithoutInformationFailWithAReason)
   {
     frames.pixels[t * 20 * 16] = static_cast<Codes>(700 + t); // otherwise all frames are equal
   }
-  const auto still = Measure(frames, {});
-  ExpectNothingMeasured(still.GetReport());
-  EXPECT_EQ(still.GetReport().framesDistinct, frames.frames);
-  EXPECT_EQ(still.GetPixelUse()[50], static_cast<std::uint8_t>(PixelUse::Constant));
-  EXPECT_TRUE(still.GetCorrectedVariance().empty());
+  const auto measured = Measure(frames, {});
+  ExpectNothingMeasured(measured.GetReport());
+  EXPECT_EQ(measured.GetReport().framesDistinct, frames.frames);
+  EXPECT_EQ(measured.GetPixelUse()[50], static_cast<std::uint8_t>(PixelUse::Constant));
+  EXPECT_TRUE(measured.GetCorrectedVariance().empty());
   const auto nan = Measure(constant(std::numeric_limits<float>::quiet_NaN()), {});
   ExpectNothingMeasured(nan.GetReport());
   EXPECT_EQ(nan.GetReport().pixels.notFinite, 320u);

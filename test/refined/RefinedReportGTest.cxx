@@ -25,10 +25,10 @@ namespace
 constexpr std::size_t Size = 128;
 
 SimulationSettings
-BentCamera(ResponseShape shape, double bend, std::size_t frames)
+NonlinearCamera(ResponseShape shape, double nonlinearity, std::size_t frames)
 {
-  SimulationSettings settings = StillCamera(frames);
-  settings.flaws.response = { shape, bend };
+  SimulationSettings settings = StaticCamera(frames);
+  settings.flaws.response = { shape, nonlinearity };
   return settings;
 }
 
@@ -39,7 +39,7 @@ SimulateLevels(double low)
 {
   std::vector<double> scene = ScaleToRange(MakeTargetScene(Size, Size), low, 1.0);
   scene[0] = 0.0;
-  return Simulate<Codes>(StillCamera(40), Size, Size, scene);
+  return Simulate<Codes>(StaticCamera(40), Size, Size, scene);
 }
 } // namespace
 
@@ -47,7 +47,7 @@ TEST(SensorNoiseRefinedReport, FlatIsOneIntensityAndNotAThingThatMoves)
 {
   for (const double flickerSd : { 0.0, 0.003 })
   {
-    SimulationSettings settings = StillCamera(40);
+    SimulationSettings settings = StaticCamera(40);
     settings.conditions.flickerSd = flickerSd;
     const Report report = Measure(Simulate<Codes>(settings, Size, Size, FlatScene(Size)), {}).GetReport();
     EXPECT_FALSE(report.gain.value);
@@ -70,17 +70,17 @@ TEST(SensorNoiseRefinedReport, NarrowRangeLeavesTheResponseUnchecked)
   EXPECT_FALSE(HasWarning(full, WarningCode::ResponseUnchecked));
 }
 
-TEST(SensorNoiseRefinedReport, BentResponseHasTheMeanGainInItsInterval)
+TEST(SensorNoiseRefinedReport, NonlinearResponseHasTheMeanGainInItsInterval)
 {
   constexpr std::size_t size = 192;
-  for (const double bend : { 0.04, -0.04 })
+  for (const double nonlinearity : { 0.04, -0.04 })
   {
-    const SimulationSettings settings = BentCamera(ResponseShape::Quadratic, bend, 40);
+    const SimulationSettings settings = NonlinearCamera(ResponseShape::Quadratic, nonlinearity, 40);
     const StackSimulator     simulator(MakeTargetScene(size, size), size, size, settings);
     const Report             report = Measure(Simulate<Codes>(settings, size, size), {}).GetReport();
-    EXPECT_TRUE(HasWarning(report, WarningCode::ResponseNotStraight)) << bend;
-    EXPECT_FALSE(HasWarning(report, WarningCode::VarianceNotAffine)) << bend;
-    EXPECT_FALSE(HasWarning(report, WarningCode::NotStatic)) << bend;
+    EXPECT_TRUE(HasWarning(report, WarningCode::ResponseNotStraight)) << nonlinearity;
+    EXPECT_FALSE(HasWarning(report, WarningCode::VarianceNotAffine)) << nonlinearity;
+    EXPECT_FALSE(HasWarning(report, WarningCode::NotStatic)) << nonlinearity;
     ExpectHolds(report.gain, MeanLocalGain(simulator));
     EXPECT_LT(*report.gain.standardError, 0.04);
     // The matrix contains the same errors, with the error of the model.
@@ -93,10 +93,10 @@ TEST(SensorNoiseRefinedReport, BentResponseHasTheMeanGainInItsInterval)
   }
 }
 
-TEST(SensorNoiseRefinedReport, VerdictOnABendDoesNotDependOnTheSizeOfTheFrame)
+TEST(SensorNoiseRefinedReport, VerdictOnANonlinearityDoesNotDependOnTheSizeOfTheFrame)
 {
   // With sixteen times the pixels the non-linearity is more significant, not larger.
-  const SimulationSettings settings = BentCamera(ResponseShape::Quadratic, 0.04, 20);
+  const SimulationSettings settings = NonlinearCamera(ResponseShape::Quadratic, 0.04, 20);
   const Report             small = Measure(Simulate<Codes>(settings, 128, 128), {}).GetReport();
   const StackSimulator     simulator(MakeTargetScene(512, 512), 512, 512, settings);
   const Report             large = Measure(Simulate<Codes>(settings, 512, 512), {}).GetReport();
@@ -112,7 +112,7 @@ TEST(SensorNoiseRefinedReport, ToneCurveIsRefusedWithItsLine)
 {
   for (const auto & [shape, size] : { std::pair{ ResponseShape::Gamma, 1.3 }, std::pair{ ResponseShape::Gamma, 2.2 } })
   {
-    const Report report = Measure(Simulate<Codes>(BentCamera(shape, size, 40), Size, Size), {}).GetReport();
+    const Report report = Measure(Simulate<Codes>(NonlinearCamera(shape, size, 40), Size, Size), {}).GetReport();
     EXPECT_EQ(report.gain.status, EstimateStatus::Failed) << size;
     EXPECT_FALSE(report.gain.value || report.offset.value || report.readNoise.value) << size;
     EXPECT_TRUE(HasWarning(report, WarningCode::VarianceNotAffine)) << size;
@@ -147,7 +147,7 @@ TEST(SensorNoiseRefinedReport, ToneCurveOfTheCodesIsRefusedHoweverManyPixelsTell
 
 TEST(SensorNoiseRefinedReport, FloatingPointFramesThatSaturateAreMeasuredAsTheirIntegers)
 {
-  SimulationSettings settings = StillCamera(40);
+  SimulationSettings settings = StaticCamera(40);
   settings.clipHighDn = 2000.0; // the largest levels are about 3,100
   const Stack<Codes> codes = Simulate<Codes>(settings, Size, Size);
   const Report       integer = Measure(codes, {}).GetReport();

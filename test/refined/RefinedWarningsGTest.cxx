@@ -40,7 +40,7 @@ Code(double value)
 /** Returns a stack of the target, with the values of the pixels replaced by \a change. */
 Stack<Codes>
 Changed(const std::function<double(std::size_t t, std::size_t x, std::size_t y, double value)> & change,
-        const SimulationSettings & settings = StillCamera(Frames))
+        const SimulationSettings & settings = StaticCamera(Frames))
 {
   Stack<Codes> stack = Simulate<Codes>(settings, Size, Size);
   for (std::size_t i = 0; i < stack.pixels.size(); ++i)
@@ -71,7 +71,7 @@ ExpectWarns(const Stack<Codes> & stack, WarningCode code)
 
 TEST(SensorNoiseRefinedWarnings, PlainStackHasNone)
 {
-  const Report report = Measure(Simulate<Codes>(StillCamera(Frames), Size, Size), {}).GetReport();
+  const Report report = Measure(Simulate<Codes>(StaticCamera(Frames), Size, Size), {}).GetReport();
   EXPECT_TRUE(report.warnings.empty()) << MakeText(report);
 }
 
@@ -113,7 +113,7 @@ TEST(SensorNoiseRefinedWarnings, NotStaticNamesTheLevelsOnBothSides)
 
 TEST(SensorNoiseRefinedWarnings, NoisyPixels)
 {
-  SimulationSettings settings = StillCamera(Frames);
+  SimulationSettings settings = StaticCamera(Frames);
   settings.hotPixelFraction = 0.01;
   ExpectWarns(Simulate<Codes>(settings, Size, Size), WarningCode::NoisyPixels);
 }
@@ -136,7 +136,7 @@ TEST(SensorNoiseRefinedWarnings, OffsetDrift)
 
 TEST(SensorNoiseRefinedWarnings, StrongVibration)
 {
-  SimulationSettings settings = StillCamera(Frames);
+  SimulationSettings settings = StaticCamera(Frames);
   settings.conditions.vibrationSdXPixels = 0.8;
   ExpectWarns(Simulate<Codes>(settings, Size, Size), WarningCode::StrongVibration);
 }
@@ -144,7 +144,7 @@ TEST(SensorNoiseRefinedWarnings, StrongVibration)
 TEST(SensorNoiseRefinedWarnings, FlickerNotIdentifiable)
 {
   const Report report =
-    Measure(Simulate<Codes>(StillCamera(Frames), Size, Size, FlatScene(Size, 0.05)), {}).GetReport();
+    Measure(Simulate<Codes>(StaticCamera(Frames), Size, Size, FlatScene(Size, 0.05)), {}).GetReport();
   EXPECT_TRUE(HasWarning(report, WarningCode::FlickerNotIdentifiable)) << MakeText(report);
   EXPECT_FALSE(report.flickerSd.value);
   const std::string text = MakeText(report);
@@ -154,7 +154,7 @@ TEST(SensorNoiseRefinedWarnings, FlickerNotIdentifiable)
 
 TEST(SensorNoiseRefinedWarnings, NoiseNotLinear)
 {
-  SimulationSettings settings = StillCamera(Frames);
+  SimulationSettings settings = StaticCamera(Frames);
   settings.flaws.median.radiusPixels = 1;
   ExpectWarns(Simulate<Codes>(settings, Size, Size, FlatScene(Size, 1.0)), WarningCode::NoiseNotLinear);
 }
@@ -172,7 +172,7 @@ TEST(SensorNoiseRefinedWarnings, TooLittleToMeasure)
 // Only the last of 20 frames has a signal: the flicker absorbs all of its shot noise.
 TEST(SensorNoiseRefinedWarnings, OneIlluminatedFrameIsNamed)
 {
-  SimulationSettings settings = StillCamera(20);
+  SimulationSettings settings = StaticCamera(20);
   settings.illumination = IlluminationOf("pulses:0:20");
   const Report report = Measure(Simulate<Codes>(settings, Size, Size), {}).GetReport();
   EXPECT_NE(report.gain.status, EstimateStatus::Identified);
@@ -184,7 +184,7 @@ TEST(SensorNoiseRefinedWarnings, OneIlluminatedFrameIsNamed)
 TEST(SensorNoiseRefinedWarnings, VarianceSteps)
 {
   // A second amplifier, with a read noise of 30 DN, reads the samples above a level in the middle of the target.
-  const SimulationSettings   settings = StillCamera(Frames);
+  const SimulationSettings   settings = StaticCamera(Frames);
   std::mt19937               random(5);
   std::normal_distribution<> normal;
   const double               switchDn = 0.4 * settings.camera.gainDnPerElectron * settings.camera.electrons;
@@ -203,7 +203,7 @@ TEST(SensorNoiseRefinedWarnings, VarianceSteps)
 
 TEST(SensorNoiseRefinedWarnings, BorderLeftOut)
 {
-  const SimulationSettings   settings = StillCamera(Frames);
+  const SimulationSettings   settings = StaticCamera(Frames);
   std::mt19937               random(6);
   std::normal_distribution<> normal;
   const Stack<Codes>         stack = Changed([&](std::size_t, std::size_t x, std::size_t, double value) {
@@ -228,7 +228,7 @@ TEST(SensorNoiseRefinedWarnings, LightSeriesLeft)
   {
     flicker.push_back(0.02 * normal(random));
   }
-  const SimulationSettings settings = StillCamera(Frames);
+  const SimulationSettings settings = StaticCamera(Frames);
   const auto               inBands = [&](std::size_t t, std::size_t x, std::size_t y, double value) {
     const double factor = 1.0 + flicker[t * 2 * bands + y / 8] + flicker[(t * 2 + 1) * bands + x / 8];
     return settings.camera.offsetDn + factor * (value - settings.camera.offsetDn);
@@ -247,7 +247,7 @@ TEST(SensorNoiseRefinedWarnings, IlluminationOfFinePatternsIsNoFilter)
   std::uniform_real_distribution<> angle(0.0, 6.283185307179586);
   std::vector<double>              angles(2 * waves * Frames);
   std::generate(angles.begin(), angles.end(), [&] { return angle(random); });
-  const SimulationSettings settings = StillCamera(Frames);
+  const SimulationSettings settings = StaticCamera(Frames);
   const auto               lit = [&](std::size_t t, std::size_t x, std::size_t y, double value) {
     double factor = 1.0;
     for (std::size_t w = 0; w < waves; ++w)
@@ -268,7 +268,7 @@ TEST(SensorNoiseRefinedWarnings, IlluminationOfFinePatternsIsNoFilter)
 // Half of the blocks of 8 x 8 pixels repeat the previous frame.
 TEST(SensorNoiseRefinedWarnings, SkippedBlocksAreNoFilter)
 {
-  Stack<Codes>                stack = Simulate<Codes>(StillCamera(Frames), Size, Size);
+  Stack<Codes>                stack = Simulate<Codes>(StaticCamera(Frames), Size, Size);
   std::mt19937                random(8);
   std::bernoulli_distribution isSkipped(0.5);
   for (std::size_t t = 1; t < Frames; ++t)
@@ -293,7 +293,7 @@ TEST(SensorNoiseRefinedWarnings, SkippedBlocksAreNoFilter)
 TEST(SensorNoiseRefinedWarnings, GainNotUniform)
 {
   // Two cameras show one scene side by side; their gains differ by a quarter.
-  SimulationSettings settings = StillCamera(Frames);
+  SimulationSettings settings = StaticCamera(Frames);
   Stack<Codes>       stack = Simulate<Codes>(settings, Size, Size);
   settings.camera.gainDnPerElectron *= 1.25;
   const Stack<Codes> other = Simulate<Codes>(settings, Size, Size);

@@ -74,7 +74,7 @@ SetShape(NoiseCorrelation & correlation, CovarianceShape which, const MeasuredNu
   WeightedShape & shape = correlation.Shape(which);
   shape = { coefficient, probability };
   shape.ofVariance = which == CovarianceShape::Variance ? 1.0 : 0.0;
-  shape.ofLight = which == CovarianceShape::Light ? 1.0 : 0.0;
+  shape.ofSignal = which == CovarianceShape::Signal ? 1.0 : 0.0;
   shape.ofSquare = which == CovarianceShape::Square ? 1.0 : 0.0;
 }
 
@@ -141,7 +141,7 @@ TEST(SensorNoiseSensorLines, CoupledChargeAddsASlopeAboutBlack)
 {
   constexpr double  shared = 0.05;
   const SensorLines lines = StraightLines();
-  const SensorLines sensor = AddCovariances(lines, Sharing(CovarianceShape::Light, shared), BlackDn, CodesDn2);
+  const SensorLines sensor = AddCovariances(lines, Sharing(CovarianceShape::Signal, shared), BlackDn, CodesDn2);
   EXPECT_NEAR(sensor.all.gain, Gain + shared, 1e-12);
   EXPECT_NEAR(sensor.all.intercept + sensor.all.gain * BlackDn, InterceptDn2 + Gain * BlackDn, 1e-9); // same read noise
   EXPECT_LT((sensor.all.covariance - lines.all.covariance).norm(), 1e-15);
@@ -204,14 +204,14 @@ TEST(SensorNoiseSensorLines, WhatIsNotKnownOfTheSharingIsAnErrorOfGainAndInterce
   EXPECT_NEAR(std::sqrt(filtered(1, 1)), 0.02 * (InterceptDn2 - CodesDn2), 1e-12);
   EXPECT_NEAR(filtered(0, 1), 4e-4 * Gain * (InterceptDn2 - CodesDn2), 1e-12);
   const auto coupled =
-    AddCovariances(lines, Sharing(CovarianceShape::Light, 0.05, 0.002), BlackDn, CodesDn2).covarianceOfCorrelation;
+    AddCovariances(lines, Sharing(CovarianceShape::Signal, 0.05, 0.002), BlackDn, CodesDn2).covarianceOfCorrelation;
   EXPECT_NEAR(std::sqrt(coupled(0, 0)), 0.002, 1e-12);
   EXPECT_NEAR(coupled(0, 1), -4e-6 * BlackDn, 1e-12);
 
   // Two shapes are equally probable: the gain may be either value.
   NoiseCorrelation both;
   SetShape(both, CovarianceShape::Variance, { 0.2, 0.0 }, 0.5);
-  SetShape(both, CovarianceShape::Light, { 0.06, 0.0 }, 0.5);
+  SetShape(both, CovarianceShape::Signal, { 0.06, 0.0 }, 0.5);
   const SensorLines sensor = AddCovariances(lines, both, BlackDn, CodesDn2);
   EXPECT_NEAR(sensor.all.gain, Gain + 0.5 * (0.2 * Gain + 0.06), 1e-12);
   EXPECT_NEAR(std::sqrt(sensor.covarianceOfCorrelation(0, 0)), 0.5 * (0.2 * Gain - 0.06), 1e-12);

@@ -105,7 +105,7 @@ TEST(SensorNoiseStrongIllumination, GainOffsetAndReadNoiseAreTheCameras)
   }
 }
 
-TEST(SensorNoiseStrongIllumination, OfAFlatFieldTellsGainAndInterceptAndNoOffset)
+TEST(SensorNoiseStrongIllumination, OfAFlatFieldDeterminesGainAndInterceptButNoOffset)
 {
   for (const double offset : { 100.0, 4000.0 })
   {
@@ -136,7 +136,7 @@ TEST(SensorNoiseStrongIllumination, OfAFlatFieldTellsGainAndInterceptAndNoOffset
 
 // Fifteen of 60 frames are lit. The noise of the dark frames is ten times smaller, which is no local illumination. A
 // pulsed lamp under a rolling shutter has two temporal components, a sine and a cosine of the rows.
-TEST(SensorNoiseStrongIllumination, FewIlluminatedFramesAreNoLocalLight)
+TEST(SensorNoiseStrongIllumination, FewIlluminatedFramesAreNoLocalIllumination)
 {
   for (const double periodRows : { 0.0, 40.0 })
   {
@@ -179,7 +179,7 @@ TEST(SensorNoiseStrongIllumination, DarkFramesHaveNoShift)
   EXPECT_NEAR(*report.vibrationSdY.value, 0.02, 0.02 * 4.0 / std::sqrt(18.0));
 }
 
-TEST(SensorNoiseStrongIllumination, WithoutTheLightOfTheFramesTheirShiftsWeighAlike)
+TEST(SensorNoiseStrongIllumination, WithoutGammaTheShiftsHaveEqualWeights)
 {
   SimulationSettings settings;
   settings.frames = 60;
@@ -242,7 +242,7 @@ TEST(SensorNoiseStrongIllumination, SameBitsForAnyChunksThreadsAndOrder)
   ExpectSameBits(turned, whole);
 }
 
-TEST(SensorNoiseStrongIllumination, ProcessesThatShareTheirSumsHaveTheBitsOfTheWhole)
+TEST(SensorNoiseStrongIllumination, ProcessesThatExchangeSumsHaveTheBitsOfTheWhole)
 {
   const auto & stack = StrongStack();
   auto         whole = MethodOf(stack);

@@ -219,7 +219,7 @@ FullReport()
 }
 } // namespace
 
-TEST(SensorNoiseReportJson, CheckerTellsJsonFromWhatIsNot)
+TEST(SensorNoiseReportJson, CheckerDistinguishesJsonFromOtherText)
 {
   for (const std::string text : { "{}", "[1, -0.5e-7, null]", "{\"a\": {\"b\": []}, \"c\": \"\\u0001\\\"\"}\n" })
   {

@@ -36,7 +36,7 @@ TEST(SensorNoiseReportTable, ValuesHaveTheirErrorsAndIntervals)
   EXPECT_EQ(LineOf(report, "offset mu"), "offset mu                           -              DN       failed");
 }
 
-TEST(SensorNoiseReportTable, EqualFramesAreToldWhereThereAreAny)
+TEST(SensorNoiseReportTable, EqualFramesAreReportedWhereThereAreAny)
 {
   Report report;
   report.frames = report.framesDistinct = 100;
@@ -91,7 +91,7 @@ TEST(SensorNoiseReportTable, NoiseIsNamedWhereItWasLookedAt)
             "noise: not-linear (not as a sensor or a linear filter leaves it: the gain is not identifiable)");
 }
 
-TEST(SensorNoiseReportTable, WhatNeighboursOrFramesShareIsThatOfTheLagThatSharesMost)
+TEST(SensorNoiseReportTable, CorrelationIsShownForTheLagOfTheLargestCoefficient)
 {
   Report                   report;
   NoiseCorrelationRecord & noise = report.noiseCorrelation.emplace();
@@ -107,7 +107,7 @@ TEST(SensorNoiseReportTable, WhatNeighboursOrFramesShareIsThatOfTheLagThatShares
             "noise: temporal, correlation of frames up to 25 %; the gain is from the covariance over all lags");
 }
 
-TEST(SensorNoiseReportTable, RowsAndColumnsHaveALineWhereTheirNoiseIsTold)
+TEST(SensorNoiseReportTable, RowsAndColumnsHaveALineWhereTheirNoiseIsMeasured)
 {
   Report                   report;
   NoiseCorrelationRecord & noise = report.noiseCorrelation.emplace();
@@ -131,7 +131,7 @@ TEST(SensorNoiseReportTable, VarianceSlopeHasALineWhereItIsNotTheGain)
   EXPECT_EQ(LineOf(report, "variance slope"), "variance slope                  0.245  DN/e\u207B    identified");
 }
 
-TEST(SensorNoiseReportTable, AReportWithoutPixelsHasNoShareOfThem)
+TEST(SensorNoiseReportTable, AReportWithoutPixelsHasNoFractionOfThem)
 {
   const std::string text = MakeTable(Report());
   EXPECT_NE(text.find("0 of 0 pixels used (0.0 %)"), std::string::npos) << text;

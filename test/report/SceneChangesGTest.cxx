@@ -146,13 +146,13 @@ TEST(SensorNoiseSceneChanges, ACameraThatMovesByManyPixelsIsSaid)
   constexpr std::size_t frames = 30;
   constexpr std::size_t width = Width + travel * frames;
   const auto            wide = MakeTextureScene(width, Height);
-  const auto            still = Simulate<Codes>(SettingsOf('B', frames), width, Height, wide);
+  const auto            unmoved = Simulate<Codes>(SettingsOf('B', frames), width, Height, wide);
   Stack<Codes>          stack{ Width, Height, frames, {} };
   for (std::size_t t = 0; t < frames; ++t)
   {
     for (std::size_t y = 0; y < Height; ++y)
     {
-      const Codes * const first = still.Frame(t) + y * width + travel * t;
+      const Codes * const first = unmoved.Frame(t) + y * width + travel * t;
       stack.pixels.insert(stack.pixels.end(), first, first + Width);
     }
   }

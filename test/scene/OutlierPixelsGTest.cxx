@@ -27,7 +27,7 @@ Count(const std::vector<std::uint8_t> & map)
 }
 } // namespace
 
-TEST(SensorNoiseUnexplainedPixels, AreThoseFarAboveTheModel)
+TEST(SensorNoiseOutlierPixels, AreThoseFarAboveTheModel)
 {
   SyntheticFrames frames(Width, Height, std::vector<FrameChange>(20));
   frames.model.largestRatio = 3.0;
@@ -66,7 +66,7 @@ TEST(SensorNoiseUnexplainedPixels, AreThoseFarAboveTheModel)
   EXPECT_EQ(moving[lonely], 1);
 }
 
-TEST(SensorNoiseUnexplainedPixels, AreNotThoseOfEdgesSharperThanAPixel)
+TEST(SensorNoiseOutlierPixels, AreNotThoseOfEdgesSharperThanAPixel)
 {
   // Vertical edges, each within one pixel, which changes by the whole step; its neighbours do not change.
   constexpr double shiftVariance = 0.01; // [pixel^2]
@@ -77,9 +77,9 @@ TEST(SensorNoiseUnexplainedPixels, AreNotThoseOfEdgesSharperThanAPixel)
   for (std::size_t p = 0; p < frame.mean.size(); ++p)
   {
     const std::size_t inPeriod = p % Width % 14;
-    const double      light = inPeriod < 6 ? 0.0 : inPeriod == 6 || inPeriod == 13 ? 0.4 : 1.0;
+    const double      signal = inPeriod < 6 ? 0.0 : inPeriod == 6 || inPeriod == 13 ? 0.4 : 1.0;
     const bool        isEdge = inPeriod == 6 || inPeriod == 13;
-    frame.mean[p] = 500.0 + stepDn * light;
+    frame.mean[p] = 500.0 + stepDn * signal;
     frame.variance[p] = noiseDn2 + (isEdge ? shiftVariance * stepDn * stepDn : 0.0);
   }
   frame.neighbourMean = ComputeNeighbourMean(frame, SerialFor);

@@ -21,7 +21,7 @@ using namespace sensornoise::test;
 namespace
 {
 constexpr std::size_t Size = 192;
-constexpr double      Freedom = 39.0;
+constexpr double      Dof = 39.0;
 
 /** Function that returns the addition to the variance [DN^2] of a pixel with the level \a meanDn at (x, y), in units of
  * the size of the frame. */
@@ -40,7 +40,7 @@ FrameWith(const Excess & excess, std::size_t size = Size)
   truth.vibrationYPixels2 = 0.003;
   ReferenceFrame            frame = SyntheticFrames(size, size, std::vector<FrameChange>(40)).reference;
   std::mt19937              random(5);
-  std::gamma_distribution<> gamma(0.5 * Freedom, 2.0);
+  std::gamma_distribution<> gamma(0.5 * Dof, 2.0);
   const auto &              stencils = MotionStencils();
   for (std::size_t p = 0; p < frame.mean.size(); ++p)
   {
@@ -51,7 +51,7 @@ FrameWith(const Excess & excess, std::size_t size = Size)
       const double gx = ApplyStencil(stencils[StencilX], frame.mean.data(), size, p);
       const double gy = ApplyStencil(stencils[StencilY], frame.mean.data(), size, p);
       const double variance = truth.RawVariance(frame.neighbourMean[p], gx, gy) + excess(x, y, frame.mean[p]);
-      frame.variance[p] = gamma(random) * variance / Freedom;
+      frame.variance[p] = gamma(random) * variance / Dof;
     }
   }
   return frame;
@@ -72,7 +72,7 @@ Hidden(double meanDn)
 
 /** Returns the fraction of the pixels between two heights that are in the region. */
 double
-ShareOfRows(const std::vector<std::uint8_t> & region, double top, double bottom)
+FractionOfRows(const std::vector<std::uint8_t> & region, double top, double bottom)
 {
   const auto size = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(region.size()))));
   double     count = 0.0;
@@ -92,15 +92,15 @@ TEST(SensorNoiseTransientRegion, StaticSceneHasNone)
   EXPECT_TRUE(FindIn(FrameWith([](double, double, double) { return 0.0; })).empty());
 }
 
-TEST(SensorNoiseTransientRegion, IsFoundWhereMostOfTheFrameIsCrossed)
+TEST(SensorNoiseTransientRegion, IsFoundWhereItCoversMostOfTheFrame)
 {
   for (const double top : { 1.0 / 3.0, 0.25, 0.5 })
   {
     const auto region =
       FindIn(FrameWith([top](double, double y, double mean) { return y >= top ? Hidden(mean) : 0.0; }));
     ASSERT_FALSE(region.empty()) << top;
-    EXPECT_EQ(ShareOfRows(region, top, 1.0), 1.0) << top;
-    EXPECT_LT(ShareOfRows(region, 0.0, top - 2.0 / 24.0), 0.05) << top; // the tiles beside the region
+    EXPECT_EQ(FractionOfRows(region, top, 1.0), 1.0) << top;
+    EXPECT_LT(FractionOfRows(region, 0.0, top - 2.0 / 24.0), 0.05) << top; // the tiles beside the region
   }
 }
 
@@ -111,7 +111,7 @@ TEST(SensorNoiseTransientRegion, ThingAsBrightAsWhatItHidesLeavesNoIslands)
     return y >= 1.0 / 3.0 && !isIsland ? Hidden(mean) : 0.0;
   }));
   ASSERT_FALSE(region.empty());
-  EXPECT_EQ(ShareOfRows(region, 1.0 / 3.0, 1.0), 1.0);
+  EXPECT_EQ(FractionOfRows(region, 1.0 / 3.0, 1.0), 1.0);
 }
 
 TEST(SensorNoiseTransientRegion, VerdictDoesNotDependOnTheNumberOfPixels)
@@ -121,18 +121,18 @@ TEST(SensorNoiseTransientRegion, VerdictDoesNotDependOnTheNumberOfPixels)
     const auto region =
       FindIn(FrameWith([](double, double y, double mean) { return y >= 1.0 / 3.0 ? Hidden(mean) : 0.0; }, size));
     ASSERT_FALSE(region.empty()) << size;
-    EXPECT_EQ(ShareOfRows(region, 1.0 / 3.0, 1.0), 1.0) << size;
-    EXPECT_LT(ShareOfRows(region, 0.0, 1.0 / 3.0 - 0.17), 0.05) << size; // two tiles of 12 in the small frame
+    EXPECT_EQ(FractionOfRows(region, 1.0 / 3.0, 1.0), 1.0) << size;
+    EXPECT_LT(FractionOfRows(region, 0.0, 1.0 / 3.0 - 0.17), 0.05) << size; // two tiles of 12 in the small frame
     EXPECT_TRUE(FindIn(FrameWith([](double, double, double) { return 0.0; }, size)).empty()) << size;
   }
 }
 
-TEST(SensorNoiseTransientRegion, LightThatDiffersOverTheFrameIsNone)
+TEST(SensorNoiseTransientRegion, LocalIlluminationIsNoMovingObject)
 {
   // A third of the frame has steady illumination, the rest flickers by 9 %.
   EXPECT_TRUE(FindIn(FrameWith([](double, double y, double mean) {
-                const double light = mean - 300.0;
-                return y >= 1.0 / 3.0 ? 0.0081 * light * light : 0.0;
+                const double signal = mean - 300.0;
+                return y >= 1.0 / 3.0 ? 0.0081 * signal * signal : 0.0;
               }))
                 .empty());
 }
@@ -145,7 +145,7 @@ TEST(SensorNoiseTransientRegion, SmallThingsAreLeftToTheLaterPasses)
                 .empty());
 }
 
-TEST(SensorNoiseTransientRegion, FrameOfWhichLittleIsStillIsLeftAlone)
+TEST(SensorNoiseTransientRegion, MostlyMovingFrameIsNotMasked)
 {
   // A corner of 6 % is static; half of it is not next to moving pixels.
   EXPECT_TRUE(FindIn(FrameWith([](double x, double y, double mean) {

@@ -60,7 +60,7 @@ struct Cells
 };
 } // namespace
 
-TEST(SensorNoiseVarianceTiles, AreJudgedByTheirMedianAndByCrowdsFarAbove)
+TEST(SensorNoiseVarianceTiles, AreTestedByTheirMedianAndByCrowdsFarAbove)
 {
   Cells input;
   input.ForCell(1, 0, [&](std::size_t p) { input.sample.raw[p] *= 1.5; });
@@ -71,29 +71,29 @@ TEST(SensorNoiseVarianceTiles, AreJudgedByTheirMedianAndByCrowdsFarAbove)
   const VarianceTiles cells = input.Make();
   ASSERT_EQ(cells.Columns(), 8u);
   ASSERT_EQ(cells.Rows(), 4u);
-  const TileComparison judged = cells.Judge(input.prediction);
-  EXPECT_EQ(judged.fits[0], CellFit::Fits);
-  EXPECT_EQ(judged.fits[1], CellFit::Above);
-  EXPECT_EQ(judged.fits[2], CellFit::Below);
-  EXPECT_EQ(judged.fits[3], CellFit::Fits);
-  EXPECT_EQ(judged.fits[8 + 4], CellFit::Above);
-  EXPECT_EQ(judged.fits[8 + 5], CellFit::Fits);
-  EXPECT_DOUBLE_EQ(judged.above, 2.0 / 32.0);
-  EXPECT_DOUBLE_EQ(judged.below, 1.0 / 32.0);
-  EXPECT_DOUBLE_EQ(judged.fitting, 29.0 / 32.0);
+  const TileComparison comparison = cells.Compare(input.prediction);
+  EXPECT_EQ(comparison.fits[0], CellFit::Fits);
+  EXPECT_EQ(comparison.fits[1], CellFit::Above);
+  EXPECT_EQ(comparison.fits[2], CellFit::Below);
+  EXPECT_EQ(comparison.fits[3], CellFit::Fits);
+  EXPECT_EQ(comparison.fits[8 + 4], CellFit::Above);
+  EXPECT_EQ(comparison.fits[8 + 5], CellFit::Fits);
+  EXPECT_DOUBLE_EQ(comparison.above, 2.0 / 32.0);
+  EXPECT_DOUBLE_EQ(comparison.below, 1.0 / 32.0);
+  EXPECT_DOUBLE_EQ(comparison.fitting, 29.0 / 32.0);
 }
 
-TEST(SensorNoiseVarianceTiles, FewPixelsTellNothing)
+TEST(SensorNoiseVarianceTiles, FewPixelsAreNotTested)
 {
   Cells input;
   input.pixels.resize(7); // all in the first tile
   input.sample.raw.resize(7);
-  const TileComparison judged = input.Make().Judge(input.prediction);
-  EXPECT_EQ(judged.fits, std::vector<CellFit>(32, CellFit::Unknown));
-  EXPECT_EQ(judged.fitting + judged.below + judged.above, 0.0);
+  const TileComparison comparison = input.Make().Compare(input.prediction);
+  EXPECT_EQ(comparison.fits, std::vector<CellFit>(32, CellFit::Unknown));
+  EXPECT_EQ(comparison.fitting + comparison.below + comparison.above, 0.0);
 }
 
-TEST(SensorNoiseVarianceTiles, LightChangesPixelsInProportionToTheirLevel)
+TEST(SensorNoiseVarianceTiles, IlluminationChangesPixelsInProportionToTheirSignal)
 {
   Cells      input;
   const auto levelOf = [&](std::size_t p) { return 100.0 * input.sample.TermsOf(p)(1); };
@@ -103,15 +103,15 @@ TEST(SensorNoiseVarianceTiles, LightChangesPixelsInProportionToTheirLevel)
   input.ForCell(
     2, 2, [&](std::size_t p) { input.sample.raw[p] += 0.04 * (100.0 - levelOf(p)) * (100.0 - levelOf(p)); });
   const VarianceTiles cells = input.Make();
-  TileComparison      judged = cells.Judge(input.prediction);
+  TileComparison      comparison = cells.Compare(input.prediction);
   for (const std::size_t c : { 0, 1, 18 })
   {
-    EXPECT_EQ(judged.fits[c], CellFit::Above) << c;
+    EXPECT_EQ(comparison.fits[c], CellFit::Above) << c;
   }
-  EXPECT_DOUBLE_EQ(cells.FindLight(judged, input.prediction, 2.5).explained, 2.0 / 3.0);
-  judged.fits[18] = CellFit::Unknown;
-  judged.fits[1] = CellFit::Unknown;
-  const IlluminationTest light = cells.FindLight(judged, input.prediction, 2.5);
-  EXPECT_EQ(light.explained, 1.0);
-  EXPECT_NEAR(light.modulation, 0.2, 0.01); // the median agrees with the mean within 1 %
+  EXPECT_DOUBLE_EQ(cells.TestIllumination(comparison, input.prediction, 2.5).explained, 2.0 / 3.0);
+  comparison.fits[18] = CellFit::Unknown;
+  comparison.fits[1] = CellFit::Unknown;
+  const IlluminationTest illumination = cells.TestIllumination(comparison, input.prediction, 2.5);
+  EXPECT_EQ(illumination.explained, 1.0);
+  EXPECT_NEAR(illumination.modulation, 0.2, 0.01); // the median agrees with the mean within 1 %
 }

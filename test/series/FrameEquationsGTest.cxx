@@ -117,9 +117,9 @@ TEST(SensorNoiseFrameEquations, EqualsDenseWeightedLeastSquares)
       const Eigen::VectorXd expected = DenseFit(NoisyFrames(), NoisySums(), equations.active, lastClass, t);
       const auto            row = static_cast<Eigen::Index>(t);
       const Eigen::VectorXd all = equations.gram.ldlt().solve(equations.right.row(row).transpose());
-      const Eigen::Vector2d light = equations.light.ldlt().solve(equations.response.row(row).transpose());
+      const Eigen::Vector2d illumination = equations.illumination.ldlt().solve(equations.response.row(row).transpose());
       EXPECT_LT((all - expected).norm(), 1e-9 * expected.norm()) << t;
-      EXPECT_LT((light - expected.head<2>()).norm(), 1e-9 * expected.norm()) << t;
+      EXPECT_LT((illumination - expected.head<2>()).norm(), 1e-9 * expected.norm()) << t;
     }
   }
 }
@@ -144,13 +144,13 @@ TEST(SensorNoiseFrameEquations, FindsWhatNoiseFreeFramesAreMadeOf)
   }
 }
 
-TEST(SensorNoiseFrameEquations, MotionIsPartialledOutOfTheLight)
+TEST(SensorNoiseFrameEquations, MotionIsPartialledOutOfTheIllumination)
 {
   // The Schur complement is the inverse of the block of the illumination in the inverse matrix.
   const FrameEquations equations = MakeFrameEquations(NoisySums(), SomeNoise(), LastClass);
   ASSERT_GT(equations.active.size(), 2u);
   const Eigen::Matrix2d expected = equations.gram.inverse().topLeftCorner<2, 2>().inverse();
-  EXPECT_LT((equations.light - expected).norm(), 1e-9 * expected.norm());
+  EXPECT_LT((equations.illumination - expected).norm(), 1e-9 * expected.norm());
 }
 
 TEST(SensorNoiseFrameEquations, NoiseOfTheRegressorsIsTakenOffTheGramMatrix)
@@ -237,7 +237,7 @@ TEST(SensorNoiseFrameEquations, MotionThatIsLostInTheNoiseOfTheMeanIsNotActive)
   EXPECT_EQ(equations.Find(1), 1u);
 }
 
-TEST(SensorNoiseFrameEquations, OneIntensityLeavesTheLightAlone)
+TEST(SensorNoiseFrameEquations, OneIntensityLeavesTheIlluminationUnchanged)
 {
   // No derivative is active, and the mean is a multiple of 1: there is nothing to eliminate.
   const std::size_t         pixels = Width * Height;
@@ -256,6 +256,6 @@ TEST(SensorNoiseFrameEquations, OneIntensityLeavesTheLightAlone)
   const FrameEquations equations = MakeFrameEquations(sums, {}, LastClass);
   EXPECT_EQ(equations.active, (std::vector<std::size_t>{ 0, 1 }));
   // The regressors 1 and mean - centre are 1 and 300.
-  EXPECT_NEAR(equations.light.determinant(), 0.0, 1e-12 * equations.light.squaredNorm());
-  EXPECT_NEAR(equations.light(0, 1), 300.0 * equations.light(0, 0), 1e-9 * equations.light(0, 1));
+  EXPECT_NEAR(equations.illumination.determinant(), 0.0, 1e-12 * equations.illumination.squaredNorm());
+  EXPECT_NEAR(equations.illumination(0, 1), 300.0 * equations.illumination(0, 0), 1e-9 * equations.illumination(0, 1));
 }

@@ -26,8 +26,8 @@ LineWithSteps(const std::map<Eigen::Index, double> & steps, double flicker = 0.0
   std::normal_distribution<> normal;
   OffsetLine                 line;
   line.contrast = 1.0;
-  line.light << 25.0, 1000.0, 1000.0, 25.0 * 250.0 * 250.0;
-  const Eigen::Matrix2d factor = line.light.llt().matrixL();
+  line.illumination << 25.0, 1000.0, 1000.0, 25.0 * 250.0 * 250.0;
+  const Eigen::Matrix2d factor = line.illumination.llt().matrixL();
   line.response.resize(Frames, 2);
   for (Eigen::Index t = 0; t < Frames; ++t)
   {
@@ -35,7 +35,7 @@ LineWithSteps(const std::map<Eigen::Index, double> & steps, double flicker = 0.0
     const auto            step = steps.find(t);
     const Eigen::Vector2d change(-Offset * gamma + (step == steps.end() ? 0.0 : step->second), gamma);
     const Eigen::Vector2d noise(normal(random), normal(random));
-    line.response.row(t) = (line.light * change + factor * noise).transpose();
+    line.response.row(t) = (line.illumination * change + factor * noise).transpose();
   }
   return line;
 }
@@ -81,7 +81,7 @@ TEST(SensorNoiseFrameOffsets, BelowTheStepThatCountsAreOfTheBurst)
   EXPECT_TRUE(FindFrameOffsets(LineWithSteps({ { 7, 20.0 } }), Possible, 30.0).unlike.empty());
 }
 
-TEST(SensorNoiseFrameOffsets, AreNotToldFromMotionOrWithoutLevels)
+TEST(SensorNoiseFrameOffsets, AreNotIdentifiableUnderMotionOrWithoutLevels)
 {
   OffsetLine line = LineWithSteps({ { 7, 40.0 } });
   ASSERT_EQ(Find(line).unlike.size(), 1U);

@@ -38,7 +38,7 @@ Normal(std::size_t seed)
 }
 
 /** Flicker of 5 %, and two lamps that illuminate the left and the lower part. */
-struct Lights
+struct Factors
 {
   Eigen::VectorXd flicker = 0.05 * Normal(1);
   Eigen::VectorXd left = Normal(2);
@@ -47,12 +47,12 @@ struct Lights
 
 LocalIllumination
 Find(const SyntheticFrames & frames,
-     const Lights &          lights,
+     const Factors &         factors,
      std::size_t             most = Most,
      const Eigen::MatrixXd & motion = {})
 {
   const FrameSums           sums = frames.Sums();
-  const std::vector<double> gamma(lights.flicker.data(), lights.flicker.data() + Frames);
+  const std::vector<double> gamma(factors.flicker.data(), factors.flicker.data() + Frames);
   const double              offset = Offset - sums.GetRegressors().GetModel().centreDn;
   const FrameEquations      equations = MakeFrameEquations(sums, {}, GradientClasses - 1);
   const MotionSeries        series = SolveMotion(equations, gamma, offset);
@@ -62,12 +62,12 @@ Find(const SyntheticFrames & frames,
 
 /** Returns frames with flicker, noise, and lamps of a relative size. */
 SyntheticFrames
-Lit(const Lights & lights, double lamps)
+Lit(const Factors & factors, double amplitude)
 {
   std::vector<FrameChange> changes(Frames);
   for (std::size_t t = 0; t < Frames; ++t)
   {
-    changes[t].slope = lights.flicker(static_cast<Eigen::Index>(t));
+    changes[t].slope = factors.flicker(static_cast<Eigen::Index>(t));
     changes[t].level = -Offset * changes[t].slope;
   }
   SyntheticFrames frames(Width, Height, changes, 1.0);
@@ -77,8 +77,8 @@ Lit(const Lights & lights, double lamps)
     const std::size_t p = i % frames.Pixels();
     const double      x = static_cast<double>(p % Width) / Width;
     const double      y = static_cast<double>(p / Width) / Height;
-    const double      light = lights.left(t) * (0.5 - x) + lights.below(t) * std::cos(6.0 * y);
-    frames.pixels[i] += lamps * light * (frames.reference.mean[p] - Offset);
+    const double      illumination = factors.left(t) * (0.5 - x) + factors.below(t) * std::cos(6.0 * y);
+    frames.pixels[i] += amplitude * illumination * (frames.reference.mean[p] - Offset);
   }
   return frames;
 }
@@ -93,18 +93,18 @@ Unexplained(const Eigen::VectorXd & series, const Eigen::MatrixXd & columns)
 }
 } // namespace
 
-TEST(SensorNoiseLocalIllumination, TwoPlantedLampsAreFound)
+TEST(SensorNoiseLocalIllumination, TwoSimulatedSourcesAreFound)
 {
-  const Lights lights;
-  const auto   found = Find(Lit(lights, 0.01), lights);
+  const Factors factors;
+  const auto    found = Find(Lit(factors, 0.01), factors);
   ASSERT_EQ(found.series.cols(), 2);
   EXPECT_EQ(found.series.rows(), static_cast<Eigen::Index>(Frames));
   EXPECT_GT(found.excess, 2.0);
   // The components of the lamps are found within the noise, together with the global flicker.
   Eigen::MatrixXd columns(Frames, 3);
-  columns << lights.flicker, found.series;
-  EXPECT_LT(Unexplained(lights.left, columns), 0.01);
-  EXPECT_LT(Unexplained(lights.below, columns), 0.01);
+  columns << factors.flicker, found.series;
+  EXPECT_LT(Unexplained(factors.left, columns), 0.01);
+  EXPECT_LT(Unexplained(factors.below, columns), 0.01);
   EXPECT_GT(Unexplained(Normal(99), columns), 0.5);
 }
 
@@ -112,9 +112,9 @@ TEST(SensorNoiseLocalIllumination, NothingIsFoundInNoise)
 {
   for (std::size_t seed = 1; seed <= 10; ++seed)
   {
-    Lights lights;
-    lights.flicker = 0.05 * Normal(100 * seed);
-    const auto found = Find(Lit(lights, 0.0), lights);
+    Factors factors;
+    factors.flicker = 0.05 * Normal(100 * seed);
+    const auto found = Find(Lit(factors, 0.0), factors);
     EXPECT_EQ(found.series.cols(), 0) << seed;
     EXPECT_LT(found.excess, 1.0) << seed;
     EXPECT_GT(found.excess, 0.5) << seed; // the edge of the noise is measured, not only bounded
@@ -122,17 +122,17 @@ TEST(SensorNoiseLocalIllumination, NothingIsFoundInNoise)
 }
 
 // Bright frames have more noise than dark frames. This is not taken for a second lamp, and does not hide one.
-TEST(SensorNoiseLocalIllumination, StrongChangesOfIlluminationAreNoLocalLight)
+TEST(SensorNoiseLocalIllumination, StrongChangesOfIlluminationAreNotLocal)
 {
-  Lights lights;
-  for (Eigen::Index t = 0; t < lights.flicker.size(); ++t)
+  Factors factors;
+  for (Eigen::Index t = 0; t < factors.flicker.size(); ++t)
   {
-    lights.flicker(t) = t % 4 == 3 ? 2.12 : -0.68;
+    factors.flicker(t) = t % 4 == 3 ? 2.12 : -0.68;
   }
-  lights.flicker.array() -= lights.flicker.mean();
-  for (const double lamps : { 0.0, 0.02 })
+  factors.flicker.array() -= factors.flicker.mean();
+  for (const double amplitude : { 0.0, 0.02 })
   {
-    SyntheticFrames            frames = Lit(lights, lamps);
+    SyntheticFrames            frames = Lit(factors, amplitude);
     std::mt19937               random(5);
     std::normal_distribution<> normal;
     for (std::size_t i = 0; i < frames.pixels.size(); ++i)
@@ -140,43 +140,43 @@ TEST(SensorNoiseLocalIllumination, StrongChangesOfIlluminationAreNoLocalLight)
       // Adds the missing noise of the frame to the variance 30 + 0.5 (mean - darkest). For dark frames none is removed.
       const auto   t = static_cast<Eigen::Index>(i / frames.Pixels());
       const double signal = frames.reference.mean[i % frames.Pixels()] - Offset;
-      frames.pixels[i] += std::sqrt(0.5 * (1.0 + lights.flicker(t)) * signal) * normal(random);
+      frames.pixels[i] += std::sqrt(0.5 * (1.0 + factors.flicker(t)) * signal) * normal(random);
     }
-    EXPECT_EQ(Find(frames, lights).series.cols(), lamps > 0.0 ? 2 : 0) << lamps;
+    EXPECT_EQ(Find(frames, factors).series.cols(), amplitude > 0.0 ? 2 : 0) << amplitude;
   }
 }
 
 TEST(SensorNoiseLocalIllumination, NoMoreSeriesThanAskedForTheStrongestFirst)
 {
-  Lights lights;
-  lights.below *= 0.3;
-  const auto frames = Lit(lights, 0.02);
-  const auto found = Find(frames, lights, 1);
+  Factors factors;
+  factors.below *= 0.3;
+  const auto frames = Lit(factors, 0.02);
+  const auto found = Find(frames, factors, 1);
   ASSERT_EQ(found.series.cols(), 1);
   Eigen::MatrixXd columns(Frames, 2);
-  columns << lights.flicker, found.series;
-  EXPECT_LT(Unexplained(lights.left, columns), Unexplained(lights.below, columns));
-  EXPECT_EQ(Find(frames, lights, 0).series.cols(), 0);
+  columns << factors.flicker, found.series;
+  EXPECT_LT(Unexplained(factors.left, columns), Unexplained(factors.below, columns));
+  EXPECT_EQ(Find(frames, factors, 0).series.cols(), 0);
 }
 
-TEST(SensorNoiseLocalIllumination, WhatResemblesMotionIsNotLight)
+TEST(SensorNoiseLocalIllumination, ComponentsThatResembleMotionAreNotIllumination)
 {
-  const Lights    lights;
+  const Factors   factors;
   Eigen::MatrixXd motion(Frames, 2);
-  motion << lights.left, lights.below;
-  EXPECT_EQ(Find(Lit(lights, 0.01), lights, Most, motion).series.cols(), 0);
+  motion << factors.left, factors.below;
+  EXPECT_EQ(Find(Lit(factors, 0.01), factors, Most, motion).series.cols(), 0);
 }
 
 TEST(SensorNoiseLocalIllumination, ShortBurstsAndFewCellsGiveNothing)
 {
-  const Lights             lights;
+  const Factors            factors;
   std::vector<FrameChange> changes(5);
   const SyntheticFrames    burst(Width, Height, changes, 1.0);
   const FrameSums          sums = burst.Sums();
-  MotionSeries             still;
-  still.coefficients.resize(5, 0);
+  MotionSeries             noMotion;
+  noMotion.coefficients.resize(5, 0);
   const auto none = FindLocalIllumination(sums,
-                                          still,
+                                          noMotion,
                                           Eigen::MatrixXd(5, 0),
                                           std::vector<double>(5, 0.0),
                                           Offset - sums.GetRegressors().GetModel().centreDn,

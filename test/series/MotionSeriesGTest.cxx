@@ -93,7 +93,7 @@ TEST(SensorNoiseMotionSeries, MotionOfNoiseFreeFramesIsFound)
   }
 }
 
-TEST(SensorNoiseMotionSeries, MotionIsTheDenseFitOnceTheLightIsTakenOff)
+TEST(SensorNoiseMotionSeries, MotionIsTheDenseFitWithoutTheIllumination)
 {
   const Fit         fit(1.0);
   const auto        size = static_cast<Eigen::Index>(fit.motion.stencils.size());
@@ -176,13 +176,13 @@ TEST(SensorNoiseMotionSeries, TheCovarianceOfTheShiftsHoldsTheNoiseOfTheFlicker)
   const FrameEquations  equations = MakeFrameEquations(sums, {}, GradientClasses - 1);
   const auto            line = FitOffsetLine(equations);
   ASSERT_TRUE(line);
-  OffsetLine light = *line;
-  light.UseOffset(OffsetDn - sums.GetRegressors().GetModel().centreDn);
+  OffsetLine illumination = *line;
+  illumination.UseOffset(OffsetDn - sums.GetRegressors().GetModel().centreDn);
   const double       offset = OffsetDn - sums.GetRegressors().GetModel().centreDn;
-  const MotionSeries motion = SolveMotion(equations, light.gamma, offset);
+  const MotionSeries motion = SolveMotion(equations, illumination.gamma, offset);
   const double       black = noise.model.interceptDn2 - noise.model.slopeDn * noise.model.darkestDn;
   const auto         ofInstruments = sums.NoiseOfInstruments(noise.model.slopeDn, black);
-  const auto         shifts = SolveShifts(sums, equations, motion, ofInstruments, light.gamma, offset);
+  const auto         shifts = SolveShifts(sums, equations, motion, ofInstruments, illumination.gamma, offset);
   ASSERT_TRUE(shifts);
   for (const Eigen::Index axis : { 0, 1 })
   {
@@ -192,7 +192,7 @@ TEST(SensorNoiseMotionSeries, TheCovarianceOfTheShiftsHoldsTheNoiseOfTheFlicker)
   }
 }
 
-TEST(SensorNoiseMotionSeries, NoiseThatInstrumentsShareWithTheRegressorsIsTakenOff)
+TEST(SensorNoiseMotionSeries, CommonNoiseOfInstrumentsAndRegressorsIsSubtracted)
 {
   // White noise of variance V / T in the mean adds V / T times the product of the weights of the smoothed and the plain
   // derivative to their Gram matrix. The weights of the smoothed derivative are its response to an impulse.

@@ -19,20 +19,20 @@ namespace
 {
 /** Returns equations without motion: response = light (a_t, d_t)' + noise with the covariance `light`. */
 FrameEquations
-LightOf(std::size_t frames, double offset, double flicker, double noise, double drift = 0.0)
+EquationsOf(std::size_t frames, double offset, double flicker, double noise, double drift = 0.0)
 {
   std::mt19937               random(31);
   std::normal_distribution<> normal;
   FrameEquations             equations;
-  equations.light << 4000.0, 90000.0, 90000.0, 9e6;
-  const Eigen::Matrix2d factor = equations.light.llt().matrixL();
+  equations.illumination << 4000.0, 90000.0, 90000.0, 9e6;
+  const Eigen::Matrix2d factor = equations.illumination.llt().matrixL();
   equations.response.resize(static_cast<Eigen::Index>(frames), 2);
   for (Eigen::Index t = 0; t < equations.response.rows(); ++t)
   {
     const double          gamma = flicker * normal(random);
     const Eigen::Vector2d change(-offset * gamma + drift * normal(random), gamma);
     const Eigen::Vector2d white(normal(random), normal(random));
-    equations.response.row(t) = equations.light * change + noise * factor * white;
+    equations.response.row(t) = equations.illumination * change + noise * factor * white;
   }
   return equations;
 }
@@ -47,7 +47,7 @@ Profile(const FrameEquations & equations, double m)
   {
     sum += std::pow(v.dot(equations.response.row(t)), 2);
   }
-  return sum / v.dot(equations.light * v);
+  return sum / v.dot(equations.illumination * v);
 }
 
 /** Returns the maximiser of J, from a grid that is refined step by step. */
@@ -79,7 +79,7 @@ BruteForceMaximum(const FrameEquations & equations)
 
 TEST(SensorNoiseOffsetLine, ExactLineIsRecovered)
 {
-  const FrameEquations equations = LightOf(30, 250.0, 0.05, 0.0);
+  const FrameEquations equations = EquationsOf(30, 250.0, 0.05, 0.0);
   const auto           line = FitOffsetLine(equations);
   ASSERT_TRUE(line);
   EXPECT_NEAR(line->offset, 250.0, 1e-7);
@@ -88,7 +88,7 @@ TEST(SensorNoiseOffsetLine, ExactLineIsRecovered)
   for (Eigen::Index t = 0; t < 30; ++t)
   {
     // response = light (-mu, 1)' gamma_t
-    const Eigen::Vector2d own = equations.light.ldlt().solve(equations.response.row(t).transpose());
+    const Eigen::Vector2d own = equations.illumination.ldlt().solve(equations.response.row(t).transpose());
     EXPECT_NEAR(line->gamma[static_cast<std::size_t>(t)], own(1), 1e-10);
   }
 }
@@ -97,7 +97,7 @@ TEST(SensorNoiseOffsetLine, OffsetMaximisesTheProfileLikelihood)
 {
   for (const double flicker : { 0.001, 0.02 })
   {
-    const FrameEquations equations = LightOf(25, -40.0, flicker, 1.0, 0.05);
+    const FrameEquations equations = EquationsOf(25, -40.0, flicker, 1.0, 0.05);
     const auto           line = FitOffsetLine(equations);
     ASSERT_TRUE(line);
     // The maximum is flat: the maximiser is known within the root of the precision of J.
@@ -113,7 +113,7 @@ TEST(SensorNoiseOffsetLine, IntervalIsWhereTheProfileIsHighEnough)
 {
   for (const double drift : { 0.0, 0.5 }) // a drift makes phi much larger than 1
   {
-    const FrameEquations equations = LightOf(40, 100.0, 0.02, 1.0, drift);
+    const FrameEquations equations = EquationsOf(40, 100.0, 0.02, 1.0, drift);
     const auto           line = FitOffsetLine(equations);
     ASSERT_TRUE(line);
     EXPECT_EQ(line->phi > 2.0, drift > 0.0) << line->phi;
@@ -134,11 +134,11 @@ TEST(SensorNoiseOffsetLine, DispersionIsWhatTheLineLeaves)
 {
   for (const double drift : { 0.0, 0.5 })
   {
-    const FrameEquations equations = LightOf(40, 100.0, 0.02, 1.0, drift);
+    const FrameEquations equations = EquationsOf(40, 100.0, 0.02, 1.0, drift);
     const auto           line = FitOffsetLine(equations);
     ASSERT_TRUE(line);
     // sum_t r' G^-1 r is the fit with free a_t and d_t, and J(m) is the fit with the line.
-    const double all = (equations.response * equations.light.inverse() * equations.response.transpose()).trace();
+    const double all = (equations.response * equations.illumination.inverse() * equations.response.transpose()).trace();
     EXPECT_NEAR(line->phi, (all - Profile(equations, line->offset)) / 38.0, 1e-9 * all) << drift;
   }
 }
@@ -146,8 +146,8 @@ TEST(SensorNoiseOffsetLine, DispersionIsWhatTheLineLeaves)
 TEST(SensorNoiseOffsetLine, IntervalIsUnboundedWhereNoDirectionStandsOut)
 {
   // Noise alone, with the same strength in every direction: J(m) is constant.
-  FrameEquations        equations = LightOf(40, 100.0, 0.0, 1.0);
-  const Eigen::Matrix2d factor = equations.light.llt().matrixL();
+  FrameEquations        equations = EquationsOf(40, 100.0, 0.0, 1.0);
+  const Eigen::Matrix2d factor = equations.illumination.llt().matrixL();
   for (Eigen::Index t = 0; t < 40; ++t)
   {
     const double angle = 6.2831853071795865 * static_cast<double>(t) / 40.0;
@@ -157,20 +157,20 @@ TEST(SensorNoiseOffsetLine, IntervalIsUnboundedWhereNoDirectionStandsOut)
   ASSERT_TRUE(line);
   EXPECT_TRUE(std::isinf(line->low) && line->low < 0.0);
   EXPECT_TRUE(std::isinf(line->high) && line->high > 0.0);
-  EXPECT_LT(FitOffsetLine(LightOf(40, 100.0, 0.0, 1.0))->flickerZ, 6.0);
-  EXPECT_GT(FitOffsetLine(LightOf(40, 100.0, 0.02, 1.0))->flickerZ, 6.0);
+  EXPECT_LT(FitOffsetLine(EquationsOf(40, 100.0, 0.0, 1.0))->flickerZ, 6.0);
+  EXPECT_GT(FitOffsetLine(EquationsOf(40, 100.0, 0.02, 1.0))->flickerZ, 6.0);
 }
 
 TEST(SensorNoiseOffsetLine, FollowsTheUnitsAndTheLevel)
 {
   // mean -> mean + b: the regressors are (1, I + b). Matrix and responses of the illumination change by B = (1 0; b 1),
   // the offset by b.
-  const FrameEquations equations = LightOf(30, 100.0, 0.02, 1.0);
+  const FrameEquations equations = EquationsOf(30, 100.0, 0.02, 1.0);
   const auto           line = FitOffsetLine(equations);
   Eigen::Matrix2d      b;
   b << 1.0, 0.0, 700.0, 1.0;
   FrameEquations moved = equations;
-  moved.light = b * equations.light * b.transpose();
+  moved.illumination = b * equations.illumination * b.transpose();
   moved.response = equations.response * b.transpose();
   const auto shifted = FitOffsetLine(moved);
   ASSERT_TRUE(line && shifted);
@@ -186,10 +186,10 @@ TEST(SensorNoiseOffsetLine, FollowsTheUnitsAndTheLevel)
 
 TEST(SensorNoiseOffsetLine, IsNullIfTheMatrixIsNotPositive)
 {
-  FrameEquations equations = LightOf(30, 100.0, 0.02, 1.0);
-  equations.light << 1.0, 2.0, 2.0, 4.0 - 1e-9; // pixels of one intensity
+  FrameEquations equations = EquationsOf(30, 100.0, 0.02, 1.0);
+  equations.illumination << 1.0, 2.0, 2.0, 4.0 - 1e-9; // pixels of one intensity
   EXPECT_FALSE(FitOffsetLine(equations));
-  equations = LightOf(30, 100.0, 0.02, 1.0);
+  equations = EquationsOf(30, 100.0, 0.02, 1.0);
   equations.response(3, 1) = std::nan("");
   EXPECT_FALSE(FitOffsetLine(equations));
 }
@@ -205,7 +205,7 @@ TEST(SensorNoiseOffsetLine, FramesWithMotionLieOnOneLine)
   EXPECT_LT(line->lastClass, GradientClasses);
 }
 
-TEST(SensorNoiseOffsetLine, RampTellsTheFlickerWhateverTheLevel)
+TEST(SensorNoiseOffsetLine, RampDeterminesTheFlickerAtAnyLevel)
 {
   // Motion along a ramp changes all levels equally, as an offset does; motion across it changes nothing.
   for (const double across : { 0.0, 0.5, 2.0 })

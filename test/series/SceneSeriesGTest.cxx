@@ -25,7 +25,7 @@ constexpr std::size_t Width = 70;
 constexpr std::size_t Height = 45;
 } // namespace
 
-TEST(SensorNoiseSceneSeries, FlickerTellsTheOffset)
+TEST(SensorNoiseSceneSeries, FlickerDeterminesTheOffset)
 {
   const SyntheticFrames frames(Width, Height, FlickerAndMotion(24, 120.0, 0.3), 1.0);
   const FrameSums       sums = frames.Sums();
@@ -46,7 +46,7 @@ TEST(SensorNoiseSceneSeries, WithoutFlickerTheDarkestLevelServes)
   EXPECT_EQ(series.offset, frames.model.darkestDn - frames.model.centreDn);
 }
 
-TEST(SensorNoiseSceneSeries, OneIntensityTellsTheFlickerAboutAKnownOffset)
+TEST(SensorNoiseSceneSeries, OneIntensityDeterminesTheFlickerAboutAKnownOffset)
 {
   // A flat field of 500 DN whose frames deviate by 2 %. Its gain is identifiable with dark frames.
   std::vector<FrameChange> changes(24);

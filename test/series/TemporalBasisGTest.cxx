@@ -35,12 +35,15 @@ Vector(const Eigen::VectorXd & series)
   return { series.data(), series.data() + series.size() };
 }
 
-/** Returns a basis of a flicker, \a light further components of the illumination, and \a motion components of motion.
+/** Returns a basis of a flicker, \a illumination further components of the illumination, and \a motion components of
+ * motion.
  */
 TemporalBasis
-BasisOf(const Eigen::MatrixXd & series, Eigen::Index light)
+BasisOf(const Eigen::MatrixXd & series, Eigen::Index illumination)
 {
-  return { Vector(series.col(0)), series.middleCols(1, light), series.rightCols(series.cols() - 1 - light) };
+  return { Vector(series.col(0)),
+           series.middleCols(1, illumination),
+           series.rightCols(series.cols() - 1 - illumination) };
 }
 
 Eigen::MatrixXd
@@ -122,15 +125,15 @@ TEST(SensorNoiseTemporalBasis, ToCoordinatesIsTheProjection)
   }
 }
 
-TEST(SensorNoiseTemporalBasis, LightAloneHasTheCoordinatesOfTheWhole)
+TEST(SensorNoiseTemporalBasis, IlluminationPartKeepsTheCoordinates)
 {
   const TemporalBasis basis = BasisOf(Normal(Frames, 9, 3), 2);
-  const TemporalBasis light = basis.OfLight();
-  ASSERT_EQ(light.Size(), 3u);
-  EXPECT_EQ(light.NumberOfIlluminationFactors(), 3u);
-  EXPECT_EQ(light.GetBasis(), basis.GetBasis().leftCols(3));
+  const TemporalBasis illumination = basis.OfIllumination();
+  ASSERT_EQ(illumination.Size(), 3u);
+  EXPECT_EQ(illumination.NumberOfIlluminationFactors(), 3u);
+  EXPECT_EQ(illumination.GetBasis(), basis.GetBasis().leftCols(3));
   const Eigen::VectorXd y = 30.0 * Normal(Frames, 1, 4).array() + 3000.0;
-  EXPECT_EQ(CoordinatesOf(light, y.eval()), CoordinatesOf(basis, y.eval()).head(3).eval());
+  EXPECT_EQ(CoordinatesOf(illumination, y.eval()), CoordinatesOf(basis, y.eval()).head(3).eval());
 }
 
 TEST(SensorNoiseTemporalBasis, ResidualSquaresFromSumsAreThoseOfTheExplicitResiduals)
@@ -175,7 +178,7 @@ TEST(SensorNoiseTemporalBasis, SeriesThatAddNothingAreLeftOut)
   EXPECT_EQ(TemporalBasis().Size(), 0u);
 }
 
-TEST(SensorNoiseTemporalBasis, ShortBurstKeepsTheLightAndEnoughDegreesOfFreedom)
+TEST(SensorNoiseTemporalBasis, ShortBurstKeepsTheIlluminationAndEnoughDof)
 {
   const Eigen::MatrixXd series = Normal(Frames, 30, 14);
   const TemporalBasis   basis = BasisOf(series, 2);

@@ -21,7 +21,7 @@ constexpr std::size_t Pixels = Width * Height;
 
 TEST(SensorNoiseFixedPattern, EfficiencyIsThePixelsTimesTheColumns)
 {
-  SimulationSettings settings = StillSettings('B', 1);
+  SimulationSettings settings = StaticSettings('B', 1);
   EXPECT_TRUE(DrawEfficiency(settings, Width, Height).empty());
   settings.prnuSd = 0.02;
   const auto ofPixels = DrawEfficiency(settings, Width, Height);
@@ -39,7 +39,7 @@ TEST(SensorNoiseFixedPattern, EfficiencyIsThePixelsTimesTheColumns)
 
 TEST(SensorNoiseFixedPattern, OffsetIsThePixelsPlusTheColumns)
 {
-  SimulationSettings settings = StillSettings('B', 1);
+  SimulationSettings settings = StaticSettings('B', 1);
   EXPECT_TRUE(DrawOffsetDn(settings, Width, Height).empty());
   settings.dsnuSdDn = 2.0;
   const auto ofPixels = DrawOffsetDn(settings, Width, Height);
@@ -54,7 +54,7 @@ TEST(SensorNoiseFixedPattern, OffsetIsThePixelsPlusTheColumns)
 
 TEST(SensorNoiseFixedPattern, ReadNoiseIsTheCamerasTimesTheFactors)
 {
-  SimulationSettings settings = StillSettings('B', 1);
+  SimulationSettings settings = StaticSettings('B', 1);
   EXPECT_TRUE(DrawReadNoiseDn(settings, Width, Height).empty());
   settings.hotPixelFraction = 0.2;
   const auto hot = DrawReadNoiseDn(settings, Width, Height);

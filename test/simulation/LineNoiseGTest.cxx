@@ -45,7 +45,7 @@ Collect(const LineNoise & noise, std::size_t frames, std::size_t step, std::size
 }
 } // namespace
 
-TEST(SensorNoiseLineNoise, RowsShareOneNumberAndNeighboursDoNot)
+TEST(SensorNoiseLineNoise, RowsHaveOneNumberAndNeighboursDoNot)
 {
   LineNoiseSettings settings;
   settings.rowNoiseSdDn = 3.0;
@@ -61,7 +61,7 @@ TEST(SensorNoiseLineNoise, RowsShareOneNumberAndNeighboursDoNot)
   EXPECT_NEAR(std::sqrt(moments.variance), 3.0, 5.0 * 3.0 / std::sqrt(2.0 * moments.count));
 }
 
-TEST(SensorNoiseLineNoise, ColumnsShareOneNumber)
+TEST(SensorNoiseLineNoise, ColumnsHaveOneNumber)
 {
   LineNoiseSettings settings;
   settings.columnNoiseSdDn = 2.0;

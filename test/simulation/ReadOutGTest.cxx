@@ -22,7 +22,7 @@ constexpr std::size_t Height = 50;
 SimulationSettings
 PatternedSettings()
 {
-  SimulationSettings settings = StillSettings('A', 1);
+  SimulationSettings settings = StaticSettings('A', 1);
   settings.dsnuSdDn = 3.0;
   settings.hotPixelFraction = 0.02;
   settings.flaws.pattern = { 0.02, 0.01, 0.0, 2.0 };
@@ -60,7 +60,7 @@ TEST(SensorNoiseReadOut, CodeIsOffsetGainAndReadNoiseOfThePixel)
   }
 }
 
-TEST(SensorNoiseReadOut, BentCodeFollowsTheCurve)
+TEST(SensorNoiseReadOut, NonlinearCodeFollowsTheCurve)
 {
   SimulationSettings settings = PatternedSettings();
   settings.flaws.response = { ResponseShape::Quadratic, 0.04, 800.0 };
@@ -113,14 +113,14 @@ TEST(SensorNoiseReadOut, SummaryIsThatOfThePixels)
   EXPECT_NEAR(summary.medianDn, 0.5 * (noiseDn[noiseDn.size() / 2 - 1] + noiseDn[noiseDn.size() / 2]), 1e-12);
   EXPECT_GT(summary.rmsDn, 1.2 * summary.medianDn); // 2 % hot pixels of 10 sigma alone add 100 % in square
   // Without a pattern both are the camera's own.
-  const auto plain = ReadOut(StillSettings('A', 1), Width, Height).SummariseReadNoise();
+  const auto plain = ReadOut(StaticSettings('A', 1), Width, Height).SummariseReadNoise();
   EXPECT_EQ(plain.rmsDn, 15.0);
   EXPECT_EQ(plain.medianDn, 15.0);
 }
 
 TEST(SensorNoiseReadOut, GammaInTheDarkHasTheMomentsOfItsCodes)
 {
-  SimulationSettings settings = StillSettings('B', 1);
+  SimulationSettings settings = StaticSettings('B', 1);
   settings.isDark = true;
   settings.flaws.response = { ResponseShape::Gamma, 2.2 };
   const StackSimulator simulator(std::vector<double>(40000, 1.0), 200, 200, settings);

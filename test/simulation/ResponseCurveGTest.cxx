@@ -13,22 +13,22 @@ using namespace sensornoise;
 
 namespace
 {
-struct Bend
+struct Nonlinearity
 {
   ResponseShape shape;
   double        size;
 };
 
-const std::vector<Bend> Bends{ { ResponseShape::Straight, 0.0 },    { ResponseShape::Quadratic, 0.04 },
-                               { ResponseShape::Quadratic, -0.02 }, { ResponseShape::Wave, 0.04 },
-                               { ResponseShape::Wave, -0.04 },      { ResponseShape::Shoulder, 0.02 },
-                               { ResponseShape::Shoulder, -0.04 },  { ResponseShape::Gamma, 2.2 },
-                               { ResponseShape::SCurve, 0.5 } };
+const std::vector<Nonlinearity> Nonlinearities{ { ResponseShape::Straight, 0.0 },    { ResponseShape::Quadratic, 0.04 },
+                                                { ResponseShape::Quadratic, -0.02 }, { ResponseShape::Wave, 0.04 },
+                                                { ResponseShape::Wave, -0.04 },      { ResponseShape::Shoulder, 0.02 },
+                                                { ResponseShape::Shoulder, -0.04 },  { ResponseShape::Gamma, 2.2 },
+                                                { ResponseShape::SCurve, 0.5 } };
 
 ResponseCurve
-MakeCurve(const Bend & bend)
+MakeCurve(const Nonlinearity & nonlinearity)
 {
-  return ResponseCurve({ bend.shape, bend.size });
+  return ResponseCurve({ nonlinearity.shape, nonlinearity.size });
 }
 
 std::string
@@ -48,10 +48,10 @@ ErrorOf(const ResponseSettings & settings)
 
 TEST(SensorNoiseResponseCurve, SlopeIsTheDerivativeOfTheValue)
 {
-  for (const Bend & bend : Bends)
+  for (const Nonlinearity & nonlinearity : Nonlinearities)
   {
-    SCOPED_TRACE(std::string(NameOf(bend.shape)) + ' ' + std::to_string(bend.size));
-    const ResponseCurve curve = MakeCurve(bend);
+    SCOPED_TRACE(std::string(NameOf(nonlinearity.shape)) + ' ' + std::to_string(nonlinearity.size));
+    const ResponseCurve curve = MakeCurve(nonlinearity);
     for (const double u : { -0.3, 0.05, 0.3, 0.5, 0.55, 0.65, 0.9, 0.99, 1.2 })
     {
       // Central difference of step h: error h^2 / 6 |R'''|, below 2e-8, for R''' is at most 784 (Gamma at 0.05).
@@ -63,18 +63,18 @@ TEST(SensorNoiseResponseCurve, SlopeIsTheDerivativeOfTheValue)
 
 TEST(SensorNoiseResponseCurve, EveryCurveStartsAtZeroAndEndsAtOneButTheShouldersArea)
 {
-  for (const Bend & bend : Bends)
+  for (const Nonlinearity & nonlinearity : Nonlinearities)
   {
-    SCOPED_TRACE(std::string(NameOf(bend.shape)) + ' ' + std::to_string(bend.size));
-    const ResponseCurve curve = MakeCurve(bend);
+    SCOPED_TRACE(std::string(NameOf(nonlinearity.shape)) + ' ' + std::to_string(nonlinearity.size));
+    const ResponseCurve curve = MakeCurve(nonlinearity);
     EXPECT_EQ(curve.Value(0.0), 0.0);
     // The shoulder's slope is 1 + size on 60 % of the range, and on average 1 on the rest.
-    const double end = bend.shape == ResponseShape::Shoulder ? 1.0 + 0.6 * bend.size : 1.0;
+    const double end = nonlinearity.shape == ResponseShape::Shoulder ? 1.0 + 0.6 * nonlinearity.size : 1.0;
     EXPECT_NEAR(curve.Value(1.0), end, 1e-15);
   }
 }
 
-TEST(SensorNoiseResponseCurve, SizeIsTheDepartureOfTheLocalGain)
+TEST(SensorNoiseResponseCurve, SizeIsTheDeviationOfTheLocalGain)
 {
   const ResponseCurve quadratic({ ResponseShape::Quadratic, 0.04 });
   EXPECT_NEAR(quadratic.Slope(0.0), 1.04, 1e-15);
@@ -97,10 +97,10 @@ TEST(SensorNoiseResponseCurve, SizeIsTheDepartureOfTheLocalGain)
 
 TEST(SensorNoiseResponseCurve, BeyondItsEndsACurveIsStraight)
 {
-  for (const Bend & bend : Bends)
+  for (const Nonlinearity & nonlinearity : Nonlinearities)
   {
-    SCOPED_TRACE(NameOf(bend.shape));
-    const ResponseCurve curve = MakeCurve(bend);
+    SCOPED_TRACE(NameOf(nonlinearity.shape));
+    const ResponseCurve curve = MakeCurve(nonlinearity);
     EXPECT_NEAR(curve.Value(1.5), curve.Value(1.0) + 0.5 * curve.Slope(1.0), 1e-15);
     EXPECT_NEAR(curve.Value(-0.5), -0.5 * curve.Slope(0.0), 1e-15);
   }
@@ -113,10 +113,10 @@ TEST(SensorNoiseResponseCurve, InTheDarkTheNoiseHasTheMomentsOfItsCodes)
 {
   constexpr double sd = 0.003;
   constexpr int    count = 200000;
-  for (const Bend & bend : Bends)
+  for (const Nonlinearity & nonlinearity : Nonlinearities)
   {
-    SCOPED_TRACE(NameOf(bend.shape));
-    const ResponseCurve curve = MakeCurve(bend);
+    SCOPED_TRACE(NameOf(nonlinearity.shape));
+    const ResponseCurve curve = MakeCurve(nonlinearity);
     const auto          expected = curve.InTheDark(sd);
     CounterSeededRandom random(5);
     double              sum = 0.0;
@@ -138,9 +138,9 @@ TEST(SensorNoiseResponseCurve, InTheDarkTheNoiseHasTheMomentsOfItsCodes)
 
 TEST(SensorNoiseResponseCurve, NamesReadBack)
 {
-  for (const Bend & bend : Bends)
+  for (const Nonlinearity & nonlinearity : Nonlinearities)
   {
-    EXPECT_EQ(ResponseShapeOf(NameOf(bend.shape)), bend.shape);
+    EXPECT_EQ(ResponseShapeOf(NameOf(nonlinearity.shape)), nonlinearity.shape);
   }
   EXPECT_EQ(ResponseShapeOf("straight"), ResponseShape::Straight);
   EXPECT_EQ(ResponseShapeOf("quadratic"), ResponseShape::Quadratic);

@@ -91,9 +91,9 @@ TEST(SensorNoiseScenes, TextureIsHardForTheVibrationTest)
       rejected += 2.0 * frames * (dx * dx + dy * dy) / variance[i] > 9.21 ? 1 : 0;
     }
   }
-  const double share = static_cast<double>(rejected) / ((size - 2.0) * (size - 2.0));
-  EXPECT_GT(share, 0.50);
-  EXPECT_LT(share, 0.75);
+  const double fraction = static_cast<double>(rejected) / ((size - 2.0) * (size - 2.0));
+  EXPECT_GT(fraction, 0.50);
+  EXPECT_LT(fraction, 0.75);
 }
 
 TEST(SensorNoiseScenes, TextureDependsOnTheSeedAndWorksWhenSmall)

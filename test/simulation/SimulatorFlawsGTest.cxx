@@ -20,7 +20,7 @@ using namespace sensornoise::test::simulator;
 TEST(SensorNoiseSimulator, RollingShutterFlickersWithItsPeriod)
 {
   constexpr std::size_t height = 60;
-  SimulationSettings    settings = StillSettings('B', 400);
+  SimulationSettings    settings = StaticSettings('B', 400);
   settings.conditions.flickerSd = 0.05;
   settings.rollingShutterPeriodRows = 20.0;
   const StackSimulator    simulator(std::vector<double>(height, 1.0), 1, height, settings);
@@ -49,7 +49,7 @@ TEST(SensorNoiseSimulator, RollingShutterFlickersWithItsPeriod)
 
 TEST(SensorNoiseSimulator, IntegerPixelsAreClippedToTheBitDepthAndTheSensorsLevels)
 {
-  SimulationSettings settings = StillSettings('B', 20);
+  SimulationSettings settings = StaticSettings('B', 20);
   settings.bitDepth = 8;
   settings.camera.offsetDn = 0.0;
   const auto scene = MakeBarsScene(64, 16);
@@ -67,14 +67,14 @@ TEST(SensorNoiseSimulator, IntegerPixelsAreClippedToTheBitDepthAndTheSensorsLeve
   settings.clipHighDn = 1e6;
   EXPECT_EQ(StackSimulator::CodeRange<std::uint16_t>(settings), std::make_pair(18.0, 4095.0));
   // No bit depth: the range of the type.
-  settings = StillSettings('B', 1);
+  settings = StaticSettings('B', 1);
   settings.bitDepth = 0;
   EXPECT_EQ(StackSimulator::CodeRange<std::int16_t>(settings), std::make_pair(-32768.0, 32767.0));
 }
 
 TEST(SensorNoiseSimulator, FloatingPixelsAreClippedAtGivenLevelsOnly)
 {
-  SimulationSettings settings = StillSettings('B', 20);
+  SimulationSettings settings = StaticSettings('B', 20);
   settings.camera.offsetDn = 0.0;
   settings.camera.electrons = 10000.0;
   const auto scene = MakeBarsScene(64, 16);
@@ -92,7 +92,7 @@ TEST(SensorNoiseSimulator, FloatingPixelsAreClippedAtGivenLevelsOnly)
 TEST(SensorNoiseSimulator, FixedPatternsHaveTheirSpreadAndStayFromFrameToFrame)
 {
   constexpr std::size_t size = 100;
-  SimulationSettings    settings = StillSettings('B', 2);
+  SimulationSettings    settings = StaticSettings('B', 2);
   settings.prnuSd = 0.02;
   const std::vector<double> flat(size * size, 1.0);
   StackSimulator            simulator(flat, size, size, settings);
@@ -118,7 +118,7 @@ TEST(SensorNoiseSimulator, FixedPatternsHaveTheirSpreadAndStayFromFrameToFrame)
 
 TEST(SensorNoiseSimulator, HotPixelsHaveExcessReadNoise)
 {
-  SimulationSettings settings = StillSettings('B', 1);
+  SimulationSettings settings = StaticSettings('B', 1);
   settings.camera.electrons = 1e-9;
   settings.hotPixelFraction = 0.01;
   const auto   values = RenderAll<double>(StackSimulator(std::vector<double>(250000, 1.0), 500, 500, settings));

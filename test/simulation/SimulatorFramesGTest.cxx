@@ -171,7 +171,7 @@ TEST(SensorNoiseSimulatorFrames, EachThirdExposureMayBeRepeated)
 
 TEST(SensorNoiseSimulatorFrames, TheCameraFiltersThenBinsThenMovesThenCompresses)
 {
-  SimulationSettings settings = StillSettings('B', 1);
+  SimulationSettings settings = StaticSettings('B', 1);
   settings.isDark = true;
   settings.camera.readNoiseDn = 100.0;
   const auto varianceWith = [&](const SensorFlaws & flaws) {
@@ -193,7 +193,7 @@ TEST(SensorNoiseSimulatorFrames, TheCameraFiltersThenBinsThenMovesThenCompresses
 TEST(SensorNoiseSimulatorFrames, ChargeIsMovedBeforeReadNoiseAndCodesAreSmoothedAfterIt)
 {
   // An even scene: shot noise g^2 A and read noise sigma^2.
-  SimulationSettings settings = StillSettings('B', 1);
+  SimulationSettings settings = StaticSettings('B', 1);
   settings.camera = { 400.0, 2.0, 100.0, 30.0 };
   const auto varianceOf = [&] {
     const StackSimulator simulator(std::vector<double>(160000, 1.0), 400, 400, settings);
@@ -209,7 +209,7 @@ TEST(SensorNoiseSimulatorFrames, ChargeIsMovedBeforeReadNoiseAndCodesAreSmoothed
   EXPECT_NEAR(varianceOf(), 0.5 * (shot + read), error);
 }
 
-TEST(SensorNoiseSimulatorFrames, DarkFramesShareThePatternsAndNotTheNoise)
+TEST(SensorNoiseSimulatorFrames, DarkFramesHaveTheSamePatternsAndOtherNoise)
 {
   SimulationSettings settings = FlickeringSettings(2);
   settings.dsnuSdDn = 20.0;
@@ -247,7 +247,7 @@ TEST(SensorNoiseSimulatorFrames, DarkFramesShareThePatternsAndNotTheNoise)
 TEST(SensorNoiseSimulatorFrames, DarkNoiseIsNotThatOfDarkPixels)
 {
   // A pixel without light draws its read noise first, as the first pixel of a dark row does.
-  SimulationSettings  settings = StillSettings('B', 2);
+  SimulationSettings  settings = StaticSettings('B', 2);
   std::vector<double> scene(20 * 20, 0.0);
   scene.back() = 1.0;
   const auto bright = FrameOf<double>(StackSimulator(scene, 20, 20, settings), 1);
@@ -271,9 +271,9 @@ TEST(SensorNoiseSimulatorFrames, WithoutFlawsTheCodesAreThoseOfEarlierVersions)
   EXPECT_EQ(HashOf(RenderAll<std::uint16_t>(MakeSimulator(patterned))), 4100142828553080770ULL);
 }
 
-TEST(SensorNoiseSimulatorFrames, LocalGainIsThatOfThePixelAtItsMeanLight)
+TEST(SensorNoiseSimulatorFrames, LocalGainIsTakenAtTheMeanSignalOfThePixel)
 {
-  SimulationSettings settings = StillSettings('A', 1);
+  SimulationSettings settings = StaticSettings('A', 1);
   settings.flaws.response = { ResponseShape::Quadratic, 0.04, 1200.0 };
   const std::vector<double> flat(400, 1.0);
   // 600 e- are half of the full scale, where this curve has slope 1; in the dark it has 1.04.

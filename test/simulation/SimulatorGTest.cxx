@@ -37,7 +37,7 @@ CheckNoiseOfConstantScene(char camera, double roundingVariance)
 {
   SCOPED_TRACE(camera);
   const CameraModel    model = PaperCamera(camera);
-  const StackSimulator simulator(std::vector<double>(1024, 0.5), 32, 32, StillSettings(camera, 400));
+  const StackSimulator simulator(std::vector<double>(1024, 0.5), 32, 32, StaticSettings(camera, 400));
   const Moments        found = MomentsOf(RenderAll<TPixel>(simulator));
   const double         g = model.gainDnPerElectron;
   const double         mean = g * model.electrons + model.offsetDn;
@@ -79,7 +79,7 @@ TEST(SensorNoiseSimulator, ConstantSceneHasTheVarianceOfTheModel)
 TEST(SensorNoiseSimulator, ShiftOfALinearRampIsExact)
 {
   constexpr std::size_t size = 40;
-  SimulationSettings    settings = StillSettings('B', 20);
+  SimulationSettings    settings = StaticSettings('B', 20);
   settings.opticalBlurPixels = 0.0;
   settings.conditions = { 0.1, 1.5, 0.7 };
   const StackSimulator simulator(Ramp(size, size, 2.0, 3.0), size, size, settings);
@@ -104,7 +104,7 @@ TEST(SensorNoiseSimulator, ShiftOfALinearRampIsExact)
 
 TEST(SensorNoiseSimulator, EdgePixelsAreReplicated)
 {
-  SimulationSettings settings = StillSettings('B', 50);
+  SimulationSettings settings = StaticSettings('B', 50);
   settings.opticalBlurPixels = 0.0;
   settings.conditions.vibrationSdXPixels = 1e6;
   const StackSimulator simulator(Ramp(4, 1, 1.0, 0.0), 4, 1, settings);
@@ -121,7 +121,7 @@ TEST(SensorNoiseSimulator, ReferenceIsBlurredAndThenScaled)
 {
   std::vector<double> point(81, 7.0);
   point[40] = 9.0;
-  const StackSimulator simulator(point, 9, 9, StillSettings('B', 1));
+  const StackSimulator simulator(point, 9, 9, StaticSettings('B', 1));
   std::vector<double>  electrons(9);
   simulator.ExpectedElectronsRow(0, 4, electrons.data());
   EXPECT_NEAR(electrons[0], 0.0, 1e-9); // rounding, 1e-16 of 3000, many times
@@ -131,7 +131,7 @@ TEST(SensorNoiseSimulator, ReferenceIsBlurredAndThenScaled)
 
 TEST(SensorNoiseSimulator, NegativeRatesCountAsZero)
 {
-  SimulationSettings settings = StillSettings('B', 200);
+  SimulationSettings settings = StaticSettings('B', 200);
   settings.conditions.flickerSd = 2.0;
   settings.camera.readNoiseDn = 0.0;
   const StackSimulator simulator(std::vector<double>(4, 1.0), 2, 2, settings);

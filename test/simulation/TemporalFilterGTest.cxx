@@ -46,7 +46,7 @@ TEST(SensorNoiseTemporalFilter, EachFrameBlendsTheInputWithTheLastOutput)
   }
 }
 
-TEST(SensorNoiseTemporalFilter, WhiteNoiseKeepsItsShareAndFramesCorrelate)
+TEST(SensorNoiseTemporalFilter, WhiteNoiseKeepsItsVarianceFractionAndFramesCorrelate)
 {
   constexpr double a = 0.5;
   TemporalFilter   filter({ a });

@@ -122,7 +122,7 @@ TEST(NoiseModelCheck, WhatBinsDifferByIsInTheError)
   EXPECT_EQ(check.verdict, Verdict::Fits) << MakeTable(check);
 }
 
-TEST(NoiseModelCheck, FewPixelsTellNothing)
+TEST(NoiseModelCheck, FewPixelsAreNotTested)
 {
   const NoiseModelCheck check = CheckNoiseModel(FramesOfModel(1.0, 1), Model);
   EXPECT_EQ(check.verdict, Verdict::NotTold);

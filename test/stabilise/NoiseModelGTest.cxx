@@ -22,7 +22,7 @@ ReportOf(double slope, double intercept)
 }
 
 std::string
-RefusalOf(const Report & report)
+ErrorOf(const Report & report)
 {
   try
   {
@@ -48,22 +48,22 @@ TEST(NoiseModel, SaysWhatIsMissing)
 {
   Report report = ReportOf(0.5, 3.0);
   report.totalIntercept = Quantity::Without(EstimateStatus::NotIdentifiable);
-  EXPECT_EQ(RefusalOf(report),
+  EXPECT_EQ(ErrorOf(report),
             "the report's total_intercept has no value (it is not identifiable); expected a report that has "
             "variance_slope and total_intercept");
   report.varianceSlope = Quantity::Without(EstimateStatus::Failed);
-  EXPECT_EQ(RefusalOf(report),
+  EXPECT_EQ(ErrorOf(report),
             "the report's variance_slope has no value (it is failed); expected a report that has variance_slope and "
             "total_intercept");
 }
 
 TEST(NoiseModel, RefusesASlopeThatIsNotAboveZero)
 {
-  EXPECT_EQ(RefusalOf(ReportOf(-0.25, 3.0)),
+  EXPECT_EQ(ErrorOf(ReportOf(-0.25, 3.0)),
             "the variance slope is -0.25; expected a finite number above 0 [DN/e-], the report's variance_slope");
-  EXPECT_NE(RefusalOf(ReportOf(0.0, 3.0)), "no error");
-  EXPECT_NE(RefusalOf(ReportOf(std::numeric_limits<double>::infinity(), 3.0)), "no error");
-  EXPECT_NE(RefusalOf(ReportOf(std::numeric_limits<double>::quiet_NaN(), 3.0)), "no error");
-  EXPECT_EQ(RefusalOf(ReportOf(1.0, -std::numeric_limits<double>::infinity())),
+  EXPECT_NE(ErrorOf(ReportOf(0.0, 3.0)), "no error");
+  EXPECT_NE(ErrorOf(ReportOf(std::numeric_limits<double>::infinity(), 3.0)), "no error");
+  EXPECT_NE(ErrorOf(ReportOf(std::numeric_limits<double>::quiet_NaN(), 3.0)), "no error");
+  EXPECT_EQ(ErrorOf(ReportOf(1.0, -std::numeric_limits<double>::infinity())),
             "the total intercept is -inf; expected a finite number [DN^2], the report's total_intercept");
 }

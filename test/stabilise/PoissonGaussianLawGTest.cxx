@@ -27,12 +27,12 @@ TEST(PoissonGaussianLaw, IsPoissonsWithoutReadNoise)
   const StabilisedMoments found = MomentsOfStabilised(electrons, 0.0);
   EXPECT_NEAR(found.mean, mean, 1e-13);
   EXPECT_NEAR(found.variance, square - mean * mean, 1e-12);
-  EXPECT_EQ(found.negativeShare, 0.0);
+  EXPECT_EQ(found.negativeProbability, 0.0);
   EXPECT_NEAR(MomentsOfStabilised(0.0, 0.0).mean, std::sqrt(1.5), 1e-15);
 }
 
 // Without light it is normal: a sum over five million slices.
-TEST(PoissonGaussianLaw, IsNormalWithoutLight)
+TEST(PoissonGaussianLaw, IsNormalWithoutSignal)
 {
   for (const double readNoise : { 0.05, 0.4, 2.0, 13.0 })
   {
@@ -42,14 +42,14 @@ TEST(PoissonGaussianLaw, IsNormalWithoutLight)
     for (int i = 0; i < slices; ++i)
     {
       const double n = 20.0 * (i + 0.5) / slices - 10.0;
-      const double share = std::exp(-0.5 * n * n) / std::sqrt(8.0 * std::atan(1.0)) * 20.0 / slices;
+      const double probability = std::exp(-0.5 * n * n) / std::sqrt(8.0 * std::atan(1.0)) * 20.0 / slices;
       const double argument = readNoise * n + 0.375 + readNoise * readNoise;
-      mean += share * 2.0 * std::sqrt(std::max(0.0, argument));
-      negative += argument < 0.0 ? share : 0.0;
+      mean += probability * 2.0 * std::sqrt(std::max(0.0, argument));
+      negative += argument < 0.0 ? probability : 0.0;
     }
     const StabilisedMoments found = MomentsOfStabilised(0.0, readNoise);
     EXPECT_NEAR(found.mean, mean, 1e-8) << readNoise; // the slice at the branch point
-    EXPECT_NEAR(found.negativeShare, negative, 2e-6) << readNoise;
+    EXPECT_NEAR(found.negativeProbability, negative, 2e-6) << readNoise;
   }
 }
 
@@ -75,14 +75,14 @@ TEST(PoissonGaussianLaw, IsThatOfDraws)
   {
     for (const double readNoise : { 0.6, 2.5 })
     {
-      std::poisson_distribution<int>   light(electrons);
+      std::poisson_distribution<int>   photons(electrons);
       std::normal_distribution<double> read(readNoise * readNoise + 0.375, readNoise);
       constexpr int                    draws = 400000;
       double                           sums[4]{};
       const StabilisedMoments          expected = MomentsOfStabilised(electrons, readNoise);
       for (int i = 0; i < draws; ++i)
       {
-        const double d = 2.0 * std::sqrt(std::max(0.0, light(random) + read(random))) - expected.mean;
+        const double d = 2.0 * std::sqrt(std::max(0.0, photons(random) + read(random))) - expected.mean;
         sums[1] += d;
         sums[2] += d * d;
         sums[3] += d * d * d * d;

@@ -49,7 +49,7 @@ TEST_F(EstimateCompareTool, WhatChangedStandsOnThePage)
   EXPECT_EQ(FilesLeft(), (std::set<std::string>{ "s.mha", "day1.json", "day2.json", "p.html", "p.svg" }));
 }
 
-TEST_F(EstimateCompareTool, MosaicsHaveARowAChannelAndMethodsWithoutErrorsAreNotJudged)
+TEST_F(EstimateCompareTool, MosaicsHaveARowPerChannelAndMethodsWithoutErrorsNoVerdict)
 {
   const std::string stack = Write("s.mha", MakeBurst().GetPointer());
   ASSERT_EQ(Run(stack + " --method published --quiet --json published.json"), 0) << m_Message;

@@ -36,7 +36,7 @@ protected:
 };
 } // namespace
 
-TEST_F(EstimateDarkTool, DarkFramesTellOffsetAndReadNoise)
+TEST_F(EstimateDarkTool, DarkFramesDetermineOffsetAndReadNoise)
 {
   const std::string    stack = Write("s.mha", MakeBurst().GetPointer());
   const auto           dark = MakeDark(12);
@@ -62,7 +62,7 @@ TEST_F(EstimateDarkTool, DarkFramesTellOffsetAndReadNoise)
   EXPECT_EQ(JsonTextOf(stack + repeated), text);
 }
 
-TEST_F(EstimateDarkTool, OneDarkFrameTellsTheOffsetOnly)
+TEST_F(EstimateDarkTool, OneDarkFrameDeterminesTheOffsetOnly)
 {
   const std::string    stack = Write("s.mha", MakeBurst().GetPointer());
   const nlohmann::json report = ReportOf(stack + " --dark " + WriteList<unsigned short>(MakeDark(1), ".tif").front());
@@ -83,7 +83,7 @@ TEST_F(EstimateDarkTool, DarkFramesAreCutAsTheOthersByRoi)
             MeasuredTextOf("part.mha --dark dpart.mha"));
 }
 
-TEST_F(EstimateDarkTool, MapsTellThePixelsOwnOffsetAndReadNoise)
+TEST_F(EstimateDarkTool, MapsHoldOffsetAndReadNoiseOfEachPixel)
 {
   const std::string stack = Write("s.mha", MakeBurst().GetPointer());
   const auto        dark = MakeDark(12);

@@ -146,7 +146,7 @@ TEST_F(RealBurstOnFileTool, TheVarianceOfThePlateIsTheOtherProgramsWithoutTheFli
 
 // Neighbours in a column share some 4.5 % of their noise, as a laboratory program without any code in common found;
 // what all neighbours share is missing in the variance.
-TEST_F(RealBurstOnFileTool, TheRefinedGainOfThePlateHoldsWhatNeighboursShare)
+TEST_F(RealBurstOnFileTool, TheRefinedGainOfThePlateIncludesTheCorrelation)
 {
   const nlohmann::json report = ReportOfBurst(plate);
   ASSERT_EQ(report["gain"]["status"], "identified");

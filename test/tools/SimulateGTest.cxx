@@ -88,7 +88,7 @@ protected:
   }
   /** Exit code 2, one sentence with these words, and no file. */
   void
-  ExpectRefusal(const std::string & arguments, const std::string & words)
+  ExpectError(const std::string & arguments, const std::string & words)
   {
     SCOPED_TRACE(arguments);
     const auto before = FilesLeft();
@@ -120,10 +120,10 @@ TEST_F(SimulateTool, IlluminationIsAShapeOrAFile)
     EXPECT_EQ(truth["illumination"], shape[0] == '.' ? "factors" : shape);
     EXPECT_NEAR(first, shape[0] == 'r' ? -0.6 : 0.0, 1e-15);
   }
-  ExpectRefusal(common + "strobe", "the illumination \"strobe\" is no file that can be read, and no known shape");
-  ExpectRefusal(common + "ramp:2", "the lowest illumination factor is 2; expected 0 to 1");
-  ExpectRefusal(common + "../words.txt", "has \"half\" as number 3; expected one illumination factor a frame");
-  ExpectRefusal("--frames 5 " + options + "../factors.txt", "one for each of the 5 frames");
+  ExpectError(common + "strobe", "the illumination \"strobe\" is no file that can be read, and no known shape");
+  ExpectError(common + "ramp:2", "the lowest illumination factor is 2; expected 0 to 1");
+  ExpectError(common + "../words.txt", "has \"half\" as number 3; expected one illumination factor a frame");
+  ExpectError("--frames 5 " + options + "../factors.txt", "one for each of the 5 frames");
 }
 
 TEST_F(SimulateTool, WritesTheStackAndItsTruth)
@@ -270,7 +270,7 @@ TEST_F(SimulateTool, ReadsAReferenceFileInItsOwnSize)
   EXPECT_EQ(stack->GetLargestPossibleRegion().GetSize(), (StackType::SizeType{ { 30, 20, 1 } }));
   EXPECT_LT(stack->GetBufferPointer()[0], 200);   // no electrons: offset 100 DN, read noise 8 DN
   EXPECT_GT(stack->GetBufferPointer()[29], 2000); // 3000 electrons, flicker 5 %
-  ExpectRefusal("--output t.mha --reference scene.png --size 10x10", "keeps its own size");
+  ExpectError("--output t.mha --reference scene.png --size 10x10", "keeps its own size");
 }
 
 TEST_F(SimulateTool, OneFrameHasNoSpread)
@@ -281,29 +281,29 @@ TEST_F(SimulateTool, OneFrameHasNoSpread)
 
 TEST_F(SimulateTool, WrongUseIsRefusedInOneSentenceAndLeavesNothing)
 {
-  ExpectRefusal("", "--output");
-  ExpectRefusal("--output s.mha --colour red", "--colour");
-  ExpectRefusal("--output s.png", "expected a name that ends in .mha");
-  ExpectRefusal("--output nowhere/s.mha", "there is no folder nowhere");
-  ExpectRefusal("--output s.mha --truth nowhere/t.json --size 32x32", "there is no folder nowhere");
-  ExpectRefusal("--output s.mha --truth s.mha", "the ending of an image");
-  ExpectRefusal("--output s.mha --size 512", "expected WIDTHxHEIGHT");
-  ExpectRefusal("--output s.mha --size 20x20", "needs at least 32 x 32");
-  ExpectRefusal("--output s.mha --camera D", "expected A, B or C");
-  ExpectRefusal("--output s.mha --camera BB", "expected A, B or C");
-  ExpectRefusal("--output s.mha --condition 4", "expected 1, 2 or 3");
-  ExpectRefusal("--output s.mha --reference moon", "neither target, bars, texture or flat nor a file");
-  ExpectRefusal("--output s.mha --frames 0", "expected at least 1");
-  ExpectRefusal("--output s.mha --frames many", "--frames");
-  ExpectRefusal("--output s.mha --bit-depth 17", "the pixel type holds at most 16 bits");
-  ExpectRefusal("--output s.mha --vibration-sd 0.1", "--vibration-sd");
-  ExpectRefusal("--output s.mha --clip 100,50", "expected the low one below the high one");
-  ExpectRefusal("--output s.mha --response wave", "--response");
-  ExpectRefusal("--output s.mha --response bump,0.1", "the response \"bump\" is not known");
-  ExpectRefusal("--output s.mha --temporal-filter 1", "expected 0 to 0.99");
-  ExpectRefusal("--output s.mha --banding 3", "--banding");
+  ExpectError("", "--output");
+  ExpectError("--output s.mha --colour red", "--colour");
+  ExpectError("--output s.png", "expected a name that ends in .mha");
+  ExpectError("--output nowhere/s.mha", "there is no folder nowhere");
+  ExpectError("--output s.mha --truth nowhere/t.json --size 32x32", "there is no folder nowhere");
+  ExpectError("--output s.mha --truth s.mha", "the ending of an image");
+  ExpectError("--output s.mha --size 512", "expected WIDTHxHEIGHT");
+  ExpectError("--output s.mha --size 20x20", "needs at least 32 x 32");
+  ExpectError("--output s.mha --camera D", "expected A, B or C");
+  ExpectError("--output s.mha --camera BB", "expected A, B or C");
+  ExpectError("--output s.mha --condition 4", "expected 1, 2 or 3");
+  ExpectError("--output s.mha --reference moon", "neither target, bars, texture or flat nor a file");
+  ExpectError("--output s.mha --frames 0", "expected at least 1");
+  ExpectError("--output s.mha --frames many", "--frames");
+  ExpectError("--output s.mha --bit-depth 17", "the pixel type holds at most 16 bits");
+  ExpectError("--output s.mha --vibration-sd 0.1", "--vibration-sd");
+  ExpectError("--output s.mha --clip 100,50", "expected the low one below the high one");
+  ExpectError("--output s.mha --response wave", "--response");
+  ExpectError("--output s.mha --response bump,0.1", "the response \"bump\" is not known");
+  ExpectError("--output s.mha --temporal-filter 1", "expected 0 to 0.99");
+  ExpectError("--output s.mha --banding 3", "--banding");
   std::ofstream(m_Folder / "out" / "not-an-image.txt") << "hello";
-  ExpectRefusal("--output s.mha --reference not-an-image.txt", "no image in a format");
+  ExpectError("--output s.mha --reference not-an-image.txt", "no image in a format");
 }
 
 #ifndef _WIN32

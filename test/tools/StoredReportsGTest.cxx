@@ -131,7 +131,7 @@ EightBits(int condition)
 }
 
 SimulationSettings
-WithPulsingLamp(SimulationSettings settings, double periodRows)
+WithPulsedIllumination(SimulationSettings settings, double periodRows)
 {
   settings.rollingShutterPeriodRows = periodRows;
   return settings;
@@ -178,12 +178,12 @@ Cases()
     { "RefinedKnownOffset", RefinedWithKnownOffset },
     { "RefinedDarkFrames", RefinedWithDarkFrames },
     { "RefinedRollingShutter",
-      [] { return Refined(SimulateTarget<unsigned short>(WithPulsingLamp(SettingsOf('B', 3), 40.0))); } },
+      [] { return Refined(SimulateTarget<unsigned short>(WithPulsedIllumination(SettingsOf('B', 3), 40.0))); } },
     { "RefinedFlat", [] { return Refined(MakeFlat<short>(-3)); } },
     { "PublishedTarget", [] { return Published(SimulateTarget<unsigned short>(SettingsOf('B', 1))); } },
     { "PublishedTextureOfBytes", [] { return Published(SimulateTexture<unsigned char>(EightBits(3))); } },
     { "PublishedRollingShutter",
-      [] { return Published(SimulateBars<float>(WithPulsingLamp(SettingsOf('A', 1), 40.0))); } },
+      [] { return Published(SimulateBars<float>(WithPulsedIllumination(SettingsOf('A', 1), 40.0))); } },
     { "PublishedFlat", [] { return Published(MakeFlat<unsigned char>(255)); } },
   };
   return cases;

@@ -29,11 +29,11 @@ def quantity(value, error, status="identified"):
     }
 
 
-def judged(gain=(0.5, 0.001), offset=(100, 1), loud=(), expected="measured", status="identified"):
-    from acceptance_stacks import judge
+def evaluated(gain=(0.5, 0.001), offset=(100, 1), loud=(), expected="measured", status="identified"):
+    from acceptance_stacks import evaluate
 
     found = {"gain": quantity(*gain, status), "offset": quantity(*offset), "read_noise": quantity(3, 0.1)}
-    return judge(found, TRUTH, SIGNAL_RANGE, list(loud), expected)
+    return evaluate(found, TRUTH, SIGNAL_RANGE, list(loud), expected)
 
 
 @pytest.mark.parametrize(
@@ -45,32 +45,32 @@ def judged(gain=(0.5, 0.001), offset=(100, 1), loud=(), expected="measured", sta
     ],
 )
 def test_a_gain_is_wrong_beyond_chance_and_a_smallest_size(gain, is_wrong):
-    stack = judged(gain)
+    stack = evaluated(gain)
     assert (stack["wrong"] == ["gain"]) == stack["silent"] == is_wrong
     assert stack["error"] == pytest.approx(gain[0] / 0.5 - 1)
     assert stack["z"] == pytest.approx((gain[0] - 0.5) / gain[1])
 
 
 def test_a_warning_breaks_the_silence():
-    stack = judged((0.6, 0.001), loud=["not-static"])
+    stack = evaluated((0.6, 0.001), loud=["not-static"])
     assert stack["wrong"] == ["gain"] and not stack["silent"]
 
 
-def test_an_offset_is_judged_by_the_signal_range():
-    assert judged(offset=(126, 1))["wrong"] == ["offset"]  # 26 of 2500 DN
-    assert judged(offset=(124, 1))["wrong"] == []
+def test_an_offset_is_tested_by_the_signal_range():
+    assert evaluated(offset=(126, 1))["wrong"] == ["offset"]  # 26 of 2500 DN
+    assert evaluated(offset=(124, 1))["wrong"] == []
 
 
 def test_a_gain_that_cannot_be_determined_is_wrong_if_identified():
-    assert judged(expected="must refuse")["wrong"] == ["gain"]
-    stack = judged((0.9, 0.001), expected="must refuse", status="not-identifiable")
+    assert evaluated(expected="must refuse")["wrong"] == ["gain"]
+    stack = evaluated((0.9, 0.001), expected="must refuse", status="not-identifiable")
     assert stack["refused"] and not stack["wrong"] and stack["error"] is None and "gain" not in stack["covered"]
 
 
 def stacks_of(gains, line="a", **options):
     """Returns the results of a line, one stack per seed."""
     return {
-        (line, "target", "", n, "r"): judged(gain, **options) | {"bound": 0.002, "seconds": 1.0} for n, gain in gains
+        (line, "target", "", n, "r"): evaluated(gain, **options) | {"bound": 0.002, "seconds": 1.0} for n, gain in gains
     }
 
 
@@ -78,7 +78,7 @@ def test_a_line_is_summed_up():
     from acceptance_compare import summarise
 
     stacks = [*stacks_of([(0, (0.502, 0.002)), (1, (0.497, 0.002)), (2, (5.0, 0.001))]).values()]
-    stacks.append({**judged(status="failed"), "bound": 0.002, "seconds": 3.0})
+    stacks.append({**evaluated(status="failed"), "bound": 0.002, "seconds": 3.0})
     row = summarise(stacks)
     assert row["stacks"] == 4 and row["refused"] == row["wrong"] == row["silent"] == 1
     assert row["error"] == pytest.approx((0.004 + 0.006 + 1.0) / 3)  # the error of the last stack is 900 %
@@ -94,8 +94,8 @@ def test_a_line_is_held_against_emvas_errors(ours, is_fault):
     from acceptance_compare import summarise
 
     emva = {"emva_error": 0.0015, "seconds": 1.0, "bound": None}
-    stacks = [judged((0.5 + 0.5 * ours * (-1) ** n, 0.01)) | emva for n in range(10)]
-    stacks.append(judged(status="failed") | emva | {"emva_error": 9.0})
+    stacks = [evaluated((0.5 + 0.5 * ours * (-1) ** n, 0.01)) | emva for n in range(10)]
+    stacks.append(evaluated(status="failed") | emva | {"emva_error": 9.0})
     row = summarise(stacks)
     assert row["over_emva"] == pytest.approx(ours / 0.0015)
     assert ("above EMVA" in row["faults"]) == is_fault
@@ -152,7 +152,7 @@ def test_paired_errors_that_all_grow_are_worse_and_scattered_ones_are_not():
 
 
 @pytest.mark.parametrize(("count", "verdict"), [(2, "same"), (12, "better")])
-def test_silence_decides_before_refusals(count, verdict):
+def test_silence_decides_before_failures(count, verdict):
     from acceptance_compare import compare
 
     old = stacks_of([(n, (0.6, 0.001)) for n in range(count)])
@@ -174,7 +174,7 @@ def test_all_lines_of_a_kind_are_compared_together():
     }
 
 
-def test_settings_that_share_a_seed_count_as_a_group():
+def test_settings_with_one_seed_count_as_a_group():
     from acceptance_compare import scatter_of
 
     alone = [(n, float(n // 8)) for n in range(16)]
@@ -214,25 +214,25 @@ def record(case, gain, status="identified", **members):
         ("processed", "not-identifiable", {"refused": True, "wrong": [], "expected": "may refuse"}),
     ],
 )
-def test_a_robustness_case_is_judged_by_what_is_expected_of_it(expectation, status, expected):
-    from acceptance_studies import judge_record
+def test_a_robustness_case_is_tested_by_its_expectation(expectation, status, expected):
+    from acceptance_studies import evaluate_record
 
-    stack = judge_record(record("robustness/a/target", (0.51, 0.001), status, expectation=expectation))
+    stack = evaluate_record(record("robustness/a/target", (0.51, 0.001), status, expectation=expectation))
     assert {name: stack[name] for name in expected} == expected
     assert stack["covered"]["offset"] is False and stack["setting"] == ""  # 2.5 standard errors, interval of 2
 
 
 def test_the_offset_of_a_study_has_no_size_to_be_held_against():
-    from acceptance_studies import judge_record
+    from acceptance_studies import evaluate_record
 
-    stack = judge_record(record("efficiency/B3/target", (0.5, 0.001), limit={"gain": 0.0005}))
+    stack = evaluate_record(record("efficiency/B3/target", (0.5, 0.001), limit={"gain": 0.0005}))
     assert stack["wrong"] == [] and stack["bound"] == 0.001
 
 
 def test_a_setting_of_the_sensors_is_named_by_the_case():
-    from acceptance_studies import judge_record
+    from acceptance_studies import evaluate_record
 
-    stack = judge_record(record("sensors/bends/wave 0.02, 50 frames/texture", (0.5, 0.001)))
+    stack = evaluate_record(record("sensors/bends/wave 0.02, 50 frames/texture", (0.5, 0.001)))
     assert stack["setting"] == "wave 0.02, 50 frames/texture" and stack["expected"] == "may refuse"
 
 

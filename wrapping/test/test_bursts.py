@@ -16,8 +16,8 @@ W, H, T = 64, 48, 24
 def frames() -> np.ndarray:
     random = np.random.default_rng(1)
     y, x = np.mgrid[0:H, 0:W]
-    light = 1 + 0.05 * random.standard_normal((T, 1, 1))
-    return np.minimum(random.poisson((300 + 20 * x + 10 * y) * light), 4095).astype("<u2")
+    illumination = 1 + 0.05 * random.standard_normal((T, 1, 1))
+    return np.minimum(random.poisson((300 + 20 * x + 10 * y) * illumination), 4095).astype("<u2")
 
 
 @pytest.fixture(scope="module")

@@ -56,8 +56,8 @@ def test_smoothed_noise_sums_to_its_closed_form(smooth):
     for lag, truth in (((1, 0), 2 / 3), ((2, 0), 1 / 6), ((-1, 0), 2 / 3), ((0, 1), 0)):
         value, error = found.coefficient(*lag)
         assert abs(value - truth) < Z * error
-    for light in found["lights"]:
-        assert abs(light["variance"] - 0.375 * 9) < Z * light["variance_standard_error"]
+    for signal_bin in found["lights"]:
+        assert abs(signal_bin["variance"] - 0.375 * 9) < Z * signal_bin["variance_standard_error"]
     with pytest.raises(KeyError, match="50 columns, 0 rows"):
         found.coefficient(50, 0)
 
@@ -68,7 +68,7 @@ def test_mixed_frames_are_named():
     assert found.kind == "temporal"
     value, error = found.coefficient(frames=1)
     assert abs(value - 0.5) < Z * error
-    variance = np.mean([light["variance"] for light in found["lights"]])
+    variance = np.mean([signal_bin["variance"] for signal_bin in found["lights"]])
     assert abs(variance * found.sum_over_lags - 9) < Z * variance * found.standard_error
 
 

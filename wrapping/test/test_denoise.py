@@ -40,9 +40,9 @@ def box(frame):
 @pytest.fixture(scope="module")
 def scene():
     """Returns a frame of camera B, and the same frame with 1e5 times the electrons: 1/316 of the shot noise."""
-    still = {"frames": 1, "size": (96, 96), "flicker_sd": 0.0, "vibration_sd": (0.0, 0.0), "seed": 7}
-    noisy, _ = itk.simulate_sensor_noise(**still)
-    truth, _ = itk.simulate_sensor_noise(**still, gain=1e-5, electrons=3e8, read_noise=0.0)
+    static = {"frames": 1, "size": (96, 96), "flicker_sd": 0.0, "vibration_sd": (0.0, 0.0), "seed": 7}
+    noisy, _ = itk.simulate_sensor_noise(**static)
+    truth, _ = itk.simulate_sensor_noise(**static, gain=1e-5, electrons=3e8, read_noise=0.0)
     return noisy[0], truth[0].astype(np.float64)
 
 

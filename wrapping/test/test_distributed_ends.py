@@ -51,16 +51,20 @@ class Read:
         return self.stack[times]
 
 
-def test_too_little_memory_is_told_before_a_frame_is_read(stack, tmp_path):
+def test_too_little_memory_is_reported_before_a_frame_is_read(stack, tmp_path):
     frames = Read(stack, lambda first: (tmp_path / "read").touch())
     with (
         cluster_of(memory_limit="300MiB") as cluster,
         client_of(cluster) as client,
-        pytest.raises(RuntimeError, match="the worker has too little memory for 40 frames of 96 x 64 pixels") as told,
+        pytest.raises(
+            RuntimeError, match="the worker has too little memory for 40 frames of 96 x 64 pixels"
+        ) as failure,
     ):
         estimate_sensor_noise(frames, client, bayer="none")
-    assert "has a memory_limit of 300 MiB, of which Dask lets it use 95%, and needs at least 465 MiB" in str(told.value)
-    assert "expected a memory_limit of 490 MiB or more" in str(told.value)
+    assert "has a memory_limit of 300 MiB, of which Dask lets it use 95%, and needs at least 465 MiB" in str(
+        failure.value
+    )
+    assert "expected a memory_limit of 490 MiB or more" in str(failure.value)
     assert not (tmp_path / "read").exists()
 
 
@@ -85,7 +89,7 @@ def pause(dask_worker):
     dask_worker.status = distributed.Status.paused
 
 
-def test_workers_that_stay_paused_are_told(stack, monkeypatch):
+def test_workers_that_stay_paused_are_reported(stack, monkeypatch):
     monkeypatch.setattr(_watch, "_PATIENCE_SECONDS", 1.0)
     with cluster_of(n_workers=2, memory_limit=0) as cluster, client_of(cluster) as client:
         expected = itk.estimate_sensor_noise(stack, bayer="none")
@@ -120,7 +124,7 @@ def seconds_waited(workers, monkeypatch, moves=False, at_most=100):
     return clock.now
 
 
-def test_what_stands_still_is_waited_for_30_seconds(monkeypatch, caplog):
+def test_paused_workers_are_waited_for_30_seconds(monkeypatch, caplog):
     for workers in ([PAUSED], [PAUSED, IDLE], [PAUSED, PAUSED]):
         assert seconds_waited(workers, monkeypatch) == pytest.approx(30, abs=_watch._LOOK_SECONDS)
         assert seconds_waited(workers, monkeypatch, moves=True) >= 100
@@ -132,7 +136,7 @@ def test_what_stands_still_is_waited_for_30_seconds(monkeypatch, caplog):
 
 
 @pytest.mark.parametrize("breaks", ["close", "restart"])
-def test_a_scheduler_that_goes_away_or_restarts_is_told(breaks, stack, tmp_path):
+def test_a_scheduler_that_goes_away_or_restarts_is_reported(breaks, stack, tmp_path):
     mark = tmp_path / "pass"
 
     def read(first):
@@ -154,7 +158,7 @@ def test_a_scheduler_that_goes_away_or_restarts_is_told(breaks, stack, tmp_path)
         estimate_sensor_noise(stack, client, bayer="none")
 
 
-def test_a_task_that_ends_its_workers_is_told(stack, monkeypatch):
+def test_a_task_that_ends_its_workers_is_reported(stack, monkeypatch):
     frames = Read(stack, lambda first: os.kill(os.getpid(), signal.SIGKILL))
     with cluster_of(processes=True, memory_limit=0) as cluster, client_of(cluster) as client:
         monkeypatch.setattr(cluster.scheduler, "allowed_failures", 0)

@@ -37,7 +37,7 @@ def test_help_is_the_header_s(name):
         assert sentence_of(name) in pydoc.render_doc(described, renderer=pydoc.plaintext)
 
 
-def test_help_tells_of_the_parameters():
+def test_help_describes_the_parameters():
     cls = itk.SensorNoiseEstimator[itk.Image[itk.US, 3]]
     assert cls.SetBitDepth.__doc__.startswith("Bit depth of the sensor's digital numbers [bit], 1 to 16.")
     assert "SetBitDepth(self" in cls.SetBitDepth.__doc__  # the text of SWIG stays

@@ -25,8 +25,8 @@ def measure(tool, folder, *simulated, options=()):
     exposures = folder / "exposures.txt"
     exposures.write_text("\n".join(map(str, EXPOSURES)) + "\n", encoding="utf-8")
     stack, record = str(folder / "stack.mha"), folder / "record.json"
-    still = ("--flicker-sd", "0", "--vibration-sd", "0,0", "--illumination", str(exposures))
-    simulated = ("--reference", "flat", "--frames", str(len(EXPOSURES)), *still, *simulated)
+    static = ("--flicker-sd", "0", "--vibration-sd", "0,0", "--illumination", str(exposures))
+    simulated = ("--reference", "flat", "--frames", str(len(EXPOSURES)), *static, *simulated)
     tool("simulate-sensor-noise", *simulated, "--output", stack)
     method = ("--method", "emva1288", "--exposures", str(exposures), "--bit-depth", "12")
     tool("estimate-sensor-noise", stack, *method, *options, "--json", str(record), "--quiet")

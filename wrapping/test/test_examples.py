@@ -28,7 +28,7 @@ def few(tmp_path_factory):
     return name
 
 
-def test_estimate_tells_each_warning_once(few, tmp_path):
+def test_estimate_prints_each_warning_once(few, tmp_path):
     result = run("estimate.py", few, "--json", tmp_path / "report.json")
     report = json.loads((tmp_path / "report.json").read_text())
     assert report["warnings"]
@@ -110,7 +110,7 @@ def test_several_processes_have_the_bits_of_one(tmp_path):
     assert result.returncode == 2 and "does not exist" in result.stderr
 
 
-def test_steps_in_an_archive_are_judged(tmp_path):
+def test_steps_in_an_archive_are_evaluated(tmp_path):
     pytest.importorskip("distributed", reason="Dask's distributed is not installed")
     pytest.importorskip("pandas")
     lines = tmp_path / "archive.jsonl"

@@ -115,7 +115,7 @@ def test_name_that_is_not_utf8_is_refused(names):
     refused([*names, b"caf\xe9.mha".decode(errors="surrogateescape")], "'caf\\udce9.mha': a name that is not UTF-8")
 
 
-def test_wrong_parameter_is_told_in_words(burst):
+def test_wrong_parameter_is_described(burst):
     text = message_of(ValueError, itk.sensor_noise_estimator, burst, bit_depth="many")
     assert text == "bit_depth is 'many'; expected a whole number, 0 or more"
 
@@ -184,7 +184,7 @@ def test_file_that_changes_is_refused_and_the_next_update_is_right(source, names
     np.testing.assert_array_equal(itk.array_from_image(source.GetOutput())[3], burst[0])
 
 
-def test_mask_is_read_through_the_same_door(burst, names, tmp_path):
+def test_mask_is_read_by_the_same_function(burst, names, tmp_path):
     mask = tmp_path / "mask.tif"
     itk.imwrite(itk.image_from_array(np.ones(burst[0].shape, np.float32)), str(mask))
     assert itk.estimate_sensor_noise(burst, mask=mask) == itk.estimate_sensor_noise(burst, mask=np.ones(burst[0].shape))
@@ -196,7 +196,7 @@ def test_mask_is_read_through_the_same_door(burst, names, tmp_path):
     assert text == f"the mask {mask}: has 3 frames; expected one image"
 
 
-def test_dark_frames_are_read_through_the_same_door(burst, dark, tmp_path):
+def test_dark_frames_are_read_by_the_same_function(burst, dark, tmp_path):
     names = write(tmp_path, dark)
     assert itk.estimate_sensor_noise(burst, dark=names) == itk.estimate_sensor_noise(burst, dark=dark)
     names[7].write_bytes(names[7].read_bytes()[:-1])

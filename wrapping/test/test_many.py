@@ -110,7 +110,7 @@ def test_types_of_the_columns_are_those_of_a_full_table():
         ({}, {"client": 3}, "client is of type int"),
     ],
 )
-def test_wrong_use_is_told(sources, options, said, tmp_path, monkeypatch):
+def test_wrong_use_is_refused(sources, options, said, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(ValueError, match=said):
         estimate_many(sources, **options)

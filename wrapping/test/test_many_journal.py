@@ -150,7 +150,7 @@ def test_a_file_of_something_else_is_left_alone(bursts, tmp_path):
         assert name.read_text() == text
 
 
-def test_a_wrong_name_is_told_before_anything_is_measured(bursts):
+def test_a_wrong_name_is_reported_before_anything_is_measured(bursts):
     counted = Counted(bursts)
     with pytest.raises(ValueError, match="source 1 has the name 3"):
         estimate_many([("a", counted.sources["a"]), (3, counted.sources["b"])])

@@ -65,7 +65,7 @@ def test_a_burst_that_kills_its_workers_is_a_row(client, bursts):
     assert rows[0]["status"] == "measured"
 
 
-def test_a_burst_is_not_blamed_for_what_its_neighbour_did(bursts):
+def test_a_burst_is_not_failed_by_its_neighbour(bursts):
     distributed = pytest.importorskip("distributed", reason="Dask's distributed is not installed")
 
     frames = bursts["a"]
@@ -87,7 +87,7 @@ def test_a_burst_is_not_blamed_for_what_its_neighbour_did(bursts):
 
 
 @pytest.mark.parametrize("breaks", ["restart", "close"])
-def test_a_scheduler_that_restarts_or_goes_away_is_told(breaks, bursts, tmp_path):
+def test_a_scheduler_that_restarts_or_goes_away_is_reported(breaks, bursts, tmp_path):
     distributed = pytest.importorskip("distributed", reason="Dask's distributed is not installed")
     mark = tmp_path / "over"
 

@@ -39,7 +39,7 @@ def test_refined_is_the_default_and_has_errors(burst):
     assert published["pixels"]["used"] < report["pixels"]["used"]
 
 
-def test_dark_frames_tell_offset_and_read_noise(burst, dark):
+def test_dark_frames_determine_offset_and_read_noise(burst, dark):
     report = itk.estimate_sensor_noise(burst, dark=dark)
     assert is_near(report["offset"], 100) and is_near(report["read_noise"], 8)
     # The offset has the error sigma / sqrt(N T) and an error for drift of the level. The variance of the drift, less
@@ -56,7 +56,7 @@ def test_dark_frames_in_any_form(burst, dark, make):
     assert itk.estimate_sensor_noise(burst, dark=make(dark)) == itk.estimate_sensor_noise(burst, dark=dark)
 
 
-def test_one_dark_frame_tells_the_offset_only(burst, dark):
+def test_one_dark_frame_determines_the_offset_only(burst, dark):
     report = itk.estimate_sensor_noise(burst, dark=[dark[0]])
     assert is_near(report["offset"], 100)
     assert "dark_variance" not in report["settings"]

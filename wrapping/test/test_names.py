@@ -96,7 +96,7 @@ OTHERS = {
 
 
 @pytest.mark.parametrize("name", OTHERS)
-def test_formats_of_other_packages_are_told_how_to_be_opened(tmp_path, name):
+def test_formats_of_other_packages_are_refused_with_a_way_to_open_them(tmp_path, name):
     path = tmp_path / name
     path.mkdir() if name.endswith("zarr") else path.write_bytes(b"something")
     text = refused(path)
@@ -112,7 +112,7 @@ def test_maps_are_not_written_over_what_a_pattern_means(tmp_path, burst):
         itk.estimate_sensor_noise(str(tmp_path / "*.mha"), maps=tmp_path)
 
 
-def test_raw_files_without_rawpy_are_told_how_to_be_read(tmp_path, monkeypatch):
+def test_raw_files_without_rawpy_are_refused_with_a_way_to_read_them(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "rawpy", None)
     (tmp_path / "a.dng").write_bytes(b"something")
     text = refused([tmp_path / "a.dng"] * 6, ImportError)

@@ -81,14 +81,14 @@ def test_truncated_raw_file_is_refused(names):
     assert refused(names).startswith(f"{names[3]}: ")
 
 
-def test_codes_that_are_not_there_are_told(names):
+def test_missing_codes_are_reported(names):
     whole = names[3].read_bytes()
     names[3].write_bytes(whole.replace(struct.pack("<HHIH", 259, SHORT, 1, 1), struct.pack("<HHIH", 259, SHORT, 1, 7)))
     assert names[3].read_bytes() != whole
     assert refused(names).startswith(f"{names[3]}, strip or tile 0: damaged: ")
 
 
-def test_more_pixels_than_bytes_hold_are_told(names):
+def test_more_pixels_than_bytes_hold_are_refused(names):
     declared = (
         names[3].read_bytes().replace(struct.pack("<HHII", 257, LONG, 1, 96), struct.pack("<HHII", 257, LONG, 1, 40000))
     )

@@ -270,4 +270,4 @@ def test_warnings_are_those_of_the_table(burst):
 
 def test_the_code_speaks_of_warnings_that_exist():
     table = {kind["code"] for kind in itk_sensornoise.warning_table()}
-    assert set(itk_sensornoise._figure.BENDS) <= table
+    assert set(itk_sensornoise._figure.NONLINEARITY_CODES) <= table

@@ -98,9 +98,9 @@ def simulate_camera(tool, folder, settings: dict[str, float], *options: str) -> 
         (folder / name / "dark").mkdir(parents=True)
         gain = 0.005 * float(name.removeprefix("iso"))
         camera = ("--size", "64x64", "--frames", "24", "--gain", str(gain), "--read-noise", str(noise * gain), *options)
-        light = ("--electrons", str(3000 / gain), "--seed", str(seed), "--output", str(folder / name / "light.mha"))
+        arguments = ("--electrons", str(3000 / gain), "--seed", str(seed), "--output", str(folder / name / "light.mha"))
         dark = ("--dark", "--seed", str(seed + 90), "--output", str(folder / name / "dark" / "dark.mha"))
-        tool("simulate-sensor-noise", *camera, *light)
+        tool("simulate-sensor-noise", *camera, *arguments)
         tool("simulate-sensor-noise", *camera, *dark)
 
 

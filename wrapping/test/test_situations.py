@@ -87,9 +87,9 @@ def test_the_linearity_error_of_a_line_is_0_and_that_of_a_parabola_that_of_its_b
 
 
 def test_frames_unlike_the_others_are_counted():
-    from acceptance_stacks import judge_frames
+    from acceptance_stacks import evaluate_frames
 
-    assert judge_frames([3, 7, 9], (3, 9, 20)) == {"named": 2, "unlike": 3, "named_falsely": 1}
+    assert evaluate_frames([3, 7, 9], (3, 9, 20)) == {"named": 2, "unlike": 3, "named_falsely": 1}
 
 
 def test_a_situation_is_measured(tmp_path):

@@ -77,8 +77,8 @@ def test_closed_form_brings_a_mean_back_without_bias():
     """The tolerance for 200,000 draws at 8 e- and a read noise of 2 e- is 4 standard errors of the mean, plus the error
     0.013 e- of the closed form."""
     random = np.random.default_rng(4)
-    gain, offset, read_noise, light = 2.0, 100.0, 2.0, 8.0
-    levels = offset + gain * (random.poisson(light, 200000) + read_noise * random.normal(size=200000))
+    gain, offset, read_noise, signal = 2.0, 100.0, 2.0, 8.0
+    levels = offset + gain * (random.poisson(signal, 200000) + read_noise * random.normal(size=200000))
     model = report_of(gain, (gain * read_noise) ** 2 - gain * offset)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -88,10 +88,10 @@ def test_closed_form_brings_a_mean_back_without_bias():
         / gain
         for inverse in ("exact-unbiased", "algebraic", "asymptotic")
     }
-    error = 4 * np.sqrt((light + read_noise**2) / 200000)
-    assert found["exact-unbiased"] == pytest.approx(light, abs=error + 0.013)
-    assert found["asymptotic"] == pytest.approx(light, abs=error + 0.011)
-    assert found["algebraic"] == pytest.approx(light - 0.25, abs=error + 0.01)
+    error = 4 * np.sqrt((signal + read_noise**2) / 200000)
+    assert found["exact-unbiased"] == pytest.approx(signal, abs=error + 0.013)
+    assert found["asymptotic"] == pytest.approx(signal, abs=error + 0.011)
+    assert found["algebraic"] == pytest.approx(signal - 0.25, abs=error + 0.01)
 
 
 def test_negative_arguments_are_said():

@@ -67,6 +67,6 @@ def test_false_alarms_are_no_more_than_allowed():
         (([1, 2], [1, 1], 1), "false_alarms is 1; expected"),
     ],
 )
-def test_wrong_use_is_told(given, said):
+def test_wrong_use_is_refused(given, said):
     with pytest.raises(ValueError, match=said):
         find_steps(*given)

@@ -182,7 +182,7 @@ def test_a_client_measures_the_same(passport, bursts, dark):
         ({1: "a.mha"}, {"output": 3}, "output is 3"),
     ],
 )
-def test_wrong_use_is_told(sources, options, said, tmp_path, monkeypatch):
+def test_wrong_use_is_refused(sources, options, said, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with pytest.raises((TypeError, ValueError), match=said):
         sn.estimate_sweep(sources, **options)

@@ -97,10 +97,10 @@ struct PixelLayout
   }
 
   /** Returns the address of the pixels [begin, end) of the frame that begins at \a start, contiguously: in place, or
-   * copied to \a room, which has room for them. */
+   * copied to \a buffer, which has room for them. */
   template <typename TPixel>
   const TPixel *
-  SideBySide(const TPixel * start, std::size_t begin, std::size_t end, TPixel * room) const
+  SideBySide(const TPixel * start, std::size_t begin, std::size_t end, TPixel * buffer) const
   {
     if (this->AreSideBySide())
     {
@@ -108,10 +108,10 @@ struct PixelLayout
     }
     this->ForRuns(begin, end, [&](std::size_t p, std::size_t place, std::size_t count) {
       const TPixel * const from = start + place;
-      TPixel * const       to = room + (p - begin);
+      TPixel * const       to = buffer + (p - begin);
       CallWithAvx2([&] { step == 2 ? CopyEvery<2>(from, count, to) : CopyEvery<1>(from, count, to); });
     });
-    return room;
+    return buffer;
   }
 
 private:

@@ -46,15 +46,15 @@ RoundedApart(double number, double bound)
 }
 
 std::string
-Percent(double share)
+Percent(double fraction)
 {
-  return Rounded(100.0 * share) + " %";
+  return Rounded(100.0 * fraction) + " %";
 }
 
 std::string
-PercentApart(double share, double bound)
+PercentApart(double fraction, double bound)
 {
-  return RoundedApart(100.0 * share, 100.0 * bound) + " %";
+  return RoundedApart(100.0 * fraction, 100.0 * bound) + " %";
 }
 
 std::string

@@ -26,11 +26,11 @@ RoundedApart(double number, double bound);
 
 /** Returns a fraction as "4.43 %". */
 SensorNoise_EXPORT std::string
-Percent(double share);
+Percent(double fraction);
 
 /** Returns a fraction that was compared with \a bound, which is written by Percent(): "12.003 %" beside "12 %". */
 SensorNoise_EXPORT std::string
-PercentApart(double share, double bound);
+PercentApart(double fraction, double bound);
 
 /** Returns "0.1660 +- 0.0038": both to two digits of the error. */
 SensorNoise_EXPORT std::string

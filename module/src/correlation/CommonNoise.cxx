@@ -163,16 +163,16 @@ struct SegmentProducts
     columns.Add(sums.columns);
     cells += CellProduct(sums.cells);
   }
-  /** Adds the products, times \a factor, to one member of every DistantSums of \a light. */
+  /** Adds the products, times \a factor, to one member of every DistantSums of \a signal. */
   void
-  AddTo(DistantCovariance & light, double DistantSums::* member, double factor) const
+  AddTo(DistantCovariance & to, double DistantSums::* member, double factor) const
   {
     for (std::size_t d = 0; d < DistantCovariance::Lines; ++d)
     {
-      light.rows[d].*member += factor * rows.Total(d);
-      light.columns[d].*member += factor * columns.Total(d);
+      to.rows[d].*member += factor * rows.Total(d);
+      to.columns[d].*member += factor * columns.Total(d);
     }
-    light.far.*member += factor * cells;
+    to.far.*member += factor * cells;
   }
 };
 
@@ -183,47 +183,47 @@ SumTile(const NoiseResiduals & residuals, std::size_t i)
   constexpr std::size_t size = VSide * VSide;
   const std::size_t     frames = residuals.GetTiles().frames;
   const float *         w = residuals.WeightOf(i);
-  const float *         z = residuals.LightOf(i);
+  const float *         z = residuals.SignalOf(i);
   const double          factor = 1.0 / residuals.GetDof();
-  DistantCovariance     light;
-  const auto            addOnce = [&light](double DistantSums::* member, auto valueOf) {
+  DistantCovariance     distant;
+  const auto            addOnce = [&distant](double DistantSums::* member, auto valueOf) {
     SegmentSums<VSide>     sums{};
     SegmentProducts<VSide> products;
     sums.Sum(valueOf);
     products.Add(sums);
-    products.AddTo(light, member, 1.0);
+    products.AddTo(distant, member, 1.0);
   };
   addOnce(&DistantSums::constant, [=](std::size_t p) { return w[p]; });
-  addOnce(&DistantSums::light, [=](std::size_t p) { return static_cast<double>(w[p]) * z[p]; });
+  addOnce(&DistantSums::signal, [=](std::size_t p) { return static_cast<double>(w[p]) * z[p]; });
   addOnce(&DistantSums::signalSquare, [=](std::size_t p) { return static_cast<double>(w[p]) * z[p] * z[p]; });
   CallWithAvx2([&] {
     SegmentSums<VSide>     sums{};
     SegmentProducts<VSide> products;
-    double                 ofLight = 0.0;
+    double                 ofSignal = 0.0;
     for (std::size_t t = 0; t < frames; ++t)
     {
       const float * values = residuals.OfTile(i) + t * size;
       sums.Sum([=](std::size_t p) { return static_cast<double>(w[p] * values[p]); });
       products.Add(sums);
       sums.SumOfCells([=](std::size_t p) { return static_cast<double>(w[p] * z[p] * values[p]); });
-      ofLight += CellProduct(sums.cells);
+      ofSignal += CellProduct(sums.cells);
     }
-    products.AddTo(light, &DistantSums::covariance, factor);
-    light.far.signalCovariance += factor * ofLight;
+    products.AddTo(distant, &DistantSums::covariance, factor);
+    distant.far.signalCovariance += factor * ofSignal;
   });
   if (residuals.GetLinesTakenOff())
   {
     const bool areRows = *residuals.GetLinesTakenOff() == LineAxis::Rows;
-    for (const float * const share : residuals.LineProjectionsOf(i)) // restores what the regression removed
+    for (const float * const projection : residuals.LineProjectionsOf(i)) // restores what the regression removed
     {
       SegmentSums<VSide>  sums{};
       LineProducts<VSide> products;
-      sums.Sum([=](std::size_t p) { return static_cast<double>(w[p] * share[p]); });
+      sums.Sum([=](std::size_t p) { return static_cast<double>(w[p] * projection[p]); });
       products.Add(areRows ? sums.rows : sums.columns);
-      (areRows ? light.rows : light.columns)[0].covariance += products.Total(0);
+      (areRows ? distant.rows : distant.columns)[0].covariance += products.Total(0);
     }
   }
-  return light;
+  return distant;
 }
 } // namespace
 
@@ -232,7 +232,7 @@ DistantSums::operator+=(const DistantSums & other)
 {
   covariance += other.covariance;
   constant += other.constant;
-  light += other.light;
+  signal += other.signal;
   signalCovariance += other.signalCovariance;
   signalSquare += other.signalSquare;
   return *this;
@@ -263,21 +263,21 @@ namespace
  * constant is fitted beside it. Where the signals differ too little to separate both, as in a flat field, the
  * covariance is attributed to the signal alone. */
 double
-LightOf(const DistantSums & far)
+IlluminationOf(const DistantSums & far)
 {
   const double squares = far.constant * far.signalSquare;
-  const double determinant = squares - far.light * far.light;
+  const double determinant = squares - far.signal * far.signal;
   if (determinant > InCorrelation.leastSpread * squares)
   {
-    return (far.constant * far.signalCovariance - far.light * far.covariance) / determinant;
+    return (far.constant * far.signalCovariance - far.signal * far.covariance) / determinant;
   }
-  return far.light > 0.0 ? far.covariance / far.light : 0.0;
+  return far.signal > 0.0 ? far.covariance / far.signal : 0.0;
 }
 
 double
-ConstantOf(const DistantSums & line, double light)
+ConstantOf(const DistantSums & line, double illumination)
 {
-  return line.constant > 0.0 ? (line.covariance - light * line.light) / line.constant : 0.0;
+  return line.constant > 0.0 ? (line.covariance - illumination * line.signal) / line.constant : 0.0;
 }
 } // namespace
 
@@ -289,7 +289,7 @@ CommonNoise::TakeOff(LagSums sums, const Lag & lag) const
   const double lines = (row < rows.size() ? rows[row] : 0.0) + (column < columns.size() ? columns[column] : 0.0);
   for (PairSums & bin : sums.bins)
   {
-    bin.covariance -= lines * bin.constant + light * bin.square;
+    bin.covariance -= lines * bin.constant + illumination * bin.square;
   }
   return sums;
 }
@@ -298,11 +298,11 @@ CommonNoise
 FindCommonNoise(const DistantCovariance & sums)
 {
   CommonNoise common;
-  common.light = LightOf(sums.far);
+  common.illumination = IlluminationOf(sums.far);
   for (std::size_t d = 0; d < DistantCovariance::Lines; ++d)
   {
-    common.rows[d] = ConstantOf(sums.rows[d], common.light);
-    common.columns[d] = ConstantOf(sums.columns[d], common.light);
+    common.rows[d] = ConstantOf(sums.rows[d], common.illumination);
+    common.columns[d] = ConstantOf(sums.columns[d], common.illumination);
   }
   return common;
 }

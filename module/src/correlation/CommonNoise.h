@@ -20,7 +20,7 @@ struct DistantSums
 {
   double covariance{ 0.0 };       ///< sum of w w' y
   double constant{ 0.0 };         ///< sum of w w'
-  double light{ 0.0 };            ///< sum of w z w' z'
+  double signal{ 0.0 };           ///< sum of w z w' z'
   double signalCovariance{ 0.0 }; ///< sum of w z w' z' y
   double signalSquare{ 0.0 };     ///< sum of w z^2 w' z'^2
 
@@ -56,7 +56,7 @@ SumDistantCovariance(const NoiseResiduals & residuals, std::size_t i);
  * neighbours is evaluated. */
 struct CommonNoise
 {
-  double light{ 0.0 };                                 ///< residual illumination: the coefficient of the squared signal
+  double illumination{ 0.0 };                          ///< residual illumination: the coefficient of the squared signal
                                                        ///< [1]
   std::array<double, DistantCovariance::Lines> rows{}; ///< covariance of pixels this many rows apart, and far apart
                                                        ///< along the rows [DN^2]

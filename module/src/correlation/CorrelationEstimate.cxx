@@ -143,7 +143,7 @@ NoiseByLevel(const NoiseResiduals & residuals, const NoiseCorrelation & correlat
   struct Sums
   {
     double pixels{ 0.0 };
-    double light{ 0.0 };
+    double signal{ 0.0 };
     double variance{ 0.0 };
   };
   std::array<Sums, NoiseResiduals::IntensityBins> bins;
@@ -157,7 +157,7 @@ NoiseByLevel(const NoiseResiduals & residuals, const NoiseCorrelation & correlat
       {
         Sums & bin = bins[residuals.BinOf(i)[p]];
         bin.pixels += 1.0;
-        bin.light += residuals.LightOf(i)[p];
+        bin.signal += residuals.SignalOf(i)[p];
         bin.variance += 1.0 / static_cast<double>(weight);
       }
     }
@@ -170,7 +170,7 @@ NoiseByLevel(const NoiseResiduals & residuals, const NoiseCorrelation & correlat
     {
       const double variance = bins[b].variance / bins[b].pixels;
       const double error = variance * std::sqrt(2.0 * shared / (residuals.GetDof() * bins[b].pixels));
-      lights.push_back({ bins[b].light / bins[b].pixels,
+      lights.push_back({ bins[b].signal / bins[b].pixels,
                          { variance, error },
                          SumOverLags(correlation, correlation.spaceFactorOfBins[b]) });
     }

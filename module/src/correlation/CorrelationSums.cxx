@@ -22,14 +22,14 @@ ColumnOf(CovarianceShape shape)
 /** Returns the variance at a signal by a line through the bins [DN^2], which have the inverse of their squared variance
  * as weights. The result is clamped between 0 and the variance of the darkest bin. */
 double
-VarianceAt(double lightDn, const Eigen::MatrixXd & shapes)
+VarianceAt(double signalDn, const Eigen::MatrixXd & shapes)
 {
   Eigen::MatrixXd line(shapes.rows(), 2);
-  line << shapes.col(ColumnOf(CovarianceShape::Light)), shapes.col(ColumnOf(CovarianceShape::Constant));
+  line << shapes.col(ColumnOf(CovarianceShape::Signal)), shapes.col(ColumnOf(CovarianceShape::Constant));
   const Eigen::VectorXd variance = shapes.col(ColumnOf(CovarianceShape::Variance));
   const Eigen::VectorXd fit = line.completeOrthogonalDecomposition().solve(variance);
   const double          inverse = line.col(1).maxCoeff();
-  return inverse > 0.0 ? std::clamp(fit(0) * lightDn + fit(1), 0.0, 1.0 / inverse) : 0.0;
+  return inverse > 0.0 ? std::clamp(fit(0) * signalDn + fit(1), 0.0, 1.0 / inverse) : 0.0;
 }
 constexpr auto FirstPart = static_cast<std::size_t>(CovarianceShape::FirstPart);
 } // namespace
@@ -43,7 +43,7 @@ CovarianceShapes::CovarianceShapes(const LagSums & own, double leastSignalDn, do
     if (bin.pairs > 0.0)
     {
       const auto row = static_cast<Eigen::Index>(b);
-      m_InBins.row(row).head(4) << bin.pairs - unfilteredDn2 * bin.constant, bin.light, bin.square, bin.constant;
+      m_InBins.row(row).head(4) << bin.pairs - unfilteredDn2 * bin.constant, bin.signal, bin.square, bin.constant;
       m_InBins.row(row) /= bin.pairs;
     }
   }
@@ -68,7 +68,7 @@ CovarianceShapes::UnitOf(std::size_t shape) const
   WeightedShape unit;
   const bool    isPart = shape >= FirstPart;
   unit.ofVariance = isPart || shape == static_cast<std::size_t>(CovarianceShape::Variance) ? 1.0 : 0.0;
-  unit.ofLight = shape == static_cast<std::size_t>(CovarianceShape::Light) ? 1.0 : 0.0;
+  unit.ofSignal = shape == static_cast<std::size_t>(CovarianceShape::Signal) ? 1.0 : 0.0;
   unit.ofSquare = shape == static_cast<std::size_t>(CovarianceShape::Square) ? 1.0 : 0.0;
   unit.constantDn2 = isPart ? -this->PartAfterFilter(shape) : 0.0;
   return unit;
@@ -227,7 +227,7 @@ PairSums
 CorrelationSums::WithoutUnequalFrames(PairSums sums, int frames) const
 {
   const double offsetDn = m_Residuals.GetUnequalFrames().GetOffsetDn();
-  sums.covariance -= m_OfUnequalFrames(frames) * (sums.light - offsetDn * sums.constant);
+  sums.covariance -= m_OfUnequalFrames(frames) * (sums.signal - offsetDn * sums.constant);
   return sums;
 }
 
@@ -335,7 +335,7 @@ FitLineOf(const LagSums & sums)
     if (bin.pairs > 0.0)
     {
       const double scale = 1.0 / std::sqrt(bin.pairs);
-      design.row(b) << scale * bin.light, scale * bin.constant;
+      design.row(b) << scale * bin.signal, scale * bin.constant;
       values(b) = scale * bin.covariance;
     }
   }

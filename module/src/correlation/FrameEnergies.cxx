@@ -19,8 +19,8 @@ FrameEnergies::FrameEnergies(const NoiseResiduals &            residuals,
   const std::size_t   count = tiles.origins.size();
   const auto          frames = static_cast<Eigen::Index>(tiles.frames);
   Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(frames, static_cast<Eigen::Index>(count)); // a column for each tile
-  Eigen::VectorXd light = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count));
-  Eigen::VectorXd pixels = light;
+  Eigen::VectorXd signal = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count));
+  Eigen::VectorXd pixels = signal;
   parallelFor(count, [&](std::size_t i) {
     const auto     tile = static_cast<Eigen::Index>(i);
     const auto     size = static_cast<Eigen::Index>(tiles.Pixels());
@@ -36,7 +36,7 @@ FrameEnergies::FrameEnergies(const NoiseResiduals &            residuals,
       return;
     }
     using Values = Eigen::Map<const Eigen::ArrayXf>;
-    light(tile) = (Values(residuals.LightOf(i), size) * taken).cast<double>().sum() / pixels(tile);
+    signal(tile) = (Values(residuals.SignalOf(i), size) * taken).cast<double>().sum() / pixels(tile);
     for (Eigen::Index t = 0; t < frames; ++t)
     {
       const Values values(residuals.OfTile(i) + t * size, size);
@@ -59,18 +59,18 @@ FrameEnergies::FrameEnergies(const NoiseResiduals &            residuals,
   {
     const Eigen::Index tile = filled[static_cast<std::size_t>(row)];
     m_SquaresDn2.row(row) = squares.col(tile).transpose();
-    m_SignalDn(row) = light(tile);
+    m_SignalDn(row) = signal(tile);
     m_Pixels(row) = pixels(tile);
   }
   this->FillRemainingFraction();
 }
 
 FrameEnergies::FrameEnergies(Eigen::MatrixXd squaresDn2,
-                             Eigen::VectorXd lightDn,
+                             Eigen::VectorXd signalDn,
                              Eigen::VectorXd pixels,
                              Eigen::MatrixXd basis)
   : m_SquaresDn2(std::move(squaresDn2))
-  , m_SignalDn(std::move(lightDn))
+  , m_SignalDn(std::move(signalDn))
   , m_Pixels(std::move(pixels))
   , m_Basis(std::move(basis))
 {

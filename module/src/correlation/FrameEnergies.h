@@ -33,9 +33,9 @@ public:
   FrameEnergies(const NoiseResiduals &            residuals,
                 const std::vector<std::uint8_t> & take,
                 const ParallelFor &               parallelFor);
-  /** Takes given numbers. \a squaresDn2 is tiles x frames [DN^2]; \a lightDn [DN] and \a pixels have a value for each
+  /** Takes given numbers. \a squaresDn2 is tiles x frames [DN^2]; \a signalDn [DN] and \a pixels have a value for each
    * tile. \a basis is the orthonormal Q, frames x series, which includes the constant. */
-  FrameEnergies(Eigen::MatrixXd squaresDn2, Eigen::VectorXd lightDn, Eigen::VectorXd pixels, Eigen::MatrixXd basis);
+  FrameEnergies(Eigen::MatrixXd squaresDn2, Eigen::VectorXd signalDn, Eigen::VectorXd pixels, Eigen::MatrixXd basis);
 
   Eigen::Index
   Tiles() const
@@ -55,7 +55,7 @@ public:
   }
   /** Returns the mean signal of each tile's pixels, above the black level of the residuals [DN]. */
   const Eigen::VectorXd &
-  LightDn() const
+  SignalDn() const
   {
     return m_SignalDn;
   }

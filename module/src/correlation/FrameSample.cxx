@@ -148,7 +148,7 @@ FrameSample::AddFrames(const TPixel *              frames,
     return;
   }
   parallelFor(m_Tiles.origins.size(), [&](std::size_t i) {
-    std::vector<TPixel> room(m_Tiles.side);
+    std::vector<TPixel> buffer(m_Tiles.side);
     for (std::size_t t = firstFrame; t < last; ++t)
     {
       for (std::size_t row = 0; row < m_Tiles.side; ++row)
@@ -156,7 +156,7 @@ FrameSample::AddFrames(const TPixel *              frames,
         const std::size_t pixel = m_Tiles.PixelOf(i, row * m_Tiles.side, m_Width);
         const std::size_t place = m_Tiles.PlaceOf(i, t) + row * m_Tiles.side;
         const TPixel *    values =
-          m_Layout.SideBySide(frames + (t - firstFrame) * m_Layout.frame, pixel, pixel + m_Tiles.side, room.data());
+          m_Layout.SideBySide(frames + (t - firstFrame) * m_Layout.frame, pixel, pixel + m_Tiles.side, buffer.data());
         if constexpr (std::is_integral_v<TPixel>)
         {
           std::transform(values, values + m_Tiles.side, m_Codes.data() + place, [](TPixel value) {

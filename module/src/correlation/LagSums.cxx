@@ -52,7 +52,7 @@ struct PairTerms
   OfRow pairs;
   OfRow covariance;
   OfRow constant;
-  OfRow light;
+  OfRow signal;
   OfRow square;
 
   void
@@ -61,7 +61,7 @@ struct PairTerms
     sums.pairs += pairs[k];
     sums.covariance += covariance[k];
     sums.constant += constant[k];
-    sums.light += light[k];
+    sums.signal += signal[k];
     sums.square += square[k];
   }
 };
@@ -70,7 +70,7 @@ struct PairTerms
 struct RowOfPixels
 {
   const double * root; // square root of the weight
-  const float *  light;
+  const float *  signal;
 };
 
 /** Returns the terms of one row of pairs. \a shares are the weights of the positions in the row, \a ofRow the weight of
@@ -79,21 +79,21 @@ PairTerms
 MakeTerms(const RowOfPixels &         here,
           const RowOfPixels &         there,
           const float *               products,
-          const std::vector<double> & shares,
+          const std::vector<double> & weights,
           double                      ofRow,
           double                      inverseDof)
 {
   PairTerms terms{};
-  for (std::size_t k = 0; k < shares.size(); ++k)
+  for (std::size_t k = 0; k < weights.size(); ++k)
   {
-    const double share = ofRow * shares[k];
+    const double weight = ofRow * weights[k];
     const double root = here.root[k] * there.root[k];
-    const double inverse = share * root;
-    const double z = 0.5 * (static_cast<double>(here.light[k]) + there.light[k]);
-    terms.pairs[k] = root > 0.0 ? share : 0.0;
+    const double inverse = weight * root;
+    const double z = 0.5 * (static_cast<double>(here.signal[k]) + there.signal[k]);
+    terms.pairs[k] = root > 0.0 ? weight : 0.0;
     terms.covariance[k] = inverseDof * products[k] * inverse;
     terms.constant[k] = inverse;
-    terms.light[k] = z * inverse;
+    terms.signal[k] = z * inverse;
     terms.square[k] = z * z * inverse;
   }
   return terms;
@@ -126,11 +126,11 @@ RestoreLineCovariance(const NoiseResiduals & residuals, std::size_t tile, int sh
   const auto dof = static_cast<float>(residuals.GetDof());
   const auto first = static_cast<std::size_t>(std::max(0, -shift));
   const auto last = products.size() - static_cast<std::size_t>(std::max(0, shift));
-  for (const float * const share : residuals.LineProjectionsOf(tile))
+  for (const float * const projection : residuals.LineProjectionsOf(tile))
   {
     for (std::size_t p = first; p < last; ++p)
     {
-      products[p] += dof * share[p] * share[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(p) + shift)];
+      products[p] += dof * projection[p] * projection[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(p) + shift)];
     }
   }
 }
@@ -198,7 +198,7 @@ LagSummation::OfTile(std::size_t tile) const
 {
   const std::vector<std::vector<float>> products = SumProducts(m_Residuals, tile, m_Lags);
   const std::size_t                     side = m_Residuals.GetTiles().side;
-  const float *                         light = m_Residuals.LightOf(tile);
+  const float *                         signal = m_Residuals.SignalOf(tile);
   const float *                         weight = m_Residuals.WeightOf(tile);
   const std::uint8_t *                  bin = m_Residuals.BinOf(tile);
   const double                          inverseDof = 1.0 / m_Residuals.GetDof();
@@ -218,8 +218,8 @@ LagSummation::OfTile(std::size_t tile) const
         const std::size_t q = static_cast<std::size_t>(
           static_cast<std::ptrdiff_t>(p) +
           static_cast<std::ptrdiff_t>(m_Lags[k].y) * static_cast<std::ptrdiff_t>(side) + m_Lags[k].x);
-        const PairTerms terms = MakeTerms({ roots.data() + p, light + p },
-                                          { roots.data() + q, light + q },
+        const PairTerms terms = MakeTerms({ roots.data() + p, signal + p },
+                                          { roots.data() + q, signal + q },
                                           products[k].data() + p,
                                           weights.columns,
                                           weights.rows[y],
@@ -241,7 +241,7 @@ PairSums::operator+=(const PairSums & other)
   pairs += other.pairs;
   covariance += other.covariance;
   constant += other.constant;
-  light += other.light;
+  signal += other.signal;
   square += other.square;
   return *this;
 }

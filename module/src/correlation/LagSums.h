@@ -28,7 +28,7 @@ struct PairSums
   double pairs{ 0.0 };      ///< sum of the weights by position
   double covariance{ 0.0 }; ///< sum of y / V [1]
   double constant{ 0.0 };   ///< sum of 1 / V [1/DN^2]
-  double light{ 0.0 };      ///< sum of z / V [1/DN]
+  double signal{ 0.0 };     ///< sum of z / V [1/DN]
   double square{ 0.0 };     ///< sum of z^2 / V [1]
 
   PairSums &

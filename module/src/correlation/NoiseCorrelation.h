@@ -61,7 +61,7 @@ VarianceInflation(const std::vector<LagCoefficient> & lags);
 enum class CovarianceShape : std::uint8_t
 {
   Variance, ///< as the variance without quantization noise: a filter after the read-out
-  Light,    ///< proportional to the signal: charge coupling
+  Signal,   ///< proportional to the signal: charge coupling
   Square,   ///< proportional to the squared signal: brighter-fatter effect
   Constant, ///< constant
   FirstPart ///< a filter before a part of the read noise; the shapes that follow have larger and larger parts
@@ -71,7 +71,7 @@ inline constexpr std::size_t PartsAfterFilter = 16;
 inline constexpr std::size_t NumberOfShapes = static_cast<std::size_t>(CovarianceShape::FirstPart) + PartsAfterFilter;
 
 /** Noise covariance as a function of the signal z, summed over all neighbours, or over all other frames: coefficient
- * times ofVariance (V - q) + ofLight z + ofSquare z^2 + constantDn2. V is the variance and q the variance of the
+ * times ofVariance (V - q) + ofSignal z + ofSquare z^2 + constantDn2. V is the variance and q the variance of the
  * quantization noise [DN^2]. A constant covariance does not change the variance before the filter; all four factors are
  * 0 for it. */
 struct WeightedShape
@@ -79,7 +79,7 @@ struct WeightedShape
   MeasuredNumber coefficient;        ///< [1]; of CovarianceShape::Light [DN], of CovarianceShape::Constant [DN^2]
   double         probability{ 0.0 }; ///< probability of this shape among all shapes [1]
   double         ofVariance{ 0.0 };
-  double         ofLight{ 0.0 };
+  double         ofSignal{ 0.0 };
   double         ofSquare{ 0.0 };
   double         constantDn2{ 0.0 };
 };

@@ -146,7 +146,7 @@ KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKur
 {
   const std::size_t side = residuals.GetTiles().side;
   const float *     weight = residuals.WeightOf(i);
-  const float *     light = residuals.LightOf(i);
+  const float *     signal = residuals.SignalOf(i);
   const auto        least = InCorrelation.leastNoise * static_cast<float>(residuals.GetDof());
   const TakenRuns   taken(weight, side);
   PowerSums         powers{};
@@ -162,7 +162,7 @@ KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKur
       {
         const double square = powers.squares[kind][p];
         sums.series[kind] += 1.0;
-        sums.ratio[kind] += powers.fourths[kind][p] / (square * square * normal.At(light[p], weight[p]));
+        sums.ratio[kind] += powers.fourths[kind][p] / (square * square * normal.At(signal[p], weight[p]));
       }
     }
   }
@@ -240,9 +240,9 @@ MixtureKurtosis::AtFraction(double shotFraction) const
 }
 
 double
-MixtureKurtosis::ShotFraction(double lightDn, double weight) const
+MixtureKurtosis::ShotFraction(double signalDn, double weight) const
 {
-  const double shot = m_Gain * (lightDn - m_OffsetDn) * weight;
+  const double shot = m_Gain * (signalDn - m_OffsetDn) * weight;
   return shot / (1.0 - m_Mean * shot);
 }
 

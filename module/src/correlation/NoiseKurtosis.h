@@ -68,12 +68,12 @@ class SensorNoise_EXPORT MixtureKurtosis
 public:
   explicit MixtureKurtosis(const NoiseResiduals & residuals);
 
-  /** Returns K for a pixel. \a lightDn is its signal above black [DN], \a weight the inverse of the typical variance of
-   * its residuals [1/DN^2]. */
+  /** Returns K for a pixel. \a signalDn is its signal above black [DN], \a weight the inverse of the typical variance
+   * of its residuals [1/DN^2]. */
   double
-  At(double lightDn, double weight) const
+  At(double signalDn, double weight) const
   {
-    return m_IsEqual ? m_Equal : this->AtFraction(this->ShotFraction(lightDn, weight));
+    return m_IsEqual ? m_Equal : this->AtFraction(this->ShotFraction(signalDn, weight));
   }
   /** Returns K for a fraction of shot noise [1]. */
   double
@@ -83,7 +83,7 @@ private:
   /** Returns the fraction of shot noise in the variance at the mean illumination. The variance of the residuals is
    * larger by N_0 / n times the shot noise. */
   double
-  ShotFraction(double lightDn, double weight) const;
+  ShotFraction(double signalDn, double weight) const;
 
   /** Number of points of the polynomial: enough for K to 2e-4 where four frames of twenty are illuminated. */
   static constexpr std::size_t Points = 9;

@@ -33,7 +33,7 @@ NoiseResiduals::RegressLines(LineAxis                         axis,
   for (std::size_t k = 0; k < pixels; ++k)
   {
     w(static_cast<Eigen::Index>(k)) = static_cast<double>(m_Weight[placeOf(k)]);
-    z(static_cast<Eigen::Index>(k)) = static_cast<double>(m_Light[placeOf(k)]);
+    z(static_cast<Eigen::Index>(k)) = static_cast<double>(m_Signal[placeOf(k)]);
   }
   const double weight = w.sum();
   if (!(weight > 0.0))
@@ -80,10 +80,10 @@ NoiseResiduals::TakeOffLines(LineAxis axis, const std::vector<std::uint8_t> & ta
   const SampleTiles &                         tiles = this->GetTiles();
   const std::vector<std::vector<std::size_t>> groups = TilesInLine(tiles, axis);
   m_LinesTakenOff = axis;
-  std::vector<float> left(m_Light.size());
-  for (std::vector<float> & shares : m_LineProjections)
+  std::vector<float> left(m_Signal.size());
+  for (std::vector<float> & projections : m_LineProjections)
   {
-    shares.assign(m_Light.size(), 0.0F);
+    projections.assign(m_Signal.size(), 0.0F);
   }
   // The second weights do not contain the line noise, and the second regression replaces the first.
   for (int twice = 0; twice < 2; ++twice)

@@ -182,15 +182,15 @@ NoiseResiduals::Project(const SampledPixels & pixels, const ParallelFor & parall
 {
   const SampleTiles & tiles = m_Sample.GetTiles();
   const std::size_t   size = tiles.Pixels();
-  m_Light.resize(tiles.origins.size() * size);
-  m_Variance.resize(m_Light.size());
+  m_Signal.resize(tiles.origins.size() * size);
+  m_Variance.resize(m_Signal.size());
   m_BlackDn = pixels.blackDn;
   m_IsBlackKnown = pixels.isBlackKnown;
   parallelFor(tiles.origins.size(), [&](std::size_t i) {
     for (std::size_t p = 0; p < size; ++p)
     {
-      const double light = pixels.mean[m_Sample.PixelOf(i, p)] - pixels.blackDn;
-      m_Light[i * size + p] = std::isfinite(light) ? static_cast<float>(light) : 0.0F;
+      const double signal = pixels.mean[m_Sample.PixelOf(i, p)] - pixels.blackDn;
+      m_Signal[i * size + p] = std::isfinite(signal) ? static_cast<float>(signal) : 0.0F;
     }
     fillTile(i);
     this->ProjectTile(i);
@@ -203,7 +203,7 @@ void
 NoiseResiduals::Take(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor)
 {
   const std::size_t         size = this->GetTiles().Pixels();
-  std::vector<std::uint8_t> ofSample(m_Light.size());
+  std::vector<std::uint8_t> ofSample(m_Signal.size());
   parallelFor(this->GetTiles().origins.size(), [&](std::size_t i) {
     for (std::size_t p = 0; p < size; ++p)
     {
@@ -294,10 +294,10 @@ NoiseResiduals::Weigh(const std::vector<std::uint8_t> & take)
 {
   m_Weight.assign(take.size(), 0.0F);
   m_Bin.assign(take.size(), 0);
-  const std::vector<std::uint32_t> order = SortPixelsBySignal(m_Light, take);
+  const std::vector<std::uint32_t> order = SortPixelsBySignal(m_Signal, take);
   m_Pixels = order.size();
   const auto darkest = static_cast<std::size_t>(InCommon.darkestQuantile * static_cast<double>(m_Pixels));
-  m_DarkestSignal = m_Pixels > 0 ? m_Light[order[darkest]] : 0.0;
+  m_DarkestSignal = m_Pixels > 0 ? m_Signal[order[darkest]] : 0.0;
   const std::size_t bins =
     std::clamp<std::size_t>(order.size() / InCorrelation.leastPixelsOfBin, 1, InCorrelation.noiseBins);
   NoiseCurve curve;
@@ -305,20 +305,20 @@ NoiseResiduals::Weigh(const std::vector<std::uint8_t> & take)
   {
     const std::size_t first = b * order.size() / bins;
     const std::size_t last = (b + 1) * order.size() / bins;
-    double            light = 0.0;
+    double            signal = 0.0;
     double            sum = 0.0;
     for (std::size_t k = first; k < last; ++k)
     {
-      light += m_Light[order[k]];
+      signal += m_Signal[order[k]];
       sum += m_Variance[order[k]];
     }
     const auto count = static_cast<double>(std::max<std::size_t>(1, last - first));
-    curve.Add(light / count, sum / count / std::max(1.0, this->GetDof()));
+    curve.Add(signal / count, sum / count / std::max(1.0, this->GetDof()));
   }
   for (std::size_t rank = 0; rank < order.size(); ++rank)
   {
     const std::uint32_t pixel = order[rank];
-    const double        typical = curve.AtNext(m_Light[pixel]);
+    const double        typical = curve.AtNext(m_Signal[pixel]);
     m_Weight[pixel] = typical > 0.0 ? static_cast<float>(1.0 / typical) : 0.0F;
     m_Bin[pixel] = static_cast<std::uint8_t>(rank * IntensityBins / order.size());
   }
@@ -332,13 +332,13 @@ struct PixelKey
   std::uint32_t pixel;
 };
 
-/** Returns an integer in the order of \a light. The bits of positive numbers have the order of the numbers, the bits of
- * negative numbers the opposite order. */
+/** Returns an integer in the order of \a signal. The bits of positive numbers have the order of the numbers, the bits
+ * of negative numbers the opposite order. */
 std::uint32_t
-KeyOf(float light)
+KeyOf(float signal)
 {
   constexpr std::uint32_t sign = std::uint32_t{ 1 } << 31;
-  const float             number = light + 0.0F; // +0 and -0 become equal
+  const float             number = signal + 0.0F; // +0 and -0 become equal
   std::uint32_t           bits = 0;
   static_assert(sizeof bits == sizeof number);
   std::memcpy(&bits, &number, sizeof bits);
@@ -372,15 +372,15 @@ SortByDigit(unsigned int shift, std::vector<PixelKey> & pixels, std::vector<Pixe
 } // namespace
 
 std::vector<std::uint32_t>
-SortPixelsBySignal(const std::vector<float> & light, const std::vector<std::uint8_t> & take)
+SortPixelsBySignal(const std::vector<float> & signal, const std::vector<std::uint8_t> & take)
 {
   std::vector<PixelKey> pixels;
-  pixels.reserve(light.size());
-  for (std::size_t p = 0; p < light.size(); ++p)
+  pixels.reserve(signal.size());
+  for (std::size_t p = 0; p < signal.size(); ++p)
   {
     if (take[p] != 0)
     {
-      pixels.push_back({ KeyOf(light[p]), static_cast<std::uint32_t>(p) });
+      pixels.push_back({ KeyOf(signal[p]), static_cast<std::uint32_t>(p) });
     }
   }
   std::vector<PixelKey> sorted(pixels.size());

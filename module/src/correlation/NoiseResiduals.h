@@ -168,9 +168,9 @@ public:
   }
   /** Returns the signal of the pixels of tile \a i [DN above black]. */
   const float *
-  LightOf(std::size_t i) const
+  SignalOf(std::size_t i) const
   {
-    return m_Light.data() + i * this->GetTiles().Pixels();
+    return m_Signal.data() + i * this->GetTiles().Pixels();
   }
   /** Returns the inverse of the typical noise variance at the signal of each pixel of tile \a i [1/DN^2]; 0: the pixel
    * is left out. */
@@ -259,7 +259,7 @@ private:
 
   NoiseSample               m_Sample;
   Eigen::MatrixXd           m_Basis;
-  std::vector<float>        m_Light;
+  std::vector<float>        m_Signal;
   std::vector<float>        m_Variance; // sums over time of the squares
   std::vector<float>        m_Weight;
   std::vector<std::uint8_t> m_Bin;
@@ -273,10 +273,10 @@ private:
   std::array<std::vector<float>, 2> m_LineProjections;
 };
 
-/** Returns the pixels whose \a take is not 0 in the order of their signal \a light, which must be finite. Pixels of
+/** Returns the pixels whose \a take is not 0 in the order of their signal \a signal, which must be finite. Pixels of
  * equal signal are in the order of their index. */
 SensorNoise_EXPORT std::vector<std::uint32_t>
-SortPixelsBySignal(const std::vector<float> & light, const std::vector<std::uint8_t> & take);
+SortPixelsBySignal(const std::vector<float> & signal, const std::vector<std::uint8_t> & take);
 
 } // namespace sensornoise
 

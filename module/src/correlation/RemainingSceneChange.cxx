@@ -44,7 +44,7 @@ Eigen::ArrayX2d
 SlopesOf(const NoiseResiduals & residuals, std::size_t tile)
 {
   const std::size_t   side = residuals.GetTiles().side;
-  const float * const light = residuals.LightOf(tile);
+  const float * const signal = residuals.SignalOf(tile);
   const float * const weight = residuals.WeightOf(tile);
   Eigen::ArrayX2d     slopes = Eigen::ArrayX2d::Zero(static_cast<Eigen::Index>(side * side), 2);
   for (std::size_t y = 1; y + 1 < side; ++y)
@@ -53,8 +53,8 @@ SlopesOf(const NoiseResiduals & residuals, std::size_t tile)
     {
       const std::size_t p = y * side + x;
       const double      root = std::sqrt(static_cast<double>(weight[p]));
-      slopes.row(static_cast<Eigen::Index>(p)) << 0.5 * root * (static_cast<double>(light[p + 1]) - light[p - 1]),
-        0.5 * root * (static_cast<double>(light[p + side]) - light[p - side]);
+      slopes.row(static_cast<Eigen::Index>(p)) << 0.5 * root * (static_cast<double>(signal[p + 1]) - signal[p - 1]),
+        0.5 * root * (static_cast<double>(signal[p + side]) - signal[p - side]);
     }
   }
   return slopes;
@@ -111,8 +111,9 @@ FindLocalMotion(const NoiseResiduals & residuals, const ParallelFor & parallelFo
   std::vector<SlopeSums> tiles(residuals.GetTiles().origins.size());
   parallelFor(tiles.size(), [&](std::size_t i) { tiles[i] = SumsOf(residuals, i); });
   const JackknifeEstimate estimate = Jackknife(tiles, [](const SlopeSums & all) {
-    const bool isTold = all.xx > 0.0 && all.pixels > 0.0;
-    return Eigen::VectorXd(Eigen::VectorXd::Constant(1, isTold ? all.xy / all.xx * all.roughness / all.pixels : 0.0));
+    const bool isIdentifiable = all.xx > 0.0 && all.pixels > 0.0;
+    return Eigen::VectorXd(
+      Eigen::VectorXd::Constant(1, isIdentifiable ? all.xy / all.xx * all.roughness / all.pixels : 0.0));
   });
   return { estimate.value(0), estimate.StandardError(0) };
 }
@@ -128,11 +129,11 @@ constexpr std::size_t Blocks = 24;
  * two pixels is a constant plus a coefficient times the product of their signals. */
 struct LineIlluminationProducts
 {
-  double noise{ 0.0 };      ///< products of sums of w y
-  double constant{ 0.0 };   ///< products of sums of w: the constant's own normal equation
-  double mixed{ 0.0 };      ///< products of sums of w z: couples both normal equations
-  double lightNoise{ 0.0 }; ///< products of sums of w z y
-  double square{ 0.0 };     ///< products of sums of w z^2: the coefficient's own normal equation
+  double noise{ 0.0 };       ///< products of sums of w y
+  double constant{ 0.0 };    ///< products of sums of w: the constant's own normal equation
+  double mixed{ 0.0 };       ///< products of sums of w z: couples both normal equations
+  double signalNoise{ 0.0 }; ///< products of sums of w z y
+  double square{ 0.0 };      ///< products of sums of w z^2: the coefficient's own normal equation
 
   LineIlluminationProducts &
   operator+=(const LineIlluminationProducts & other)
@@ -140,18 +141,18 @@ struct LineIlluminationProducts
     noise += other.noise;
     constant += other.constant;
     mixed += other.mixed;
-    lightNoise += other.lightNoise;
+    signalNoise += other.signalNoise;
     square += other.square;
     return *this;
   }
 
   /** Returns the coefficient of the product of the signals [1]; NaN where it is not identifiable. */
   double
-  OfLight() const
+  OfIllumination() const
   {
     const double determinant = constant * square - mixed * mixed;
     return determinant > InCorrelation.leastSpread * constant * square
-             ? (constant * lightNoise - mixed * noise) / determinant
+             ? (constant * signalNoise - mixed * noise) / determinant
              : std::numeric_limits<double>::quiet_NaN();
   }
 };
@@ -198,7 +199,7 @@ PixelsOfLine(const NoiseResiduals & residuals, const std::vector<std::size_t> & 
                          tile,
                          p,
                          static_cast<double>(residuals.WeightOf(tile)[p]),
-                         static_cast<double>(residuals.LightOf(tile)[p]) });
+                         static_cast<double>(residuals.SignalOf(tile)[p]) });
     }
   }
   return pixels;
@@ -222,20 +223,20 @@ ProductsOfLine(const NoiseResiduals & residuals, const std::vector<PixelOfLine> 
   products.mixed = ProductOfParts(mixed);
   products.square = ProductOfParts(square);
   std::vector<double> noise(parts);
-  std::vector<double> lightNoise(parts);
+  std::vector<double> signalNoise(parts);
   for (std::size_t t = 0; t < residuals.GetTiles().frames; ++t)
   {
     std::fill(noise.begin(), noise.end(), 0.0);
-    std::fill(lightNoise.begin(), lightNoise.end(), 0.0);
+    std::fill(signalNoise.begin(), signalNoise.end(), 0.0);
     for (const PixelOfLine & pixel : pixels)
     {
       const float * const values = residuals.OfTile(pixel.tile) + t * residuals.GetTiles().Pixels();
       const double        weighed = pixel.w * static_cast<double>(values[pixel.inTile]);
       noise[pixel.part] += weighed;
-      lightNoise[pixel.part] += weighed * pixel.z;
+      signalNoise[pixel.part] += weighed * pixel.z;
     }
     products.noise += ProductOfParts(noise) / residuals.GetDof();
-    products.lightNoise += ProductOfParts(lightNoise) / residuals.GetDof();
+    products.signalNoise += ProductOfParts(signalNoise) / residuals.GetDof();
   }
   return products;
 }
@@ -260,8 +261,8 @@ EstimateLineIlluminationChange(const NoiseResiduals & residuals, LineAxis axis, 
   {
     blocks[i * blocks.size() / ofLines.size()] += ofLines[i];
   }
-  const JackknifeEstimate estimate =
-    Jackknife(blocks, [](const LineIlluminationProducts & sum) { return Eigen::VectorXd::Constant(1, sum.OfLight()); });
+  const JackknifeEstimate estimate = Jackknife(
+    blocks, [](const LineIlluminationProducts & sum) { return Eigen::VectorXd::Constant(1, sum.OfIllumination()); });
   const MeasuredNumber square{ estimate.value(0), estimate.StandardError(0) };
   return std::isfinite(square.value) && std::isfinite(square.standardError)
            ? square

@@ -23,7 +23,7 @@ RequiredEvidence(CovarianceShape shape, bool mayBeCharge)
   {
     case CovarianceShape::Variance:
       return 0.0;
-    case CovarianceShape::Light:
+    case CovarianceShape::Signal:
     case CovarianceShape::Square:
       return mayBeCharge ? std::optional(0.0) : std::nullopt;
     case CovarianceShape::Constant:

@@ -64,7 +64,7 @@ double
 Chi2OfLine(const Eigen::MatrixXd & shapes, const Eigen::VectorXd & variance, const Eigen::VectorXd & errors)
 {
   Eigen::MatrixXd design(variance.size(), 2);
-  design.col(0) = shapes.col(static_cast<Eigen::Index>(CovarianceShape::Light));
+  design.col(0) = shapes.col(static_cast<Eigen::Index>(CovarianceShape::Signal));
   design.col(1) = shapes.col(static_cast<Eigen::Index>(CovarianceShape::Constant));
   const Eigen::VectorXd weights = errors.unaryExpr([](double error) { return error > 0.0 ? 1.0 / error : 0.0; });
   const Eigen::MatrixXd weighted = weights.asDiagonal() * design;
@@ -181,8 +181,8 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
     sums.StandardErrorsInBins(lags),
     unfilteredDn2);
   const Eigen::VectorXd chi2 = fits.value.tail(NumberOfShapes);
-  const Eigen::VectorXd withBend = chi2 + Chi2OfTotalVariance(sums, all, fits.value.head(NumberOfShapes));
-  const auto            probabilities = ProbabilitiesOf(withBend, mayBeCharge);
+  const Eigen::VectorXd withCurvature = chi2 + Chi2OfTotalVariance(sums, all, fits.value.head(NumberOfShapes));
+  const auto            probabilities = ProbabilitiesOf(withCurvature, mayBeCharge);
   found.shapes = WeighShapes(fits, probabilities, sums.ShapesOf(all, unfilteredDn2));
   // The negative covariance of a sharpening filter is proportional to the variance, and the same everywhere. The
   // covariance by rounding of blocks is neither.
@@ -203,7 +203,7 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
       !SumOfCoefficients(sums, sums.Ring(2, found.reach)).Exceeds(InCorrelation.smallRing, Significance.oneTest);
     const auto probabilityOf = [&](CovarianceShape shape) { return found.Shape(shape).probability; };
     const bool isCharge =
-      mayBeCharge && (isNear || probabilityOf(CovarianceShape::Light) > probabilityOf(CovarianceShape::Variance));
+      mayBeCharge && (isNear || probabilityOf(CovarianceShape::Signal) > probabilityOf(CovarianceShape::Variance));
     found.kind = probabilityOf(CovarianceShape::Square) > 0.5 ? NoiseKind::BrighterFatter
                  : isCharge                                   ? NoiseKind::Crosstalk
                                                               : NoiseKind::Filtered;

@@ -12,14 +12,14 @@ namespace sensornoise
 namespace
 {
 /** Shares of the values in slope and intercept: the line is the sum of shares times values. */
-struct LineShares
+struct LineCoefficients
 {
   std::vector<double> ofSlope;
   std::vector<double> ofIntercept;
 };
 
-LineShares
-SharesOf(const std::vector<LevelValue> & values, const std::vector<double> & weights)
+LineCoefficients
+CoefficientsOf(const std::vector<LevelValue> & values, const std::vector<double> & weights)
 {
   double sum = 0.0;
   double mean = 0.0;
@@ -34,24 +34,24 @@ SharesOf(const std::vector<LevelValue> & values, const std::vector<double> & wei
   {
     squares += weights[i] * (values[i].x - mean) * (values[i].x - mean);
   }
-  LineShares shares;
+  LineCoefficients coefficients;
   for (std::size_t i = 0; i < values.size(); ++i)
   {
-    shares.ofSlope.push_back(weights[i] * (values[i].x - mean) / squares);
-    shares.ofIntercept.push_back(weights[i] / sum - mean * shares.ofSlope.back());
+    coefficients.ofSlope.push_back(weights[i] * (values[i].x - mean) / squares);
+    coefficients.ofIntercept.push_back(weights[i] / sum - mean * coefficients.ofSlope.back());
   }
-  return shares;
+  return coefficients;
 }
 
 /** Returns slope and intercept. */
 LevelLine
-LineBy(const LineShares & shares, const std::vector<LevelValue> & values)
+LineBy(const LineCoefficients & coefficients, const std::vector<LevelValue> & values)
 {
   LevelLine line;
   for (std::size_t i = 0; i < values.size(); ++i)
   {
-    line.slope += shares.ofSlope[i] * values[i].y;
-    line.intercept += shares.ofIntercept[i] * values[i].y;
+    line.slope += coefficients.ofSlope[i] * values[i].y;
+    line.intercept += coefficients.ofIntercept[i] * values[i].y;
   }
   return line;
 }
@@ -62,9 +62,9 @@ LineBy(const LineShares & shares, const std::vector<LevelValue> & values)
 LevelLine
 LineWithErrors(const std::vector<LevelValue> & values, const std::vector<double> & weights)
 {
-  const LineShares shares = SharesOf(values, weights);
-  LevelLine        line = LineBy(shares, values);
-  const bool       areKnown =
+  const LineCoefficients coefficients = CoefficientsOf(values, weights);
+  LevelLine              line = LineBy(coefficients, values);
+  const bool             areKnown =
     std::all_of(values.begin(), values.end(), [](const LevelValue & value) { return value.variance > 0.0; });
   double squares = 0.0;
   double expected = 0.0;
@@ -74,11 +74,11 @@ LineWithErrors(const std::vector<LevelValue> & values, const std::vector<double>
   {
     const double variance = areKnown ? values[i].variance : 1.0;
     const double residual = values[i].y - line.intercept - line.slope * values[i].x;
-    const double leverage = shares.ofIntercept[i] + shares.ofSlope[i] * values[i].x;
+    const double leverage = coefficients.ofIntercept[i] + coefficients.ofSlope[i] * values[i].x;
     squares += weights[i] * residual * residual;
     expected += weights[i] * (1.0 - leverage) * variance;
-    slopeVariance += shares.ofSlope[i] * shares.ofSlope[i] * variance;
-    interceptVariance += shares.ofIntercept[i] * shares.ofIntercept[i] * variance;
+    slopeVariance += coefficients.ofSlope[i] * coefficients.ofSlope[i] * variance;
+    interceptVariance += coefficients.ofIntercept[i] * coefficients.ofIntercept[i] * variance;
   }
   const double scatter = expected > 0.0 ? squares / expected : 0.0;
   const double factor = areKnown ? std::max(1.0, scatter) : scatter;
@@ -140,7 +140,7 @@ FitRelativeLine(const std::vector<LevelValue> & values)
   {
     weights.push_back(1.0 / (value.y * value.y));
   }
-  return LineBy(SharesOf(values, weights), values);
+  return LineBy(CoefficientsOf(values, weights), values);
 }
 
 } // namespace sensornoise

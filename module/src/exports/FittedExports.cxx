@@ -66,7 +66,7 @@ struct AndroidChannel
 {
   std::array<double, 2> scale{};  // A, B
   std::array<double, 2> offset{}; // C, D
-  double                misfit{ 0.0 };
+  double                fitError{ 0.0 };
 };
 
 double
@@ -96,7 +96,7 @@ FitAndroidChannel(const std::vector<CameraNoise> & settings, std::size_t channel
       const double fitted = (scales[i].first * model.scale[0] + model.scale[1]) * level +
                             offsets[i].first * model.offset[0] + offsets[i].second * model.offset[1];
       const double measured = scales[i].wanted * level + offsets[i].wanted;
-      model.misfit = measured > 0.0 ? std::max(model.misfit, std::abs(fitted / measured - 1.0)) : model.misfit;
+      model.fitError = measured > 0.0 ? std::max(model.fitError, std::abs(fitted / measured - 1.0)) : model.fitError;
     }
   }
   return model;
@@ -125,7 +125,7 @@ ExportAndroid(const std::vector<CameraNoise> & settings)
   RequireAlike(settings);
   std::vector<std::string>           names;
   std::array<std::vector<double>, 4> coefficients;
-  double                             misfit = 0.0;
+  double                             fitError = 0.0;
   for (std::size_t channel = 0; channel < settings.front().channels.size(); ++channel)
   {
     const std::string    name = settings.front().channels[channel].channel;
@@ -135,7 +135,7 @@ ExportAndroid(const std::vector<CameraNoise> & settings)
     coefficients[1].push_back(model.scale[1]);
     coefficients[2].push_back(model.offset[0]);
     coefficients[3].push_back(model.offset[1]);
-    misfit = std::max(misfit, model.misfit);
+    fitError = std::max(fitError, model.fitError);
   }
   std::string text;
   JsonWriter  json(text);
@@ -147,7 +147,7 @@ ExportAndroid(const std::vector<CameraNoise> & settings)
   });
   return OneFile("android_noise_model.json",
                  text + '\n',
-                 "The fitted variance differs from the measured variance by " + Percent(misfit) + " at most.");
+                 "The fitted variance differs from the measured variance by " + Percent(fitError) + " at most.");
 }
 
 namespace
@@ -226,31 +226,31 @@ FitRootLine(const ScaledVariance & variance)
 }
 
 /** Relative errors of the standard deviation that is stored. */
-struct Misfit
+struct FitError
 {
   double rms{ 0.0 };
   double largest{ 0.0 };
   double signal{ 0.0 }; ///< of the largest, on libcamera's scale
 };
 
-Misfit
-MisfitOf(const RootLine & line, const ScaledVariance & variance)
+FitError
+FitErrorOf(const RootLine & line, const ScaledVariance & variance)
 {
-  Misfit    misfit;
+  FitError  fitError;
   const int first = variance.dark > 0.0 ? 0 : 1;
   for (int level = first; level < levels; ++level)
   {
     const double root = variance.RootOfLevel(level);
     const double error = std::abs((line.constant + line.slope * root) / variance.DeviationAt(root) - 1.0);
-    misfit.rms += error * error / (levels - first);
-    if (error > misfit.largest)
+    fitError.rms += error * error / (levels - first);
+    if (error > fitError.largest)
     {
-      misfit.largest = error;
-      misfit.signal = root * root;
+      fitError.largest = error;
+      fitError.signal = root * root;
     }
   }
-  misfit.rms = std::sqrt(misfit.rms);
-  return misfit;
+  fitError.rms = std::sqrt(fitError.rms);
+  return fitError;
 }
 } // namespace
 
@@ -281,12 +281,12 @@ ExportLibcamera(const CameraNoise & noise)
     json.ObjectMember(
       "rpi.noise", [&] { json.Member("reference_constant", model.constant).Member("reference_slope", model.slope); });
   });
-  const Misfit misfit = MisfitOf({ model.constant, model.slope / libcameraSlopeFactor }, variance);
-  const double level = BlackLevelOf(noise) + misfit.signal / DnScaleOf(noise);
+  const FitError fitError = FitErrorOf({ model.constant, model.slope / libcameraSlopeFactor }, variance);
+  const double   level = BlackLevelOf(noise) + fitError.signal / DnScaleOf(noise);
   return OneFile("libcamera_noise.json",
                  text + '\n',
-                 "The fitted standard deviation differs from the measured one by " + Percent(misfit.rms) +
-                   " (rms), and by " + Percent(misfit.largest) + " at most, at " + Rounded(level) +
+                 "The fitted standard deviation differs from the measured one by " + Percent(fitError.rms) +
+                   " (rms), and by " + Percent(fitError.largest) + " at most, at " + Rounded(level) +
                    " DN. The slope is multiplied by 1.4, as by rpi-ctt. The analogue gain of the burst is taken as " +
                    Text(noise.analogueGain) + '.');
 }

@@ -80,16 +80,16 @@ public:
   Add(std::size_t code)
   {
     const std::uint64_t length = code < ClearCode ? 1 : m_Lengths[code];
-    const std::uint64_t room = m_Out == nullptr ? 0 : m_Capacity - std::min(m_Capacity, m_Bytes);
+    const std::uint64_t space = m_Out == nullptr ? 0 : m_Capacity - std::min(m_Capacity, m_Bytes);
     m_Last = m_Bytes;
     m_Bytes += length;
-    if (code < ClearCode && room > 0)
+    if (code < ClearCode && space > 0)
     {
       m_Out[m_Last] = static_cast<unsigned char>(code);
       return;
     }
     // byte by byte: a string may begin with those that are just copied
-    for (std::uint64_t i = 0; i < std::min(length, room); ++i)
+    for (std::uint64_t i = 0; i < std::min(length, space); ++i)
     {
       m_Out[m_Last + i] = m_Out[m_Starts[code] + i];
     }

@@ -174,8 +174,8 @@ InflatedBytes::Read(void * out, std::uint64_t count)
   for (std::uint64_t done = 0; done < count;)
   {
     auto * const      to = out == nullptr ? dropped.data() : static_cast<unsigned char *>(out) + done;
-    const std::size_t room = out == nullptr ? dropped.size() : static_cast<std::size_t>(count - done);
-    const std::size_t now = static_cast<std::size_t>(std::min<std::uint64_t>(count - done, room));
+    const std::size_t space = out == nullptr ? dropped.size() : static_cast<std::size_t>(count - done);
+    const std::size_t now = static_cast<std::size_t>(std::min<std::uint64_t>(count - done, space));
     if (ReadSome(to, now) < now)
     {
       Refuse();

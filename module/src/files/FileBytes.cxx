@@ -197,13 +197,14 @@ Follows(std::uint64_t end, std::uint64_t offset, bool areTables)
 } // namespace
 
 void
-ByteRanges::Join(std::vector<Range> & ranges, bool mayShare)
+ByteRanges::Join(std::vector<Range> & ranges, bool mayOverlap)
 {
   std::sort(ranges.begin(), ranges.end());
   std::size_t last = 0;
   for (std::size_t i = 1; i < ranges.size(); ++i)
   {
-    if (Follows(ranges[last].second, ranges[i].first, mayShare) || (mayShare && ranges[i].first < ranges[last].second))
+    if (Follows(ranges[last].second, ranges[i].first, mayOverlap) ||
+        (mayOverlap && ranges[i].first < ranges[last].second))
     {
       ranges[last].second = std::max(ranges[last].second, ranges[i].second);
     }
@@ -216,20 +217,20 @@ ByteRanges::Join(std::vector<Range> & ranges, bool mayShare)
 }
 
 bool
-ByteRanges::Add(std::vector<Range> & ranges, std::uint64_t offset, std::uint64_t count, bool mayShare)
+ByteRanges::Add(std::vector<Range> & ranges, std::uint64_t offset, std::uint64_t count, bool mayOverlap)
 {
   if (count == 0)
   {
     return true;
   }
-  if (!ranges.empty() && Follows(ranges.back().second, offset, mayShare))
+  if (!ranges.empty() && Follows(ranges.back().second, offset, mayOverlap))
   {
     ranges.back().second = offset + count;
     return true;
   }
   if (ranges.size() == MaximumRanges)
   {
-    Join(ranges, mayShare);
+    Join(ranges, mayOverlap);
     if (ranges.size() > MaximumRanges / 2)
     {
       return false; // the ranges would soon have to be joined again

@@ -159,10 +159,10 @@ private:
   /** Sorts the ranges and joins ranges that follow each other. Ranges that may share bytes are also joined if they
    * overlap. */
   static void
-  Join(std::vector<Range> & ranges, bool mayShare);
+  Join(std::vector<Range> & ranges, bool mayOverlap);
 
   static bool
-  Add(std::vector<Range> & ranges, std::uint64_t offset, std::uint64_t count, bool mayShare);
+  Add(std::vector<Range> & ranges, std::uint64_t offset, std::uint64_t count, bool mayOverlap);
 
   std::vector<Range> m_Pixels;
   std::vector<Range> m_Tables;

@@ -54,11 +54,11 @@ Inflater::Take(unsigned char * out, std::size_t count)
   }
   z_stream & zlib = m_Stream->zlib;
   const uInt before = zlib.avail_in;
-  const auto room = static_cast<uInt>(std::min<std::size_t>(count, std::numeric_limits<uInt>::max()));
+  const auto space = static_cast<uInt>(std::min<std::size_t>(count, std::numeric_limits<uInt>::max()));
   zlib.next_out = out;
-  zlib.avail_out = room;
+  zlib.avail_out = space;
   const int         status = inflate(&zlib, Z_NO_FLUSH);
-  const std::size_t made = room - zlib.avail_out;
+  const std::size_t made = space - zlib.avail_out;
   m_Used += before - zlib.avail_in;
   m_Found += made;
   m_Ended = status == Z_STREAM_END;

@@ -23,18 +23,18 @@ namespace
 class PngInspection
 {
 public:
-  /** The pixels are written to \a pixels, which has space for \a room bytes. With null, they are only checked. */
+  /** The pixels are written to \a pixels, which has space for \a capacity bytes. With null, they are only checked. */
   PngInspection(FileBytes &             bytes,
                 FrameFile &             file,
                 const BeforeInflating & beforeInflating,
                 unsigned char *         pixels = nullptr,
-                std::uint64_t           room = 0)
+                std::uint64_t           capacity = 0)
     : m_Bytes(bytes)
     , m_Chunks(file.name, bytes)
     , m_File(file)
     , m_BeforeInflating(beforeInflating)
     , m_Pixels(pixels)
-    , m_Room(room)
+    , m_Capacity(capacity)
   {}
 
   void
@@ -160,10 +160,10 @@ private:
     }
     if (!m_Inflater)
     {
-      if (m_Pixels != nullptr && m_File.bytes != m_Room)
+      if (m_Pixels != nullptr && m_File.bytes != m_Capacity)
       {
         Refuse("has changed since it was opened: its pixels have " + std::to_string(m_File.bytes) +
-               " bytes; expected " + std::to_string(m_Room));
+               " bytes; expected " + std::to_string(m_Capacity));
       }
       m_Rows = std::make_unique<PngRows>(m_File.width, m_File.height, SizeOf(m_File.pixel), m_Interlaced, m_Pixels);
       m_Inflater = std::make_unique<Inflater>(
@@ -199,7 +199,7 @@ private:
   FrameFile &               m_File;
   const BeforeInflating &   m_BeforeInflating;
   unsigned char *           m_Pixels;
-  std::uint64_t             m_Room; // space in m_Pixels [bytes]
+  std::uint64_t             m_Capacity; // space in m_Pixels [bytes]
   bool                      m_HasHeader{ false };
   bool                      m_Interlaced{ false };
   bool                      m_PixelsEnded{ false };

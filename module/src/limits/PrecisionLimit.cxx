@@ -127,20 +127,20 @@ ComputePrecisionLimit(const PrecisionInput & input)
   const DeviationSums deviations = SumDeviations(input, centreDn, fluxRatio);
   // A scene of one level leaves rounding errors of 1e-32 here.
   constexpr double rounding = 1e-20;
-  const double     degreesOfFreedom = static_cast<double>(input.frames - 1);
+  const double     dof = static_cast<double>(input.frames - 1);
   if (deviations.levelDeviation > rounding * deviations.levelMagnitude)
   {
-    const double gainVariance = 2.0 / (degreesOfFreedom * deviations.levelDeviation);
+    const double gainVariance = 2.0 / (dof * deviations.levelDeviation);
     limit.gain = std::sqrt(gainVariance);
-    limit.intercept = std::sqrt(2.0 / (degreesOfFreedom * sums.w0) + centreDn * centreDn * gainVariance);
+    limit.intercept = std::sqrt(2.0 / (dof * sums.w0) + centreDn * centreDn * gainVariance);
     limit.gainInterceptCorrelation = -centreDn * limit.gain / limit.intercept;
   }
   limit.flickerOfFrame = 1.0 / std::sqrt(sums.a2);
   if (deviations.contrast > rounding * sums.a0)
   {
-    const double offsetOfUnitFlicker = 1.0 / std::sqrt(degreesOfFreedom * deviations.contrast); // sigma_gamma sd(mu)
+    const double offsetOfUnitFlicker = 1.0 / std::sqrt(dof * deviations.contrast); // sigma_gamma sd(mu)
     limit.offset = offsetOfUnitFlicker / input.flickerSd;
-    limit.flickerSd = std::hypot(limit.flickerOfFrame / std::sqrt(degreesOfFreedom), fluxRatio * offsetOfUnitFlicker);
+    limit.flickerSd = std::hypot(limit.flickerOfFrame / std::sqrt(dof), fluxRatio * offsetOfUnitFlicker);
   }
   if (std::isfinite(limit.gain) && std::isfinite(limit.offset))
   {
@@ -150,8 +150,8 @@ ComputePrecisionLimit(const PrecisionInput & input)
   }
   limit.vibrationXOfFrame = 1.0 / std::sqrt(sums.gradientsX);
   limit.vibrationYOfFrame = 1.0 / std::sqrt(sums.gradientsY);
-  limit.vibrationSdX = limit.vibrationXOfFrame / std::sqrt(degreesOfFreedom);
-  limit.vibrationSdY = limit.vibrationYOfFrame / std::sqrt(degreesOfFreedom);
+  limit.vibrationSdX = limit.vibrationXOfFrame / std::sqrt(dof);
+  limit.vibrationSdY = limit.vibrationYOfFrame / std::sqrt(dof);
   return limit;
 }
 

@@ -79,27 +79,27 @@ namespace
 /** Returns whether the extreme code \a end is a pile-up. \a inwards is -step at the upper end and +step at the lower
  * end [DN]. */
 bool
-CodePilesUp(const CodeHistogram & extremes, std::int32_t end, std::int32_t inwards)
+IsClipCode(const CodeHistogram & extremes, std::int32_t end, std::int32_t inwards)
 {
   std::uint32_t inside = 0;
-  for (std::int32_t k = 1; k <= InMoments.levelsInsidePileUp; ++k)
+  for (std::int32_t k = 1; k <= InMoments.levelsInsideClip; ++k)
   {
     inside = std::max(inside, extremes.Count(end + k * inwards));
   }
-  return IsPileUp(extremes.Count(end), inside);
+  return IsClipLevel(extremes.Count(end), inside);
 }
 
 /** Returns whether the extreme code \a end of companded data is a pile-up. Their codes are not evenly spaced, so that
  * it is compared with the next \a occupied codes inside. */
 bool
-CompandedPileUp(const CodeHistogram &             extremes,
-                const std::vector<std::int32_t> & occupied,
-                std::int32_t                      end,
-                bool                              isHigh)
+CompandedClipLevel(const CodeHistogram &             extremes,
+                   const std::vector<std::int32_t> & occupied,
+                   std::int32_t                      end,
+                   bool                              isHigh)
 {
   std::uint32_t inside = 0;
   auto          code = std::lower_bound(occupied.begin(), occupied.end(), end);
-  for (int k = 1; k <= InMoments.levelsInsidePileUp; ++k)
+  for (int k = 1; k <= InMoments.levelsInsideClip; ++k)
   {
     if (isHigh ? code == occupied.begin() : std::next(code) == occupied.end())
     {
@@ -108,7 +108,7 @@ CompandedPileUp(const CodeHistogram &             extremes,
     code += isHigh ? -1 : 1;
     inside = std::max(inside, extremes.Count(*code));
   }
-  return IsPileUp(extremes.Count(end), inside);
+  return IsClipLevel(extremes.Count(end), inside);
 }
 
 /** Returns the codes that are an extreme of a pixel, ascending. */
@@ -186,8 +186,8 @@ FindEndOfCodes(const CodeHistogram & extremes, bool isHigh, double step)
   for (std::size_t i = 1; i < codes.size(); ++i)
   {
     const auto pixels = static_cast<double>(extremes.Count(codes[i]));
-    const bool isApart = std::abs(codes[i] - codes[i - 1]) > InMoments.levelsOutsidePileUp * stride;
-    if (isApart && beyond <= InMoments.largestStrayFraction * pixels && CodePilesUp(extremes, codes[i], inwards))
+    const bool isApart = std::abs(codes[i] - codes[i - 1]) > InMoments.levelsOutsideClip * stride;
+    if (isApart && beyond <= InMoments.largestStrayFraction * pixels && IsClipCode(extremes, codes[i], inwards))
     {
       end = codes[i];
     }
@@ -213,19 +213,19 @@ struct Extremes
 
 /** Returns whether an end of the codes is a pile-up. \a step is their quantization step [DN]. */
 bool
-EndPilesUp(const Extremes & extremes, bool isHigh, double step, const CodeSteps & steps)
+IsClipEnd(const Extremes & extremes, bool isHigh, double step, const CodeSteps & steps)
 {
   const CodeHistogram & histogram = isHigh ? extremes.maxima : extremes.minima;
   const std::int32_t    end = isHigh ? extremes.high : extremes.low;
   const double          depth = isHigh ? extremes.depths.high : extremes.depths.low;
   if (steps.IsCompanded())
   {
-    return IsPileUpEvidence(extremes.typicalVarianceDn2, steps.StepAt(end), depth) &&
-           CompandedPileUp(histogram, extremes.codes, end, isHigh);
+    return IsClipEvidence(extremes.typicalVarianceDn2, steps.StepAt(end), depth) &&
+           CompandedClipLevel(histogram, extremes.codes, end, isHigh);
   }
   const auto stride = static_cast<std::int32_t>(step);
-  return IsPileUpEvidence(extremes.typicalVarianceDn2, step, depth) &&
-         CodePilesUp(histogram, end, isHigh ? -stride : stride);
+  return IsClipEvidence(extremes.typicalVarianceDn2, step, depth) &&
+         IsClipCode(histogram, end, isHigh ? -stride : stride);
 }
 
 /** Sets the clip levels, given or found. \a top is the largest code [DN]. */
@@ -240,7 +240,7 @@ SetClipLevels(const Extremes & extremes, double step, double top, const CodeSett
   range.clipHighDn = settings.clipHighDn;
   if (!range.clipLowDn)
   {
-    const bool found = lowest < highest && lowest != 0 && EndPilesUp(extremes, false, step, range.steps);
+    const bool found = lowest < highest && lowest != 0 && IsClipEnd(extremes, false, step, range.steps);
     // Negative codes end where their integer type does, which is no level of the sensor.
     const bool isSigned = extremes.codes.front() < 0;
     range.clipLowDn = found ? std::optional<double>(lowest) : isSigned ? std::nullopt : std::optional<double>(0.0);
@@ -248,7 +248,7 @@ SetClipLevels(const Extremes & extremes, double step, double top, const CodeSett
   }
   if (!range.clipHighDn)
   {
-    const bool found = lowest < highest && highest < top && EndPilesUp(extremes, true, step, range.steps);
+    const bool found = lowest < highest && highest < top && IsClipEnd(extremes, true, step, range.steps);
     range.clipHighDn = found ? highest : top;
     highSource = found ? "pile-up" : "code range";
   }
@@ -313,17 +313,17 @@ namespace
 
 /** Returns whether the outermost of \a levels is a pile-up. \a stepDn is their spacing, if it is known [DN]. */
 bool
-PilesUp(const OutermostLevels & levels, std::optional<double> stepDn, double typicalVarianceDn2, double depth)
+HasClipLevel(const OutermostLevels & levels, std::optional<double> stepDn, double typicalVarianceDn2, double depth)
 {
   const double step = stepDn.value_or(levels.Step());
-  return IsPileUpEvidence(typicalVarianceDn2, step, depth) && IsPileUp(levels.Pixels(), levels.MostInside(step));
+  return IsClipEvidence(typicalVarianceDn2, step, depth) && IsClipLevel(levels.Pixels(), levels.MostInside(step));
 }
 
 /** Returns "given", "pile-up" or "none". */
 std::string
-SourceOf(bool isGiven, bool isPileUp)
+SourceOf(bool isGiven, bool isClipLevel)
 {
-  return isGiven ? "given" : (isPileUp ? "pile-up" : "none");
+  return isGiven ? "given" : (isClipLevel ? "pile-up" : "none");
 }
 
 } // namespace
@@ -341,8 +341,8 @@ FindLevels(const OutermostLevels & minima,
     return range;
   }
   const auto & step = settings.quantisationStepDn;
-  const bool   low = !settings.clipLowDn && PilesUp(minima, step, typicalVarianceDn2, depths.low);
-  const bool   high = !settings.clipHighDn && PilesUp(maxima, step, typicalVarianceDn2, depths.high);
+  const bool   low = !settings.clipLowDn && HasClipLevel(minima, step, typicalVarianceDn2, depths.low);
+  const bool   high = !settings.clipHighDn && HasClipLevel(maxima, step, typicalVarianceDn2, depths.high);
   if (low || high)
   {
     range.clipLowDn = low ? minima.Level() : settings.clipLowDn;

@@ -24,21 +24,21 @@ struct MomentsConstants
   /** \name Pile-ups: saturation levels found from repeated extreme values */
   ///@{
   /** Levels inside of the outermost level with which it is compared [levels]. Chosen empirically. */
-  int levelsInsidePileUp{ 16 };
+  int levelsInsideClip{ 16 };
   /** Least number of pixels on one level that make a pile-up. Chosen empirically. */
-  std::size_t fewestPixelsOfPileUp{ 8 };
+  std::size_t fewestPixelsOfClipLevel{ 8 };
   /** A pile-up has more than this many times as many pixels as any of the levels inside [1]. Chosen empirically: noise
    * alone stays below it. */
-  std::size_t pileUpRatio{ 3 };
+  std::size_t clipLevelRatio{ 3 };
   /** Depth of the extremes, see ExtremeDepths, from which they are rare noise and no clip level [standard deviations].
    * Chosen empirically. */
-  double largestPileUpDepth{ 2.5 };
+  double largestClipDepth{ 2.5 };
   /** Largest number of stray pixels (stuck or hot ones) beyond a pile-up, relative to the pixels of the pile-up [1].
    * Chosen by design: a sensor whose pixels pass a level more often does not clip there. */
   double largestStrayFraction{ 0.1 };
   /** Least number of empty levels between a pile-up and the pixels beyond it, from which these pixels are stray
    * [levels]. Chosen by design: the tail of a noise has no gap of this width. */
-  int levelsOutsidePileUp{ 4 };
+  int levelsOutsideClip{ 4 };
   ///@}
 
   /** \name Counts from 0 */

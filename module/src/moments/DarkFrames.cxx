@@ -141,8 +141,8 @@ DarkDrift::SquaresWithoutDrift(std::size_t p, double sumOfSquaresDn2, double mea
   }
   const double products = m_ProductsDn2[p] - (meanDn - m_LevelsDn[0]) * m_SumDn;
   // The level of a frame contains a part of the noise of the pixel itself.
-  const double share = m_LevelPixels / (m_LevelPixels - 1.0);
-  return std::max(0.0, sumOfSquaresDn2 - 2.0 * products + GetSumOfSquaresDn2()) * share;
+  const double factor = m_LevelPixels / (m_LevelPixels - 1.0);
+  return std::max(0.0, sumOfSquaresDn2 - 2.0 * products + GetSumOfSquaresDn2()) * factor;
 }
 
 double
@@ -272,16 +272,16 @@ std::size_t
 ExcludeDefective(DarkMaps & maps, const TemporalMaps<TPixel> & ofStack)
 {
   const double dof = static_cast<double>(maps.frames) - 1.0;
-  const double share = MedianToMeanOfVariance(dof);
+  const double factor = MedianToMeanOfVariance(dof);
   // A variance below the quantization noise is not significant.
   const double medianDn2 =
-    std::max(QuantileOf(UsableValues(maps.varianceDn2, maps.usable), 0.5), share * maps.stepDn * maps.stepDn / 12.0);
+    std::max(QuantileOf(UsableValues(maps.varianceDn2, maps.usable), 0.5), factor * maps.stepDn * maps.stepDn / 12.0);
   if (!(medianDn2 > 0.0))
   {
     return 0; // nothing to compare with
   }
   const double limitDn2 = DefectiveVarianceDn2(medianDn2, dof);
-  const double typicalDn = std::sqrt(medianDn2 / share);
+  const double typicalDn = std::sqrt(medianDn2 / factor);
   const bool   mustChange =
     ChanceOfOneCode(typicalDn, maps.stepDn, static_cast<double>(maps.frames)) < InMoments.chanceOfStuck;
   std::size_t defective = 0;

@@ -192,8 +192,8 @@ VariancesOf(const Levels & levels, const VectorXd & signals, const Scatter & sca
   for (Index i = 0; i < signals.size(); ++i)
   {
     const ExposureLevel & level = levels[static_cast<std::size_t>(i)];
-    const double          ofLight = std::max(least, scatter.variance) * signals(i) * signals(i);
-    variances(i) = (ofLight + level.pixelNoiseDn2) / static_cast<double>(level.frames);
+    const double          ofIllumination = std::max(least, scatter.variance) * signals(i) * signals(i);
+    variances(i) = (ofIllumination + level.pixelNoiseDn2) / static_cast<double>(level.frames);
   }
   return variances;
 }

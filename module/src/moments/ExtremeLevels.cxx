@@ -72,7 +72,7 @@ OutermostLevels::MostInside(Counts::const_iterator end, double stepDn) const
 {
   std::size_t most = 0;
   // Half a step more: spacings of rescaled codes differ in the last digits.
-  const double reach = end->first - (InMoments.levelsInsidePileUp + 0.5) * stepDn;
+  const double reach = end->first - (InMoments.levelsInsideClip + 0.5) * stepDn;
   for (auto level = std::next(end); level != m_Counts.end() && level->first >= reach; ++level)
   {
     most = std::max(most, level->second);
@@ -88,9 +88,9 @@ OutermostLevels::LeaveOutStray(double stepDn)
   {
     const auto pixels = static_cast<double>(level->second);
     const bool isApart = level != m_Counts.begin() &&
-                         std::prev(level)->first - level->first > (InMoments.levelsOutsidePileUp + 0.5) * stepDn;
+                         std::prev(level)->first - level->first > (InMoments.levelsOutsideClip + 0.5) * stepDn;
     if (isApart && beyond <= InMoments.largestStrayFraction * pixels &&
-        IsPileUp(level->second, this->MostInside(level, stepDn)))
+        IsClipLevel(level->second, this->MostInside(level, stepDn)))
     {
       m_Counts.erase(m_Counts.begin(), level);
       return;
@@ -267,8 +267,8 @@ CodeSteps::Interpolate(double levelDn, double Local::* value) const
   }
   const Local & low = *(above - 1);
   const Local & high = *above;
-  const double  share = (levelDn - low.levelDn) / (high.levelDn - low.levelDn);
-  return low.*value + share * (high.*value - low.*value);
+  const double  fraction = (levelDn - low.levelDn) / (high.levelDn - low.levelDn);
+  return low.*value + fraction * (high.*value - low.*value);
 }
 
 CodeSteps

@@ -26,9 +26,9 @@ namespace sensornoise
 /** Returns whether the \a atEnd pixels whose extreme is the outermost level are a pile-up: at least 8, and more than 3
  * times \a mostInside. \a mostInside is the largest number of pixels on one of the levels inside. */
 inline bool
-IsPileUp(std::size_t atEnd, std::size_t mostInside)
+IsClipLevel(std::size_t atEnd, std::size_t mostInside)
 {
-  return atEnd >= std::max(InMoments.fewestPixelsOfPileUp, InMoments.pileUpRatio * mostInside + 1);
+  return atEnd >= std::max(InMoments.fewestPixelsOfClipLevel, InMoments.clipLevelRatio * mostInside + 1);
 }
 
 /** Distance of the outermost levels from the mean of the pixels that attain them, in temporal standard deviations of
@@ -44,9 +44,9 @@ struct ExtremeDepths
  * because then every level piles up. Nor is it if \a depth, see ExtremeDepths, is 2.5 or more. \a typicalVarianceDn2
  * is the median variance of the pixels that vary [DN^2], \a stepDn the spacing of the levels [DN]. */
 inline bool
-IsPileUpEvidence(double typicalVarianceDn2, double stepDn, double depth)
+IsClipEvidence(double typicalVarianceDn2, double stepDn, double depth)
 {
-  return typicalVarianceDn2 >= InCommon.hiddenVariance * stepDn * stepDn && depth < InMoments.largestPileUpDepth;
+  return typicalVarianceDn2 >= InCommon.hiddenVariance * stepDn * stepDn && depth < InMoments.largestClipDepth;
 }
 
 /** Histogram of the extremes of the pixels over time: the number of pixels by digital number. */

@@ -43,7 +43,7 @@ FitCells(const std::vector<double> & mean, const std::vector<double> & frame, co
     ofBoth += (mean[i] - fit.centre) * (frame[i] - fit.level);
   }
   fit.factor = ofMean > 0.0 ? ofBoth / ofMean : 0.0;
-  fit.misfit = std::max(0.0, ofFrame - fit.factor * ofBoth) / count;
+  fit.meanSquare = std::max(0.0, ofFrame - fit.factor * ofBoth) / count;
   return fit;
 }
 
@@ -90,9 +90,9 @@ CompareWithMean(const std::vector<double> & mean, double centre, double squares,
   const double level = sum / count;
   const double slope = squares > 0.0 ? products / squares : 0.0;
   const double explained = count * level * level + slope * products;
-  const double unexplained = std::max(0.0, all - explained);
-  const double error = squares > 0.0 ? std::sqrt(unexplained / ((count - 2.0) * squares)) : 1.0;
-  return { level, slope, error, explained > unexplained };
+  const double residual = std::max(0.0, all - explained);
+  const double error = squares > 0.0 ? std::sqrt(residual / ((count - 2.0) * squares)) : 1.0;
+  return { level, slope, error, explained > residual };
 }
 } // namespace
 

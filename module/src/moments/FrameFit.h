@@ -14,10 +14,10 @@ namespace sensornoise
 /** Fit of a frame by a level plus a factor times the mean frame, from its means over cells. */
 struct FrameFit
 {
-  double centre{ 0.0 }; ///< mean over the cells of the mean frame [DN]
-  double level{ 0.0 };  ///< mean over the cells of the frame [DN]
-  double factor{ 0.0 }; ///< factor of the mean frame [1]
-  double misfit{ 0.0 }; ///< mean square over the cells of the deviation from the fit [DN^2]
+  double centre{ 0.0 };     ///< mean over the cells of the mean frame [DN]
+  double level{ 0.0 };      ///< mean over the cells of the frame [DN]
+  double factor{ 0.0 };     ///< factor of the mean frame [1]
+  double meanSquare{ 0.0 }; ///< mean square over the cells of the deviation from the fit [DN^2]
 
   /** Returns the deviation of a cell from the fit [DN]. */
   double

@@ -128,7 +128,7 @@ SumRun(const TPixel * from, const std::uint8_t * mask, std::size_t count)
 bool
 SceneChange::IsLarge() const
 {
-  return share > InMoments.sceneChangeFraction && ofTheLevel > InMoments.sceneChangeOfTheLevel;
+  return fraction > InMoments.sceneChangeFraction && ofTheLevel > InMoments.sceneChangeOfTheLevel;
 }
 
 FrameThumbnails::FrameThumbnails(const FrameGeometry &             geometry,
@@ -196,12 +196,12 @@ FrameThumbnails::AddFrames(const TPixel *      frames,
 {
   parallelFor(count, [&](std::size_t k) {
     std::vector<RunSums> cells(m_Cells);
-    std::vector<TPixel>  room;
+    std::vector<TPixel>  buffer;
     for (const Run & run : m_Runs)
     {
       const std::uint8_t * const mask = m_Mask.empty() ? nullptr : m_Mask.data() + run.begin;
-      room.resize(layout.AreSideBySide() ? 0 : run.end - run.begin);
-      const TPixel * const values = layout.SideBySide(frames + k * layout.frame, run.begin, run.end, room.data());
+      buffer.resize(layout.AreSideBySide() ? 0 : run.end - run.begin);
+      const TPixel * const values = layout.SideBySide(frames + k * layout.frame, run.begin, run.end, buffer.data());
       cells[run.cell] += SumRun(values, mask, run.end - run.begin);
     }
     double noise = 0.0;
@@ -292,14 +292,14 @@ FrameThumbnails::FindChange(const std::vector<std::size_t> & frames) const
   }
   const double level = std::abs(std::accumulate(means.begin(), means.end(), 0.0) / static_cast<double>(cells.size()));
   std::vector<double> changed;
-  std::vector<double> shares;
+  std::vector<double> fractions;
   for (const std::size_t t : frames)
   {
     const FrameVariances variances = VariancesOf(means, this->MeansOf(t, cells));
     changed.push_back(std::max(0.0, variances.changed - m_Noise[t]));
-    shares.push_back(variances.whole > 0.0 ? std::min(1.0, changed.back() / variances.whole) : 0.0);
+    fractions.push_back(variances.whole > 0.0 ? std::min(1.0, changed.back() / variances.whole) : 0.0);
   }
-  return { Quantile(shares, 0.5), level > 0.0 ? std::sqrt(Quantile(changed, 0.5)) / level : 0.0 };
+  return { Quantile(fractions, 0.5), level > 0.0 ? std::sqrt(Quantile(changed, 0.5)) / level : 0.0 };
 }
 
 double

@@ -22,7 +22,7 @@ namespace sensornoise
  * The values are medians over the frames. */
 struct SceneChange
 {
-  double share{ 0.0 };      ///< fraction of the variance over the cells of a frame, at most 1 [1]
+  double fraction{ 0.0 };   ///< fraction of the variance over the cells of a frame, at most 1 [1]
   double ofTheLevel{ 0.0 }; ///< square root of the changed variance over the mean level of the frames [1]
 
   /** Returns whether the frames do not show one static scene. */

@@ -65,11 +65,11 @@ LevelsOfBlock(const std::vector<double> & frame,
       const std::size_t phase = 2 * (y % 2) + x % 2;
       if (std::isfinite(*pixel + diagonal + cross))
       {
-        const double share = window[x - left] * window[y - top];
-        aslant.at(phase) += share * (*pixel - diagonal);
-        beside.at(phase) += share * (*pixel - cross);
-        rough += share * std::abs(*pixel - cross);
-        weight.at(phase) += share;
+        const double taper = window[x - left] * window[y - top];
+        aslant.at(phase) += taper * (*pixel - diagonal);
+        beside.at(phase) += taper * (*pixel - cross);
+        rough += taper * std::abs(*pixel - cross);
+        weight.at(phase) += taper;
       }
     }
   }
@@ -98,12 +98,12 @@ LevelsOfBlocks(const std::vector<double> & frame,
                const ParallelFor &         parallelFor)
 {
   std::vector<BlockLevels> blocks;
-  const std::size_t        room = std::min(width, height);
-  if (room < 4)
+  const std::size_t        side = std::min(width, height);
+  if (side < 4)
   {
     return blocks;
   }
-  const std::size_t size = std::min(BlockSize, (room - 2) / 2 * 2);
+  const std::size_t size = std::min(BlockSize, (side - 2) / 2 * 2);
   const std::size_t columns = (width - 2) / size;
   const std::size_t rows = (height - 2) / size;
   blocks.resize(columns * rows);

@@ -34,14 +34,14 @@ LogBinning::Add(double begin, double end, LogBins & one, LogBins & other) const
   for (; bin < last; ++bin)
   {
     const double to = std::exp(low + width * (static_cast<double>(bin) + 1.0));
-    const double share = (to - from) / (end - begin);
-    one[bin] += share;
-    other[bin] += share;
+    const double fraction = (to - from) / (end - begin);
+    one[bin] += fraction;
+    other[bin] += fraction;
     from = to;
   }
-  const double share = from < end ? (end - from) / (end - begin) : from == begin ? 1.0 : 0.0;
-  one[last] += share;
-  other[last] += share;
+  const double fraction = from < end ? (end - from) / (end - begin) : from == begin ? 1.0 : 0.0;
+  one[last] += fraction;
+  other[last] += fraction;
 }
 
 LogBinning
@@ -125,7 +125,7 @@ LogDeconvolution::Iterate(int times)
       m_True[j] *= factor;
       sum += m_True[j];
     }
-    std::for_each(m_True.begin(), m_True.end(), [sum](double & share) { share /= sum; });
+    std::for_each(m_True.begin(), m_True.end(), [sum](double & fraction) { fraction /= sum; });
   }
 }
 

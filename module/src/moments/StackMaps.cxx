@@ -238,7 +238,7 @@ FindLevelsOfFloating(const TemporalMaps<TPixel> & maps, const CodeSettings & set
     OutermostLevels & levels = isHigh == 1 ? maxima : minima;
     levels = LevelsAt(end, maps);
     levels.LeaveOutStray(stepDn > 0.0 ? stepDn : levels.Step());
-    if (levels.Pixels() >= InMoments.fewestPixelsOfPileUp)
+    if (levels.Pixels() >= InMoments.fewestPixelsOfClipLevel)
     {
       const double outwards = isHigh == 1 ? levels.Level() : -levels.Level();
       (isHigh == 1 ? depths.high : depths.low) = MedianDepth(maps, end, { outwards, levels.Pixels() });

@@ -79,19 +79,19 @@ AreCountsFromZero(const TemporalMaps<TPixel> & maps, double stepDn)
   // The standard error of the mean variance of a group is sqrt(spread) / pixels.
   double      least = 0.0;
   double      largest = 0.0;
-  std::size_t told = 0;
+  std::size_t reliable = 0;
   for (std::size_t k = 0; k < groups; ++k)
   {
     const double spread = squares[k] - variance[k] * variance[k] / std::max(1.0, pixels[k]);
     if (variance[k] > 0.0 && std::sqrt(std::max(0.0, spread)) < InMoments.errorOfCountRatio * variance[k])
     {
       const double ratio = variance[k] / mean[k];
-      least = told == 0 ? ratio : std::min(least, ratio);
-      largest = told == 0 ? ratio : std::max(largest, ratio);
-      ++told;
+      least = reliable == 0 ? ratio : std::min(least, ratio);
+      largest = reliable == 0 ? ratio : std::max(largest, ratio);
+      ++reliable;
     }
   }
-  return told >= 2 && largest < (1.0 + InMoments.largestCountRatio) * least;
+  return reliable >= 2 && largest < (1.0 + InMoments.largestCountRatio) * least;
 }
 
 } // namespace sensornoise

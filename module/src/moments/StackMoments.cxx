@@ -199,13 +199,13 @@ FindMeansAndFingerprints(const std::vector<PixelLayout> & planes,
   std::vector<double>           sums(planes.size() * count * blocks);
   std::vector<BytesFingerprint> fingerprints(sums.size());
   parallelFor(count * blocks, [&](std::size_t i) {
-    std::vector<TPixel> room(planes.front().AreSideBySide() ? 0 : blockPixels);
+    std::vector<TPixel> buffer(planes.front().AreSideBySide() ? 0 : blockPixels);
     const std::size_t   begin = i % blocks * blockPixels;
     const std::size_t   end = std::min(pixels, begin + blockPixels);
     for (std::size_t plane = 0; plane < planes.size(); ++plane)
     {
       const PixelLayout &  layout = planes[plane];
-      const TPixel * const block = layout.SideBySide(frames + i / blocks * layout.frame, begin, end, room.data());
+      const TPixel * const block = layout.SideBySide(frames + i / blocks * layout.frame, begin, end, buffer.data());
       fingerprints[plane * count * blocks + i] = FingerprintOfBlock(block, (end - begin) * sizeof(TPixel));
       sums[plane * count * blocks + i] = SumOfPixels(block, end - begin);
     }

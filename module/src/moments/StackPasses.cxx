@@ -211,14 +211,14 @@ template <typename TPixel>
 bool
 StackPasses<TPixel>::RestartWithoutFrames(const std::vector<std::size_t> & places,
                                           FrameFault                       fault,
-                                          double                           largestShare)
+                                          double                           largestFraction)
 {
   const std::vector<std::size_t> counted = m_Distinct.Counted();
   std::vector<LeftOutFrame>      found;
   std::transform(places.begin(), places.end(), std::back_inserter(found), [&](std::size_t place) {
     return LeftOutFrame{ counted[place], fault };
   });
-  const std::vector<LeftOutFrame> all = JoinUnlikeFrames({ this->GetLeftOut(), found }, m_Frames, largestShare);
+  const std::vector<LeftOutFrame> all = JoinUnlikeFrames({ this->GetLeftOut(), found }, m_Frames, largestFraction);
   if (found.empty() || all.empty())
   {
     return false;

@@ -206,12 +206,12 @@ protected:
    * pass computes the moments of the rest, and the method computes all results anew.
    * \param places places of the frames among the distinct ones
    * \param fault reason why they are left out
-   * \param largestShare largest fraction of the frames that may be left out in all [1], see JoinUnlikeFrames()
+   * \param largestFraction largest fraction of the frames that may be left out in all [1], see JoinUnlikeFrames()
    * \return false, without any change, if there are none or too many of them */
   bool
   RestartWithoutFrames(const std::vector<std::size_t> & places,
                        FrameFault                       fault,
-                       double                           largestShare = InMoments.largestLeftOutFraction);
+                       double                           largestFraction = InMoments.largestLeftOutFraction);
 
   /** Returns whether the current pass sums moments. */
   bool

@@ -293,19 +293,19 @@ FloatingMoments<TPixel>::AddFrames(const TPixel *      firstFrame,
                                    std::size_t         end)
 {
   constexpr std::size_t blockSize = 512; // the sums of a block stay in the first-level cache
-  TPixel                room[blockSize];
+  TPixel                buffer[blockSize];
   for (std::size_t block = begin; block < end; block += blockSize)
   {
     const std::size_t blockEnd = std::min(block + blockSize, end);
     for (std::size_t t = 0; t < frames; ++t)
     {
-      const TPixel * const values = layout.SideBySide(firstFrame + t * layout.frame, block, blockEnd, room);
-      const double         share = 1.0 / static_cast<double>(m_Frames + t + 1);
+      const TPixel * const values = layout.SideBySide(firstFrame + t * layout.frame, block, blockEnd, buffer);
+      const double         fraction = 1.0 / static_cast<double>(m_Frames + t + 1);
       for (std::size_t p = block; p < blockEnd; ++p)
       {
         const double value = values[p - block];
         const double deviation = value - m_Mean[p];
-        m_Mean[p] += deviation * share;
+        m_Mean[p] += deviation * fraction;
         m_Squares[p] += deviation * (value - m_Mean[p]);
         m_Minimum[p] = value < m_Minimum[p] ? value : m_Minimum[p];
         m_Maximum[p] = value > m_Maximum[p] ? value : m_Maximum[p];
@@ -344,12 +344,12 @@ FloatingMoments<TPixel>::Merge(const FloatingMoments & later)
   {
     return;
   }
-  const double share = static_cast<double>(later.m_Frames) / static_cast<double>(frames);
-  const double weight = static_cast<double>(m_Frames) * share;
+  const double fraction = static_cast<double>(later.m_Frames) / static_cast<double>(frames);
+  const double weight = static_cast<double>(m_Frames) * fraction;
   for (std::size_t p = 0; p < m_Mean.size(); ++p)
   {
     const double deviation = later.m_Mean[p] - m_Mean[p];
-    m_Mean[p] += deviation * share;
+    m_Mean[p] += deviation * fraction;
     m_Squares[p] += later.m_Squares[p] + deviation * deviation * weight;
     m_Minimum[p] = std::min(m_Minimum[p], later.m_Minimum[p]);
     m_Maximum[p] = std::max(m_Maximum[p], later.m_Maximum[p]);

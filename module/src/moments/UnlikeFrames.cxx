@@ -65,22 +65,22 @@ IsEmpty(FrameFault fault)
 }
 
 /** Returns whether so few of the frames are left out that the others are the burst. Empty frames are not part of a
- * burst, however many they are. Of the other frames at most the fraction \a share may be left out [1]. */
+ * burst, however many they are. Of the other frames at most the fraction \a fraction may be left out [1]. */
 bool
-AreFew(const Faults & faults, std::size_t frames, double share)
+AreFew(const Faults & faults, std::size_t frames, double fraction)
 {
   const auto empty = static_cast<std::size_t>(
     std::count_if(faults.begin(), faults.end(), [](const auto & fault) { return IsEmpty(fault.second); }));
   const auto full = static_cast<double>(frames - std::min(frames, empty));
-  return static_cast<double>(faults.size() - empty) <= share * full && faults.size() + MinimumFrames <= frames;
+  return static_cast<double>(faults.size() - empty) <= fraction * full && faults.size() + MinimumFrames <= frames;
 }
 
 /** Returns the frames in ascending order; an empty list if they are too many of \a frames. */
 std::vector<LeftOutFrame>
-AsList(const Faults & faults, std::size_t frames, double share = InMoments.largestLeftOutFraction)
+AsList(const Faults & faults, std::size_t frames, double fraction = InMoments.largestLeftOutFraction)
 {
   std::vector<LeftOutFrame> leftOut;
-  if (AreFew(faults, frames, share))
+  if (AreFew(faults, frames, fraction))
   {
     for (const auto & [frame, fault] : faults)
     {
@@ -135,30 +135,31 @@ MeanOfFrames(const FrameThumbnails & thumbnails, const Indices & cells, const In
 /** Mean square deviations of frames from the mean frame [DN^2], also in two units in which the frames of one scene have
  * similar values. Vibration and local changes of the illumination change a frame in proportion to its signal; noise
  * exists without signal, too. */
-struct Misfits
+struct MeanSquares
 {
   std::vector<double> all;
-  std::vector<double> ofLight;
+  std::vector<double> ofFactor;
   std::vector<double> ofBoth;
 };
 
 /** Computes the deviations of the frames \a kept from \a mean. */
-Misfits
-FindMisfits(const FrameThumbnails &     thumbnails,
-            const Indices &             cells,
-            const Indices &             kept,
-            const std::vector<double> & mean)
+MeanSquares
+FindMeanSquares(const FrameThumbnails &     thumbnails,
+                const Indices &             cells,
+                const Indices &             kept,
+                const std::vector<double> & mean)
 {
-  Misfits misfits;
+  MeanSquares meanSquares;
   for (const std::size_t t : kept)
   {
     const FrameFit fit = FitMostCells(mean, thumbnails.MeansOf(t, cells));
-    const double   light = fit.factor * fit.factor;
-    misfits.all.push_back(fit.misfit);
-    misfits.ofLight.push_back(light > 0.0 ? fit.misfit / light : std::numeric_limits<double>::max());
-    misfits.ofBoth.push_back(fit.misfit / std::max(1.0, light));
+    const double   factorSquare = fit.factor * fit.factor;
+    meanSquares.all.push_back(fit.meanSquare);
+    meanSquares.ofFactor.push_back(factorSquare > 0.0 ? fit.meanSquare / factorSquare
+                                                      : std::numeric_limits<double>::max());
+    meanSquares.ofBoth.push_back(fit.meanSquare / std::max(1.0, factorSquare));
   }
-  return misfits;
+  return meanSquares;
 }
 
 /** Returns the median of \a values and their standard deviation, which is estimated from the median deviation, and is
@@ -187,10 +188,10 @@ HowFar(const std::vector<double> & values, std::size_t cells)
 
 /** Returns the distance of the frames from the others, the smaller one in both units [1]. */
 std::vector<double>
-HowUnlike(const Misfits & misfits, std::size_t cells)
+HowUnlike(const MeanSquares & meanSquares, std::size_t cells)
 {
-  std::vector<double>       far = HowFar(misfits.ofLight, cells);
-  const std::vector<double> ofBoth = HowFar(misfits.ofBoth, cells);
+  std::vector<double>       far = HowFar(meanSquares.ofFactor, cells);
+  const std::vector<double> ofBoth = HowFar(meanSquares.ofBoth, cells);
   std::transform(
     far.begin(), far.end(), ofBoth.begin(), far.begin(), [](double a, double b) { return std::min(a, b); });
   return far;
@@ -261,8 +262,8 @@ Indices
 FindOtherShapes(const FrameThumbnails & thumbnails, const Indices & cells, const Indices & kept)
 {
   std::vector<double> mean = MeanOfFrames(thumbnails, cells, kept);
-  Misfits             misfits = FindMisfits(thumbnails, cells, kept, mean);
-  std::vector<double> unlike = HowUnlike(misfits, cells.size());
+  MeanSquares         meanSquares = FindMeanSquares(thumbnails, cells, kept, mean);
+  std::vector<double> unlike = HowUnlike(meanSquares, cells.size());
   for (int round = 0; round < InMoments.roundsOfUnlikeFrames; ++round)
   {
     // Mean of the frames that are most alike: as many frames as may be left out are excluded.
@@ -276,8 +277,8 @@ FindOtherShapes(const FrameThumbnails & thumbnails, const Indices & cells, const
       }
     }
     mean = MeanOfFrames(thumbnails, cells, alike);
-    misfits = FindMisfits(thumbnails, cells, kept, mean);
-    unlike = HowUnlike(misfits, cells.size());
+    meanSquares = FindMeanSquares(thumbnails, cells, kept, mean);
+    unlike = HowUnlike(meanSquares, cells.size());
   }
   std::vector<double> noise;
   for (const std::size_t t : kept)
@@ -285,13 +286,13 @@ FindOtherShapes(const FrameThumbnails & thumbnails, const Indices & cells, const
     noise.push_back(thumbnails.NoiseOf(t));
   }
   // Both are upper bounds of the noise of the mean of a cell: texture adds to the first, vibration to the second.
-  const double cellVariance = std::min(QuantileOf(noise, 0.5), QuantileOf(misfits.ofBoth, 0.5));
+  const double cellVariance = std::min(QuantileOf(noise, 0.5), QuantileOf(meanSquares.ofBoth, 0.5));
   const double pixelVariance = thumbnails.PixelsOfCell() * cellVariance;
   const double least = InMoments.leastUnlikeEffect * pixelVariance * static_cast<double>(kept.size());
   Indices      found;
   for (std::size_t k = 0; k < kept.size(); ++k)
   {
-    if (unlike[k] > InMoments.unlikeZ && misfits.all[k] > least)
+    if (unlike[k] > InMoments.unlikeZ && meanSquares.all[k] > least)
     {
       found.push_back(kept[k]);
     }
@@ -300,7 +301,7 @@ FindOtherShapes(const FrameThumbnails & thumbnails, const Indices & cells, const
   {
     return found;
   }
-  const auto [median, spread] = SpreadOf(misfits.ofBoth, cells.size());
+  const auto [median, spread] = SpreadOf(meanSquares.ofBoth, cells.size());
   return WithoutLargerVibration(
     DeviationsOf(thumbnails, cells, kept, mean), kept, found, std::max(least, median + InMoments.unlikeZ * spread));
 }
@@ -347,8 +348,8 @@ FindUnlikeFrames(const FrameThumbnails & thumbnails)
   {
     const Indices kept = FramesWithout(faults, frames);
     const Indices finite = FiniteCells(thumbnails, cells, kept);
-    const bool    canTell = finite.size() >= InMoments.fewestThumbnailCells;
-    for (const std::size_t t : canTell ? FindOtherShapes(thumbnails, finite, kept) : Indices())
+    const bool    areEnough = finite.size() >= InMoments.fewestThumbnailCells;
+    for (const std::size_t t : areEnough ? FindOtherShapes(thumbnails, finite, kept) : Indices())
     {
       faults.emplace(t, FrameFault::OtherShape);
     }
@@ -357,7 +358,7 @@ FindUnlikeFrames(const FrameThumbnails & thumbnails)
 }
 
 std::vector<LeftOutFrame>
-JoinUnlikeFrames(const std::vector<std::vector<LeftOutFrame>> & ofParts, std::size_t frames, double largestShare)
+JoinUnlikeFrames(const std::vector<std::vector<LeftOutFrame>> & ofParts, std::size_t frames, double largestFraction)
 {
   Faults faults;
   for (const std::vector<LeftOutFrame> & part : ofParts)
@@ -367,7 +368,7 @@ JoinUnlikeFrames(const std::vector<std::vector<LeftOutFrame>> & ofParts, std::si
       faults.emplace(frame, fault);
     }
   }
-  return AsList(faults, frames, largestShare);
+  return AsList(faults, frames, largestFraction);
 }
 
 std::vector<std::size_t>

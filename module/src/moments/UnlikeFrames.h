@@ -26,12 +26,12 @@ SensorNoise_EXPORT std::vector<LeftOutFrame>
 FindUnlikeFrames(const FrameThumbnails & thumbnails);
 
 /** Joins the unlike frames of several parts of \a frames, such as the planes of a mosaic. The list is empty if the
- * unlike frames with content are more than the fraction \a largestShare [1], or if fewer than MinimumFrames would be
+ * unlike frames with content are more than the fraction \a largestFraction [1], or if fewer than MinimumFrames would be
  * left. */
 SensorNoise_EXPORT std::vector<LeftOutFrame>
 JoinUnlikeFrames(const std::vector<std::vector<LeftOutFrame>> & ofParts,
                  std::size_t                                    frames,
-                 double                                         largestShare = InMoments.largestLeftOutFraction);
+                 double                                         largestFraction = InMoments.largestLeftOutFraction);
 
 /** Returns the numbers of the frames. */
 SensorNoise_EXPORT std::vector<std::size_t>

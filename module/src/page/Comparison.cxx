@@ -61,7 +61,7 @@ KindOfChange(const Change & change, bool isOffset)
   {
     return ChangeKind::Within;
   }
-  const bool isSmall = change.share && std::abs(*change.share) < (isOffset ? SmallOffsetShare : SmallShare);
+  const bool isSmall = change.fraction && std::abs(*change.fraction) < (isOffset ? SmallOffsetFraction : SmallFraction);
   return isSmall ? ChangeKind::Small : ChangeKind::Changed;
 }
 
@@ -84,7 +84,7 @@ Compare(const QuantityEntry & entry, const std::vector<ComparedReport> & rows, s
   change.difference = *now.value - *before.value;
   if (const auto scale = ScaleOf(entry, rows[first].report))
   {
-    change.share = *change.difference / *scale;
+    change.fraction = *change.difference / *scale;
   }
   if (ErrorOf(before) && ErrorOf(now))
   {

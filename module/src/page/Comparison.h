@@ -32,10 +32,10 @@ inline constexpr double ChanceErrors = 3.0;
 inline constexpr double ChanceProbability = 0.0027;
 /** Fraction [1] below which a significant difference is small. Gains differ by about 0.01 with the temperature and from
  * day to day. */
-inline constexpr double SmallShare = 0.01;
+inline constexpr double SmallFraction = 0.01;
 /** Fraction of the read noise [1] below which a significant difference of the offset is small: no single pixel shows
  * it. */
-inline constexpr double SmallOffsetShare = 0.1;
+inline constexpr double SmallOffsetFraction = 0.1;
 ///@}
 
 /** Largest magnitude of a value or an error that is compared; its inverse is the smallest error. Their squares are
@@ -60,7 +60,8 @@ struct Change
   std::size_t           first{ 0 };    ///< row of the first report of the same channel
   std::optional<double> difference;    ///< value minus first value, in the unit of the quantity; none: First or NoValue
   std::optional<double> standardError; ///< standard error of the difference, for independent reports; none: not known
-  std::optional<double> share; ///< difference / |first value|, for the offset / first read noise [1]; none: not known
+  std::optional<double>
+    fraction; ///< difference / |first value|, for the offset / first read noise [1]; none: not known
 };
 
 /** Weighted mean of a quantity over the reports of one channel. It needs three or more values with errors. */

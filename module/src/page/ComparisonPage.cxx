@@ -345,10 +345,10 @@ ChangeTable(const Comparison & comparison, const ComparedQuantity & quantity)
   for (std::size_t row = 0; row < comparison.rows.size(); ++row)
   {
     const bool        isChange = quantity.changes[row].kind == ChangeKind::Changed;
-    const std::string judgement = Escaped(JudgementText(comparison, quantity, row));
+    const std::string verdict = Escaped(VerdictText(comparison, quantity, row));
     rows += "<tr><th scope=\"row\" class=\"label short\">" + Escaped(RowName(comparison, row)) + "</th><td>" +
             ValueCell(quantity.Of(comparison.rows[row])) + "</td><td>" + Escaped(DifferenceText(quantity, row)) +
-            Small(ShareText(quantity, row)) + "<small>" + (isChange ? "<b>" + judgement + "</b>" : judgement) +
+            Small(FractionText(quantity, row)) + "<small>" + (isChange ? "<b>" + verdict + "</b>" : verdict) +
             "</small></td></tr>\n";
   }
   const std::string unit = UnitText(quantity.entry->unit);

@@ -24,15 +24,15 @@ Signed(const std::string & number)
 
 /** Returns a fraction in percent, for example "4.43 %", with a no-break space. */
 std::string
-PercentText(double share)
+PercentText(double fraction)
 {
-  return Rounded(100.0 * share) + "\u00A0%";
+  return Rounded(100.0 * fraction) + "\u00A0%";
 }
 
 std::string
-SignedPercent(double share)
+SignedPercent(double fraction)
 {
-  return (share < 0.0 ? "\u2212" : "+") + PercentText(std::abs(share));
+  return (fraction < 0.0 ? "\u2212" : "+") + PercentText(std::abs(fraction));
 }
 
 /** Returns whether differences of the quantity are relative to the read noise, as for the offset. */
@@ -52,7 +52,7 @@ ChangesOf(const ComparedQuantity & quantity, ChangeKind kind)
   for (const Change & change : quantity.changes)
   {
     count += change.kind == kind ? 1 : 0;
-    largest = std::max(largest, change.kind == kind ? std::abs(change.share.value_or(0.0)) : 0.0);
+    largest = std::max(largest, change.kind == kind ? std::abs(change.fraction.value_or(0.0)) : 0.0);
   }
   if (count == 0)
   {
@@ -184,14 +184,14 @@ DifferenceText(const ComparedQuantity & quantity, std::size_t row)
 }
 
 std::string
-ShareText(const ComparedQuantity & quantity, std::size_t row)
+FractionText(const ComparedQuantity & quantity, std::size_t row)
 {
-  const auto & share = quantity.changes[row].share;
-  return share ? SignedPercent(*share) + (IsOfReadNoise(quantity) ? " of the read noise" : " of the first") : "";
+  const auto & fraction = quantity.changes[row].fraction;
+  return fraction ? SignedPercent(*fraction) + (IsOfReadNoise(quantity) ? " of the read noise" : " of the first") : "";
 }
 
 std::string
-JudgementText(const Comparison & comparison, const ComparedQuantity & quantity, std::size_t row)
+VerdictText(const Comparison & comparison, const ComparedQuantity & quantity, std::size_t row)
 {
   const Change &    change = quantity.changes[row];
   const std::string errors =
@@ -234,10 +234,10 @@ MeanSentence(const ComparedQuantity & quantity, const CommonMean & common)
   {
     return text + "as their errors say (" + law + ").";
   }
-  const bool hasShare = !IsOfReadNoise(quantity) && std::abs(common.mean) > 2.0 * common.standardError;
+  const bool hasFraction = !IsOfReadNoise(quantity) && std::abs(common.mean) > 2.0 * common.standardError;
   return text + "by " + Rounded(common.excess) + ofUnit +
-         (hasShare ? " (" + PercentText(common.excess / std::abs(common.mean)) + ")" : "") + " beyond their errors (" +
-         law + ").";
+         (hasFraction ? " (" + PercentText(common.excess / std::abs(common.mean)) + ")" : "") +
+         " beyond their errors (" + law + ").";
 }
 
 std::string
@@ -268,7 +268,7 @@ StackText(const ComparedReport & row)
 std::string
 RuleText(const Comparison & comparison)
 {
-  const std::size_t judged =
+  const std::size_t tested =
     NumberOf(comparison, [](const Change & change) { return change.standardError.has_value(); });
   return "Each report is compared with the first, of a mosaic channel by channel. The standard error of a difference "
          "is "
@@ -276,9 +276,10 @@ RuleText(const Comparison & comparison)
          "given "
          "offset differ by less. Beyond " +
          Text(ChanceErrors) + " standard errors chance is not taken for the cause; it gives one in 370, and here are " +
-         std::to_string(judged) +
+         std::to_string(tested) +
          ". How large a change is stands beside it, whatever the number of pixels: small is less than " +
-         PercentText(SmallShare) + ", of the offset less than " + PercentText(SmallOffsetShare) + " of the read noise.";
+         PercentText(SmallFraction) + ", of the offset less than " + PercentText(SmallOffsetFraction) +
+         " of the read noise.";
 }
 
 std::string
@@ -295,11 +296,11 @@ MakeText(const Comparison & comparison)
     text += '\n' + LabelText(quantity.entry->label) + (unit.empty() ? "" : " [" + unit + "]") + '\n';
     for (std::size_t row = 0; row < comparison.rows.size(); ++row)
     {
-      const std::string share = ShareText(quantity, row);
+      const std::string fraction = FractionText(quantity, row);
       const std::string difference = DifferenceText(quantity, row);
       text += "  " + NameOfRow(comparison, row) + ": " + ValueText(quantity.Of(comparison.rows[row])) +
-              (difference.empty() ? "" : "; " + difference) + (share.empty() ? "" : ", " + share) + "; " +
-              JudgementText(comparison, quantity, row) + '\n';
+              (difference.empty() ? "" : "; " + difference) + (fraction.empty() ? "" : ", " + fraction) + "; " +
+              VerdictText(comparison, quantity, row) + '\n';
     }
     for (const CommonMean & common : quantity.means)
     {

@@ -27,11 +27,11 @@ DifferenceText(const ComparedQuantity & quantity, std::size_t row);
 
 /** Returns the relative difference, for example "+2.5 % of the first"; "" if Change::share is not known. */
 std::string
-ShareText(const ComparedQuantity & quantity, std::size_t row);
+FractionText(const ComparedQuantity & quantity, std::size_t row);
 
 /** Returns the result of the comparison, for example "changed by more than its errors: 4.7 standard errors". */
 std::string
-JudgementText(const Comparison & comparison, const ComparedQuantity & quantity, std::size_t row);
+VerdictText(const Comparison & comparison, const ComparedQuantity & quantity, std::size_t row);
 
 /** Returns a sentence on the weighted mean of the reports of a channel and on their scatter. */
 std::string

@@ -239,8 +239,8 @@ MeanPicture(const PageMaps & maps)
   std::vector<double>       sorted;
   std::copy_if(points.begin(), points.end(), std::back_inserter(sorted), [](double x) { return std::isfinite(x); });
   std::sort(sorted.begin(), sorted.end());
-  const auto quantile = [&](double share) {
-    return sorted.empty() ? 0.0 : sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+  const auto quantile = [&](double fraction) {
+    return sorted.empty() ? 0.0 : sorted[static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1))];
   };
   const double black = quantile(0.002);
   const double white = std::max(quantile(0.998), std::nextafter(black, std::numeric_limits<double>::max()));
@@ -257,8 +257,9 @@ MeanPicture(const PageMaps & maps)
   for (const double mean : points)
   {
     // a square root for the gamma of a screen, which is about 2
-    const double light = std::isfinite(mean) ? std::sqrt(std::clamp((mean - black) / (white - black), 0.0, 1.0)) : 0.0;
-    pixels.push_back(static_cast<std::uint8_t>(std::lround(255.0 * light)));
+    const double brightness =
+      std::isfinite(mean) ? std::sqrt(std::clamp((mean - black) / (white - black), 0.0, 1.0)) : 0.0;
+    pixels.push_back(static_cast<std::uint8_t>(std::lround(255.0 * brightness)));
   }
   return "<figure>" +
          ImageElement(reduction, PngAsDataAddress(reduction.width, reduction.height, pixels, greys), "mean image") +

@@ -56,8 +56,8 @@ struct SensorNoise_EXPORT CodeNoise
     const double      last = static_cast<double>(remaindersDn2.size()) - 1.0;
     const double      at = std::clamp((levelDn - lowestDn) / spacingDn, 0.0, last);
     const std::size_t low = std::min(static_cast<std::size_t>(at), remaindersDn2.size() - 2);
-    const double      share = at - static_cast<double>(low);
-    return remaindersDn2[low] + share * (remaindersDn2[low + 1] - remaindersDn2[low]);
+    const double      fraction = at - static_cast<double>(low);
+    return remaindersDn2[low] + fraction * (remaindersDn2[low + 1] - remaindersDn2[low]);
   }
 };
 

@@ -31,7 +31,7 @@ struct PixelsConstants
    * variance of all pixels [1]. Chosen empirically: it does not show in any reported digit. */
   double largestRoundingError{ 0.01 };
   /** Fraction of the roughness classes, the flattest ones, that the first line is fitted to [1]. Chosen empirically. */
-  double flatShare{ 0.6 };
+  double flatFraction{ 0.6 };
   ///@}
 
   /** \name Rejection of pixels, neighbourhoods and roughness classes */
@@ -96,7 +96,7 @@ struct PixelsConstants
   double trimTail{ 1e-4 };
   /** Lower limit of the line where it serves as a variance, as a fraction of the smallest median of a bin [1]. Chosen
    * empirically. */
-  double lowestShare{ 0.2 };
+  double lowestFraction{ 0.2 };
   /** Smallest number of pixels of a bin of the first line, and of a fit. Chosen empirically. */
   double      fewestPixelsOfBin{ 5.0 };
   std::size_t fewestPixelsOfFit{ 10 };

@@ -63,8 +63,8 @@ struct Square
   double
   RelativeRoughness(std::size_t chooser, double blackDn) const
   {
-    const double light = half[chooser].level - blackDn;
-    return this->Roughness(chooser) / std::max(1e-12, light * light);
+    const double signalDn = half[chooser].level - blackDn;
+    return this->Roughness(chooser) / std::max(1e-12, signalDn * signalDn);
   }
 };
 
@@ -255,8 +255,8 @@ FitInstrumental(const VarianceFit & fit, const VarianceData & data, const Refere
     WZV,
     Sums
   };
-  VarianceLine light = fit.GetLine();
-  const double pivot = light.pivotDn;
+  VarianceLine instrumental = fit.GetLine();
+  const double pivot = instrumental.pivotDn;
   const auto   diagonalOf = [&](std::size_t p) {
     return DiagonalMean(frame.mean.data(), frame.geometry.width, p) - pivot;
   };
@@ -276,20 +276,20 @@ FitInstrumental(const VarianceFit & fit, const VarianceData & data, const Refere
   });
   const double zMean = s[WZ] / s[W];
   const double common = s[WZX] - zMean * s[WX];
-  light.isDetermined = common > 0.0;
-  if (!light.isDetermined)
+  instrumental.isDetermined = common > 0.0;
+  if (!instrumental.isDetermined)
   {
-    return light;
+    return instrumental;
   }
-  light.gain = (s[WZV] - zMean * s[WV]) / common;
-  light.pivotDn = pivot + s[WX] / s[W];
-  light.intercept = s[WV] / s[W] - light.gain * light.pivotDn;
+  instrumental.gain = (s[WZV] - zMean * s[WV]) / common;
+  instrumental.pivotDn = pivot + s[WX] / s[W];
+  instrumental.intercept = s[WV] / s[W] - instrumental.gain * instrumental.pivotDn;
   // Sums of the squared scores, for the sandwich covariance.
   const auto squares = fit.SumWeighed<3>([&](std::size_t p, const VarianceFit::Weighed & weighed, auto & sums) {
     if (HasDiagonals(frame.usable.data(), frame.geometry.width, p))
     {
       const auto [w, value] = weighed;
-      const double score = w * (value - light.intercept - light.gain * data.mean[p]);
+      const double score = w * (value - instrumental.intercept - instrumental.gain * data.mean[p]);
       const double z = diagonalOf(p) - zMean;
       sums[0] += score * score * z * z;
       sums[1] += score * score * z;
@@ -303,7 +303,8 @@ FitInstrumental(const VarianceFit & fit, const VarianceData & data, const Refere
       if (HasDiagonals(frame.usable.data(), frame.geometry.width, p))
       {
         const auto [w, value] = weighed;
-        const double score = w * (value - light.intercept - light.gain * data.mean[p]) * (diagonalOf(p) - zMean);
+        const double score =
+          w * (value - instrumental.intercept - instrumental.gain * data.mean[p]) * (diagonalOf(p) - zMean);
         sums[p % width] += score;
         sums[width + p / width] += score;
       }
@@ -316,10 +317,10 @@ FitInstrumental(const VarianceFit & fit, const VarianceData & data, const Refere
   atPivot << squares[0] / (common * common), squares[1] / (common * s[W]), squares[1] / (common * s[W]),
     squares[2] / (s[W] * s[W]);
   Eigen::Matrix2d toIntercept;
-  toIntercept << 1.0, 0.0, -light.pivotDn, 1.0;
-  light.covariance = widening * toIntercept * atPivot * toIntercept.transpose();
-  light.isDetermined = std::isfinite(light.gain) && light.covariance.allFinite();
-  return light;
+  toIntercept << 1.0, 0.0, -instrumental.pivotDn, 1.0;
+  instrumental.covariance = widening * toIntercept * atPivot * toIntercept.transpose();
+  instrumental.isDetermined = std::isfinite(instrumental.gain) && instrumental.covariance.allFinite();
+  return instrumental;
 }
 
 } // namespace sensornoise

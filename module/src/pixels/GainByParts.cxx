@@ -45,14 +45,14 @@ SignificanceOf(const PartRegression & fit, Eigen::Index first, Eigen::Index coun
 
 /** Returns the fraction of the pixels in each part. */
 Eigen::VectorXd
-SharesOf(Partition partition, const std::vector<TileExcess> & tiles)
+CoefficientsOf(Partition partition, const std::vector<TileExcess> & tiles)
 {
-  Eigen::VectorXd share = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(KindOf(partition).parts));
+  Eigen::VectorXd fraction = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(KindOf(partition).parts));
   for (const TileExcess & tile : tiles)
   {
-    share(static_cast<Eigen::Index>(PartOf(partition, tile.x, tile.y, tile.phase))) += tile.pixels;
+    fraction(static_cast<Eigen::Index>(PartOf(partition, tile.x, tile.y, tile.phase))) += tile.pixels;
   }
-  return share;
+  return fraction;
 }
 
 /** Deviations of a quantity of the parts, d or h of PartRegression, from its pixel-weighted mean. */
@@ -72,16 +72,16 @@ DeviationsOf(const PartRegression &  fit,
              Eigen::Index            first,
              Eigen::Index            count,
              double                  unit,
-             const Eigen::VectorXd & share,
+             const Eigen::VectorXd & fraction,
              const Eigen::MatrixXd & ofParts)
 {
-  const Eigen::RowVectorXd mean = share.transpose() * ofParts;
-  const Eigen::MatrixXd    centred = (ofParts - Eigen::VectorXd::Ones(share.size()) * mean) / unit; // to first order
+  const Eigen::RowVectorXd mean = fraction.transpose() * ofParts;
+  const Eigen::MatrixXd    centred = (ofParts - Eigen::VectorXd::Ones(fraction.size()) * mean) / unit; // to first order
   Deviations               found;
   found.ofParts = centred * fit.theta;
   found.covariance = centred * fit.covariance * centred.transpose();
   found.size = std::sqrt(
-    std::max(0.0, share.dot((found.ofParts.array().square() - found.covariance.diagonal().array()).matrix())));
+    std::max(0.0, fraction.dot((found.ofParts.array().square() - found.covariance.diagonal().array()).matrix())));
   if (count > 1)
   {
     found.z = SignificanceOf(fit, first, count);
@@ -102,18 +102,18 @@ GainsOf(const PartRegression & fit, const std::vector<TileExcess> & tiles)
   PartGains gains;
   gains.partition = fit.partition;
   gains.scale = fit.scale;
-  Eigen::VectorXd share = SharesOf(fit.partition, tiles);
-  gains.pixels.assign(share.data(), share.data() + share.size());
-  share /= share.sum();
+  Eigen::VectorXd fraction = CoefficientsOf(fit.partition, tiles);
+  gains.pixels.assign(fraction.data(), fraction.data() + fraction.size());
+  fraction /= fraction.sum();
   const Eigen::MatrixXd toGains = fit.ToParts(tiles, 0, fit.gains);
   const Eigen::MatrixXd toDark = fit.ToParts(tiles, fit.gains, fit.darks);
-  const double          mean = 1.0 + share.dot(toGains * fit.theta);
-  const Deviations      excess = DeviationsOf(fit, 0, fit.gains, mean, share, toGains);
-  const Deviations      dark = DeviationsOf(fit, fit.gains, fit.darks, 1.0, share, toDark);
+  const double          mean = 1.0 + fraction.dot(toGains * fit.theta);
+  const Deviations      excess = DeviationsOf(fit, 0, fit.gains, mean, fraction, toGains);
+  const Deviations      dark = DeviationsOf(fit, fit.gains, fit.darks, 1.0, fraction, toDark);
   const Eigen::VectorXd error = excess.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-  gains.excess.assign(excess.ofParts.data(), excess.ofParts.data() + share.size());
-  gains.error.assign(error.data(), error.data() + share.size());
-  gains.dark.assign(dark.ofParts.data(), dark.ofParts.data() + share.size());
+  gains.excess.assign(excess.ofParts.data(), excess.ofParts.data() + fraction.size());
+  gains.error.assign(error.data(), error.data() + fraction.size());
+  gains.dark.assign(dark.ofParts.data(), dark.ofParts.data() + fraction.size());
   gains.size = excess.size;
   gains.z = excess.z;
   gains.field = excess.field;
@@ -121,7 +121,7 @@ GainsOf(const PartRegression & fit, const std::vector<TileExcess> & tiles)
   gains.darkZ = dark.z;
   gains.darkField = dark.field;
   gains.darkCovariance = fit.covariance.block(fit.gains, fit.gains, fit.darks, fit.darks);
-  gains.meanOfTerms = (share.transpose() * toDark).segment(fit.gains, fit.darks).transpose();
+  gains.meanOfTerms = (fraction.transpose() * toDark).segment(fit.gains, fit.darks).transpose();
   return gains;
 }
 
@@ -243,8 +243,8 @@ FindBest(const std::vector<TileExcess> & tiles, Divided divided)
     return std::nullopt;
   }
   PartGains  gains = GainsOf(*chosen, tiles);
-  const bool isTold = gains.Differ() || gains.DarkVariancesDiffer();
-  return isTold ? std::optional<PartGains>(std::move(gains)) : std::nullopt;
+  const bool isIdentifiable = gains.Differ() || gains.DarkVariancesDiffer();
+  return isIdentifiable ? std::optional<PartGains>(std::move(gains)) : std::nullopt;
 }
 } // namespace
 

@@ -31,7 +31,7 @@ public:
   explicit Bands(const IlluminationResponses & data)
     : m_Data(data)
     , m_Frame(data.frame)
-    , m_Light(data.factors)
+    , m_Factors(data.factors)
   {}
 
   std::size_t
@@ -52,12 +52,12 @@ public:
   std::size_t
   Variables() const
   {
-    return Derivatives + m_Light;
+    return Derivatives + m_Factors;
   }
   std::size_t
-  Light() const
+  Factors() const
   {
-    return m_Light;
+    return m_Factors;
   }
   /** Calls function(pixel, weight, mean minus the centre, variables) for the pixels of a band. */
   template <typename TFunction>
@@ -71,7 +71,7 @@ public:
       if (m_Data.mask[p] != 0)
       {
         std::copy_n(ApplyStencils(m_Frame.mean.data(), width, p).begin(), Derivatives, z.begin());
-        for (std::size_t j = 0; j < m_Light; ++j)
+        for (std::size_t j = 0; j < m_Factors; ++j)
         {
           z[Derivatives + j] = m_Data.coordinates.At(p, j);
         }
@@ -83,7 +83,7 @@ public:
 private:
   const IlluminationResponses & m_Data;
   const ReferenceFrame &        m_Frame;
-  std::size_t                   m_Light;
+  std::size_t                   m_Factors;
 };
 
 /** Sums over a tile of the weight w times powers of I, the mean minus the centre. */
@@ -154,7 +154,7 @@ EstimateLeakage(const Bands & bands, const ParallelFor & parallelFor)
     products += part;
   }
   const Eigen::MatrixXd gram = products.leftCols<Derivatives>();
-  const Eigen::MatrixXd right = products.rightCols(static_cast<Eigen::Index>(bands.Light()));
+  const Eigen::MatrixXd right = products.rightCols(static_cast<Eigen::Index>(bands.Factors()));
   const Eigen::VectorXd unit = (gram.diagonal().array() + 1e-300).rsqrt();
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
   solver.setThreshold(1e-6);
@@ -168,10 +168,10 @@ RemoveMotionLeakage(const IlluminationResponses & data, const ParallelFor & para
 {
   const Bands                      bands(data);
   const Eigen::MatrixXd            leak = EstimateLeakage(bands, parallelFor);
-  std::vector<std::vector<double>> responses(bands.Light(), std::vector<double>(data.mask.size(), 0.0));
+  std::vector<std::vector<double>> responses(bands.Factors(), std::vector<double>(data.mask.size(), 0.0));
   parallelFor(bands.Size(), [&](std::size_t band) {
     bands.ForPixels(band, [&](std::size_t p, double, double, const std::vector<double> & z) {
-      for (std::size_t j = 0; j < bands.Light(); ++j)
+      for (std::size_t j = 0; j < bands.Factors(); ++j)
       {
         responses[j][p] = z[Derivatives + j];
         for (std::size_t k = 0; k < Derivatives; ++k)
@@ -195,7 +195,7 @@ LocalFlicker
 SumLocalFlicker(const IlluminationResponses & data)
 {
   const ReferenceFrame & frame = data.frame;
-  const std::size_t      light = data.factors;
+  const std::size_t      factors = data.factors;
   LocalFlicker           sums;
   sums.frames = static_cast<double>(frame.frames);
   for (std::size_t p = 0; p < data.mask.size(); ++p)
@@ -204,7 +204,7 @@ SumLocalFlicker(const IlluminationResponses & data)
     {
       const double noise = data.line.At(frame.neighbourMean[p]);
       const double centred = frame.mean[p] - data.centreDn;
-      for (std::size_t j = 0; j < light; ++j)
+      for (std::size_t j = 0; j < factors; ++j)
       {
         sums.energy += std::pow(data.coordinates.At(p, j), 2) / noise - 1.0;
       }
@@ -235,10 +235,10 @@ IsOffsetDrift(const IlluminationResponses & data)
   const std::size_t      side = InPattern.driftTileSide;
   const ReferenceFrame & frame = data.frame;
   const std::size_t      width = frame.geometry.width;
-  const std::size_t      light = data.factors;
+  const std::size_t      factors = data.factors;
   const Tiles            tiles{ side, side, (width + side - 1) / side };
   const std::size_t      count = tiles.across * ((frame.geometry.height + side - 1) / side);
-  for (std::size_t j = 1; j < light; ++j)
+  for (std::size_t j = 1; j < factors; ++j)
   {
     std::vector<LineSums> parts(count);
     LineSums              whole;
@@ -279,7 +279,7 @@ IsOffsetDrift(const IlluminationResponses & data)
       return false;
     }
   }
-  return light > 1;
+  return factors > 1;
 }
 
 } // namespace sensornoise

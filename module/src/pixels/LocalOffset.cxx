@@ -156,14 +156,14 @@ SumTiles(const IlluminationResponses &            data,
 {
   const ReferenceFrame & frame = data.frame;
   const std::size_t      width = frame.geometry.width;
-  const std::size_t      light = responses.size();
+  const std::size_t      factors = responses.size();
   const auto             frames = static_cast<double>(frame.frames);
   const Tiles            tiles{ tileHeight, tileWidth, (width + tileWidth - 1) / tileWidth };
   std::vector<TileSums>  sums(tiles.across * ((frame.geometry.height + tileHeight - 1) / tileHeight));
   for (TileSums & s : sums)
   {
-    s.r1.assign(light, 0.0);
-    s.r2.assign(light, 0.0);
+    s.r1.assign(factors, 0.0);
+    s.r2.assign(factors, 0.0);
   }
   for (std::size_t p = 0; p < data.mask.size(); ++p)
   {
@@ -177,7 +177,7 @@ SumTiles(const IlluminationResponses &            data,
       s.g11 += w;
       s.g12 += w * centred;
       s.g22 += w * (centred * centred - noise / frames);
-      for (std::size_t j = 0; j < light; ++j)
+      for (std::size_t j = 0; j < factors; ++j)
       {
         s.r1[j] += w * responses[j][p];
         s.r2[j] += w * (centred - data.line.gain / frames) * responses[j][p];

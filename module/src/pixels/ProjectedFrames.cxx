@@ -160,10 +160,10 @@ CopyPairs(const TPixel *      frames,
   const std::size_t pixels = end - begin;
   for (std::size_t k = 0; 2 * k < count; ++k)
   {
-    TPixel         rooms[2][FramePairs::MostPixels];
+    TPixel         buffers[2][FramePairs::MostPixels];
     const TPixel * frame = frames + 2 * k * layout.frame;
-    const TPixel * first = layout.SideBySide(frame, begin, end, rooms[0]);
-    const TPixel * second = 2 * k + 1 < count ? layout.SideBySide(frame + layout.frame, begin, end, rooms[1]) : first;
+    const TPixel * first = layout.SideBySide(frame, begin, end, buffers[0]);
+    const TPixel * second = 2 * k + 1 < count ? layout.SideBySide(frame + layout.frame, begin, end, buffers[1]) : first;
     std::int16_t * pair = pairs.values[k];
     for (std::size_t i = 0; i < pixels; ++i)
     {
@@ -271,8 +271,8 @@ ProjectedFrames<TPixel>::AddOneByOne(double * sums, std::size_t begin, std::size
 {
   for (std::size_t t = 0; t < m_Count; ++t)
   {
-    TPixel               room[BlockPixels];
-    const TPixel * const frame = m_Layout.SideBySide(m_Frames + t * m_Layout.frame, begin, end, room);
+    TPixel               buffer[BlockPixels];
+    const TPixel * const frame = m_Layout.SideBySide(m_Frames + t * m_Layout.frame, begin, end, buffer);
     double               values[BlockPixels];
     std::copy(frame, frame + (end - begin), values);
     for (std::size_t j = 0; j < m_Basis->Size(); ++j)

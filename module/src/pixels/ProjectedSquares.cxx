@@ -205,8 +205,8 @@ ProjectedSquares::DivideSquares(const MotionSeries & motion, const InitialNoiseM
         const std::size_t p = y * width + x;
         const double      noise = model.NoiseVariance(m_Frame.neighbourMean[p]);
         const double      taken = m_Mask[p] != 0 && !(bounds[x] < 1e-5 * noise) ? leverage.At(p) / noise : 0.0;
-        const double      share = 1.0 - std::min(InPixels.largestLeverage, taken);
-        m_Divisor[p] = m_Mask[p] != 0 ? static_cast<float>(all * share) : 0.0F;
+        const double      fraction = 1.0 - std::min(InPixels.largestLeverage, taken);
+        m_Divisor[p] = m_Mask[p] != 0 ? static_cast<float>(all * fraction) : 0.0F;
         m_Variance[p] = m_Mask[p] != 0 ? m_Variance[p] / m_Divisor[p] : 0.0;
         m_PerGain[p] = m_Mask[p] != 0 ? m_PerGain[p] / m_Divisor[p] : 0.0F;
       }

@@ -41,7 +41,7 @@ struct TileRow
   double       chance[InPixels.rejectionTileSide]{};
 
   void
-  Judge(const VarianceData & data, std::size_t first, std::size_t pixels)
+  Compare(const VarianceData & data, std::size_t first, std::size_t pixels)
   {
     const VarianceLine   own = line; // a copy that no pointer can alias
     const double * const mean = data.mean + first;
@@ -65,7 +65,7 @@ SumRejectionTile(const VarianceLine &      line,
 {
   const FrameGeometry & geometry = projected.GetFrame().geometry;
   const double          reachDn2 =
-    InMoments.defectiveNoiseFactor * InMoments.defectiveNoiseFactor * line.lowestDn2 / InPixels.lowestShare;
+    InMoments.defectiveNoiseFactor * InMoments.defectiveNoiseFactor * line.lowestDn2 / InPixels.lowestFraction;
   RejectionTile     square;
   double            total = 0.0;
   double            squares = 0.0;
@@ -75,7 +75,7 @@ SumRejectionTile(const VarianceLine &      line,
   for (std::size_t y = top; y < std::min(top + InPixels.rejectionTileSide, geometry.height); ++y)
   {
     const std::size_t first = y * geometry.width + left;
-    row.Judge(data, first, across);
+    row.Compare(data, first, across);
     for (std::size_t i = 0; i < across; ++i)
     {
       const std::size_t p = first + i;
@@ -150,7 +150,7 @@ FitRejectionModel(const VarianceLine &              line,
                   double                            blackDn,
                   const ParallelFor &               parallelFor)
 {
-  RejectionModel             judging{ line, {}, {} };
+  RejectionModel             model{ line, {}, {} };
   const VarianceData         data = projected.GetData(mask);
   std::vector<RejectionTile> squares = MakeRejectionTiles(line, data, projected, parallelFor);
   if (!squares.empty())
@@ -158,10 +158,10 @@ FitRejectionModel(const VarianceLine &              line,
     const double patternDn2 =
       EstimateFixedPattern(projected.GetFrame(), data, line, blackDn, parallelFor).OffsetVarianceDn2();
     const double darkest = line.At(squares.front().level);
-    judging.byNeighbours = line.gain * line.gain * patternDn2 > InPixels.largestDsnuEffect * darkest * darkest;
+    model.byNeighbours = line.gain * line.gain * patternDn2 > InPixels.largestDsnuEffect * darkest * darkest;
   }
   const std::size_t bins = std::min(InPixels.mostRejectionLevels, squares.size() / InPixels.tilesPerLevel);
-  bool              departs = false;
+  bool              deviates = false;
   for (std::size_t b = 0; b < bins; ++b)
   {
     const std::size_t first = b * squares.size() / bins;
@@ -177,25 +177,25 @@ FitRejectionModel(const VarianceLine &              line,
     }
     // 1.5 median deviations are a standard deviation; a median has 1.25 times the standard error of a mean.
     const double error = 1.25 * 1.5 * Quantile(distance, 0.5) / std::sqrt(static_cast<double>(last - first));
-    departs = departs || std::abs(excess) > InPixels.leastDeviation + Significance.hint * error;
+    deviates = deviates || std::abs(excess) > InPixels.leastDeviation + Significance.hint * error;
     const double level = MedianOf(squares, first, last, &RejectionTile::level);
-    if (judging.levels.empty() || level > judging.levels.back())
+    if (model.levels.empty() || level > model.levels.back())
     {
-      judging.levels.push_back(level);
-      judging.ratios.push_back(std::max(InCommon.leastVarianceRatio, 1.0 + excess));
+      model.levels.push_back(level);
+      model.ratios.push_back(std::max(InCommon.leastVarianceRatio, 1.0 + excess));
     }
   }
-  if (departs)
+  if (deviates)
   {
     const std::size_t dark = std::max(InPixels.tilesPerLevel, squares.size() / InPixels.darkTilesOneIn);
-    judging.line.noiseDispersionDn4 = std::max(0.0, MedianOf(squares, 0, dark, &RejectionTile::spread));
+    model.line.noiseDispersionDn4 = std::max(0.0, MedianOf(squares, 0, dark, &RejectionTile::spread));
   }
   else
   {
-    judging.levels.clear();
-    judging.ratios.clear();
+    model.levels.clear();
+    model.ratios.clear();
   }
-  return judging;
+  return model;
 }
 
 } // namespace sensornoise

@@ -133,13 +133,13 @@ struct TestedRun
 
   /** Tests \a pixels pixels, at most PixelsPerRun, from pixel \a first on. */
   void
-  Judge(const ProjectedVariance & projected, const RejectionModel & judge, std::size_t first, std::size_t pixels)
+  Test(const ProjectedVariance & projected, const RejectionModel & model, std::size_t first, std::size_t pixels)
   {
     const ReferenceFrame & frame = projected.GetFrame();
-    const double * const   level = judge.LevelsOf(frame).data() + first;
+    const double * const   level = model.LevelsOf(frame).data() + first;
     const float * const    dof = projected.GetDof().data() + first;
-    const VarianceLine     line = judge.line;
-    judge.FillVariance(level, pixels, expected);
+    const VarianceLine     line = model.line;
+    model.FillVariance(level, pixels, expected);
     projected.GetVariance().Fill(first, pixels, ratio.data());
     for (std::size_t i = 0; i < pixels; ++i)
     {

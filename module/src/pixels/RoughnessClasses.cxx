@@ -272,7 +272,7 @@ LineThroughMedians(const ProjectedVariance & projected, const std::vector<std::u
   line.gain = solution(0);
   line.intercept = solution(1);
   line.pivotDn = gram(1, 1) > 0.0 ? gram(0, 1) / gram(1, 1) : 0.0;
-  line.lowestDn2 = InPixels.lowestShare * lowest;
+  line.lowestDn2 = InPixels.lowestFraction * lowest;
   line.isDetermined = solution.allFinite() && std::isfinite(lowest) && line.gain > 0.0;
   return line;
 }
@@ -283,7 +283,7 @@ MaskOfFlatClasses(const ProjectedSquares &          squares,
                   const std::vector<std::uint8_t> & usable,
                   const ParallelFor &               parallelFor)
 {
-  const auto                last = static_cast<std::uint8_t>(InPixels.flatShare * ProjectedVariance::Classes);
+  const auto                last = static_cast<std::uint8_t>(InPixels.flatFraction * ProjectedVariance::Classes);
   std::vector<std::uint8_t> mask(usable.size());
   ForPixels(mask.size(),
             parallelFor,

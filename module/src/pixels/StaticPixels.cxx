@@ -56,7 +56,7 @@ SumClasses(const ProjectedVariance &         projected,
                   divisor = projected.GetSquares().GetDivisor().data() + first,
                   dof = projected.GetDof().data() + first,
                   spread = line.line.noiseDispersionDn4] {
-      run.Judge(projected, line, first, pixels);
+      run.Test(projected, line, first, pixels);
       line.FillVariance(level, pixels, weight);
       for (std::size_t i = 0; i < pixels; ++i)
       {
@@ -198,7 +198,7 @@ TestPixels(const ProjectedVariance &         projected,
     TestedRun run{};
     ForRuns(begin, end, [&](std::size_t first, std::size_t pixels) {
       CallWithAvx2([&, used = mask.data() + first, ratio = fits.ratio.data() + first] {
-        run.Judge(projected, line, first, pixels);
+        run.Test(projected, line, first, pixels);
         for (std::size_t i = 0; i < pixels; ++i)
         {
           const auto own = static_cast<float>(run.ratio[i]);
@@ -273,14 +273,14 @@ RejectNeighbourhoods(const ProjectedVariance &         projected,
   {
     return core;
   }
-  std::vector<std::uint8_t> misfit(mask.size());
+  std::vector<std::uint8_t> rejected(mask.size());
   const auto                cores = [&] { return RowsOf(core, width); };
   ForBoxRows(cores, width, height, (2 * radius + 1) / 3, parallelFor, [&](std::size_t y, const double * near) {
-    std::transform(near, near + width, misfit.data() + y * width, [](double count) {
+    std::transform(near, near + width, rejected.data() + y * width, [](double count) {
       return static_cast<std::uint8_t>(count > 0.5);
     });
   });
-  return misfit;
+  return rejected;
 }
 
 } // namespace sensornoise

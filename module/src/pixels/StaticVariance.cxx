@@ -133,26 +133,26 @@ SelectPixels(const ProjectedVariance &         projected,
              StaticVariance &                  found,
              const ParallelFor &               parallelFor)
 {
-  const std::vector<std::uint8_t> misfit = RejectNeighbourhoods(projected, line, usable, parallelFor);
+  const std::vector<std::uint8_t> rejected = RejectNeighbourhoods(projected, line, usable, parallelFor);
   ForPixels(
-    misfit.size(), parallelFor, [&](std::size_t p) { found.mask[p] = usable[p] != 0 && misfit[p] == 0 ? 1 : 0; });
+    rejected.size(), parallelFor, [&](std::size_t p) { found.mask[p] = usable[p] != 0 && rejected[p] == 0 ? 1 : 0; });
   found.classes = TestClasses(projected, line, found.mask, parallelFor);
-  ForPixels(misfit.size(),
+  ForPixels(rejected.size(),
             parallelFor,
             [usable = usable.data(),
-             misfit = misfit.data(),
+             rejected = rejected.data(),
              classOf = projected.GetSquares().GetClasses().data(),
              firstBad = found.classes.firstBad,
              use = found.pixelUse.data(),
              mask = found.mask.data()](std::size_t p) {
               const bool isRough = classOf[p] >= firstBad;
-              const auto own = static_cast<std::uint8_t>(misfit[p] != 0 ? PixelUse::NotStatic
-                                                         : isRough      ? PixelUse::Vibration
-                                                                        : PixelUse::Used);
+              const auto own = static_cast<std::uint8_t>(rejected[p] != 0 ? PixelUse::NotStatic
+                                                         : isRough        ? PixelUse::Vibration
+                                                                          : PixelUse::Used);
               use[p] = usable[p] != 0 ? own : use[p];
               mask[p] = isRough ? 0 : mask[p];
             });
-  return static_cast<std::size_t>(std::count(misfit.begin(), misfit.end(), std::uint8_t{ 1 }));
+  return static_cast<std::size_t>(std::count(rejected.begin(), rejected.end(), std::uint8_t{ 1 }));
 }
 
 /** Compares the parts by the measured variance of the pixels of \a mask. */
@@ -264,15 +264,15 @@ SelectStaticPixels(const ProjectedSquares &          squares,
     drawn = std::move(ofParts.drawn);
     dividedBy = std::move(ofParts.dividedBy);
   }
-  bool isJudged = false;
-  for (int round = 0; round < 2 && drawn.line.isDetermined && !isJudged; ++round)
+  bool isSettled = false;
+  for (int round = 0; round < 2 && drawn.line.isDetermined && !isSettled; ++round)
   {
-    RejectionModel judge = FitRejectionModel(drawn.line, drawn.projected, found.mask, premises.blackDn, parallelFor);
-    judge.varianceInflation = premises.varianceInflation;
+    RejectionModel model = FitRejectionModel(drawn.line, drawn.projected, found.mask, premises.blackDn, parallelFor);
+    model.varianceInflation = premises.varianceInflation;
     const ProjectedVariance projected = drawn.OfLine();
-    const std::size_t       misfits = SelectPixels(projected, judge, usable, found, parallelFor);
-    isJudged = static_cast<double>(misfits) < InPixels.fewRejected * static_cast<double>(usable.size());
-    drawn = FitFixedPointLine(projected, found.mask, judge.line, parallelFor);
+    const std::size_t       numberRejected = SelectPixels(projected, model, usable, found, parallelFor);
+    isSettled = static_cast<double>(numberRejected) < InPixels.fewRejected * static_cast<double>(usable.size());
+    drawn = FitFixedPointLine(projected, found.mask, model.line, parallelFor);
   }
   return { std::move(drawn), std::move(found), std::move(dividedBy) };
 }

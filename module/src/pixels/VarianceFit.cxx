@@ -72,7 +72,7 @@ FitMedians(const VarianceData & data, const ChiSquareTrim & trim)
   {
     return std::nullopt;
   }
-  line.lowestDn2 = std::max(1e-9, InPixels.lowestShare * lowest);
+  line.lowestDn2 = std::max(1e-9, InPixels.lowestFraction * lowest);
   line.gain = (s0 * r1 - s1 * r0) / determinant;
   line.intercept = (s2 * r0 - s1 * r1) / determinant - line.gain * line.pivotDn;
   return line;

@@ -97,11 +97,11 @@ LeastSmoothChi2(const std::vector<ExcessOfBin> & bins)
     return Eigen::Vector4d{ 1.0, s, s * s, s * s * s };
   });
   double       least = cubic.isDetermined ? cubic.chi2 : std::numeric_limits<double>::infinity();
-  for (const ExcessOfBin & bend : bins)
+  for (const ExcessOfBin & knee : bins)
   {
-    const auto bent =
-      RegressCurve<3>(bins, [at = bend.x](double x) { return Eigen::Vector3d{ 1.0, x, std::max(0.0, x - at) }; });
-    least = bent.isDetermined ? std::min(least, bent.chi2) : least;
+    const auto twoLines =
+      RegressCurve<3>(bins, [at = knee.x](double x) { return Eigen::Vector3d{ 1.0, x, std::max(0.0, x - at) }; });
+    least = twoLines.isDetermined ? std::min(least, twoLines.chi2) : least;
   }
   return least;
 }
@@ -143,8 +143,8 @@ FitSide(const StepCandidate & step, bool isAbove, double prior, double scatter)
     return { 0.0, prior };
   }
   const double variance = scatter * fit.covariance(1, 1);
-  const double share = prior * prior / (prior * prior + variance);
-  return { share * (fit.coefficients(1) - step.fit.coefficients(1)), std::sqrt(share * variance) };
+  const double fraction = prior * prior / (prior * prior + variance);
+  return { fraction * (fit.coefficients(1) - step.fit.coefficients(1)), std::sqrt(fraction * variance) };
 }
 } // namespace
 

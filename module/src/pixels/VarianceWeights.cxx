@@ -76,7 +76,7 @@ IsBetween(double value, double low, double high)
 }
 
 /** Deviation of variances from a line. The members are copies that no pointer can alias. */
-struct Departure
+struct Deviation
 {
   VarianceLine line{};
   VarianceData data{};
@@ -114,7 +114,7 @@ void
 VarianceFit::WeighByDistance(std::size_t first, std::size_t pixels, Run & run) const
 {
   CallWithAvx2([&] {
-    const Departure of{ m_Line, m_Data, m_ReachDn2, m_ReachBelowDn2 };
+    const Deviation of{ m_Line, m_Data, m_ReachDn2, m_ReachBelowDn2 };
     OfRun           counts;
     m_Data.variance.Fill(first, pixels, run.value.data());
     for (std::size_t i = 0; i < pixels; ++i)
@@ -210,7 +210,7 @@ void
 VarianceFit::EstimateNoiseDispersion(std::size_t first, std::size_t pixels, DispersionTerms & terms) const
 {
   CallWithAvx2([&] {
-    const Departure of{ m_Line, m_Data, m_ReachDn2, m_ReachBelowDn2 };
+    const Deviation of{ m_Line, m_Data, m_ReachDn2, m_ReachBelowDn2 };
     OfRun           variance;
     OfRun           counts;
     m_Data.variance.Fill(first, pixels, variance.data());

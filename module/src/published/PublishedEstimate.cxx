@@ -127,12 +127,12 @@ std::optional<double>
 FindCurvedFraction(const NoiseParameters & parameters, const PublishedScene & scene, double contrastDn)
 {
   const FitQuality & quality = *parameters.quality;
-  const double       bendDn2 = quality.curvature * contrastDn * contrastDn / 8.0; // parabola minus chord
+  const double       curvatureDn2 = quality.curvature * contrastDn * contrastDn / 8.0; // parabola minus chord
   const double       middleDn2 =
     parameters.line.intercept + parameters.line.slope * 0.5 * (scene.bright.levelDn + scene.dark.levelDn);
   const bool isCurved =
-    std::abs(quality.curvatureZ) > LeastCurvatureZ && std::abs(bendDn2) > LargestCurvedFraction * middleDn2;
-  return isCurved ? std::optional(std::abs(bendDn2) / middleDn2) : std::nullopt;
+    std::abs(quality.curvatureZ) > LeastCurvatureZ && std::abs(curvatureDn2) > LargestCurvedFraction * middleDn2;
+  return isCurved ? std::optional(std::abs(curvatureDn2) / middleDn2) : std::nullopt;
 }
 } // namespace
 

@@ -43,8 +43,8 @@ TestVibrationOfRow(const double *       mean,
     const double * const centre = mean + x;
     const double         dx = 0.5 * (centre[1] - centre[-1]);
     const double         dy = 0.5 * (centre[stride] - centre[-stride]);
-    const bool           still = scale * (dx * dx + dy * dy) < quantile * variance[x];
-    kept[x] = still && (valid == nullptr || valid[x] != 0) ? 1 : 0;
+    const bool           isStatic = scale * (dx * dx + dy * dy) < quantile * variance[x];
+    kept[x] = isStatic && (valid == nullptr || valid[x] != 0) ? 1 : 0;
   }
 }
 

@@ -76,7 +76,7 @@ struct RefinedConstants
   /** Largest fraction of the brightest levels' variance that the line may attribute to read noise where the response is
    * non-linear [1]. Above it, the apparent read noise may be caused by a tone curve. Chosen empirically:
    * non-linearities of 4 % make 0.05, a gamma of 1.3 makes 0.3. */
-  double largestReadShare{ 0.1 };
+  double largestReadFraction{ 0.1 };
   /** Largest signal of the darkest levels, relative to the brightest, for which a non-linear response is
    * distinguishable from noise [1]. Chosen empirically: flat fields have 0.9 and more, scenes less than 0.3. */
   double largestDarkestFraction{ 0.5 };

@@ -109,16 +109,16 @@ GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
   for (const CurveBin & bin : curve.bins)
   {
     const double level = curve.LevelOf(bin);
-    const double light = level - dark.offsetDn;
-    if (light > InCommon.darkFraction * (brightestDn - dark.offsetDn))
+    const double signal = level - dark.offsetDn;
+    if (signal > InCommon.darkFraction * (brightestDn - dark.offsetDn))
     {
       const double own = curve.VarianceOf(bin);
-      const double gain = (own - dark.varianceDn2) / light;
-      const double w = bin.weight * light * light;
+      const double gain = (own - dark.varianceDn2) / signal;
+      const double w = bin.weight * signal * signal;
       weight += w;
       sum += w * gain;
       squares += w * gain * gain;
-      inverse += w / light;
+      inverse += w / signal;
       levels += 1.0;
     }
   }

@@ -33,7 +33,7 @@ struct Regression
   {
     for (Eigen::Index i = 0; i < energies.Tiles(); ++i)
     {
-      ofLevel.row(i) = energies.ExpectedSquares(levels.Of(energies.LightDn()(i)).head(energies.Frames())).transpose();
+      ofLevel.row(i) = energies.ExpectedSquares(levels.Of(energies.SignalDn()(i)).head(energies.Frames())).transpose();
     }
   }
 
@@ -194,7 +194,7 @@ CurveOfFrames(const Regression &      data,
     const double          constant = weighed.dot(data.ofConstant);
     const Eigen::VectorXd beyond = (data.squares.row(i) - line.gain * data.ofLevel.row(i)).transpose();
     const double          own = constant > 0.0 ? weighed.dot(beyond) / constant : 0.0;
-    const Eigen::VectorXd levelsDn = levels.Of(energies.LightDn()(i));
+    const Eigen::VectorXd levelsDn = levels.Of(energies.SignalDn()(i));
     for (Eigen::Index t = 0; t < weights.cols(); ++t)
     {
       const double weight = weighed(t) * data.ofConstant(t); // weight of a variance, not of a squared residual
@@ -222,9 +222,9 @@ TileLevels::TileLevels(const std::vector<double> & gamma, double offsetDn, doubl
 {}
 
 Eigen::VectorXd
-TileLevels::Of(double lightDn) const
+TileLevels::Of(double signalDn) const
 {
-  return m_OffsetDn + m_Illumination.array() * (lightDn + m_ZeroDn - m_OffsetDn);
+  return m_OffsetDn + m_Illumination.array() * (signalDn + m_ZeroDn - m_OffsetDn);
 }
 
 Eigen::VectorXd
@@ -233,7 +233,7 @@ VariancesOfFrames(const FrameEnergies & energies,
                   const VarianceLine &  line,
                   Eigen::Index          tile)
 {
-  const Eigen::VectorXd level = levels.Of(energies.LightDn()(tile)).head(energies.Frames());
+  const Eigen::VectorXd level = levels.Of(energies.SignalDn()(tile)).head(energies.Frames());
   const double          least = InRefined.leastWeighedVariance * energies.SquaresDn2().row(tile).mean();
   return (line.intercept + line.gain * level.array()).max(least);
 }
@@ -294,7 +294,7 @@ MakeFrameParts(const FrameEnergies & energies, const TileLevels & levels, const 
   std::vector<TileExcess> tiles;
   for (Eigen::Index i = 0; i < energies.Tiles(); ++i)
   {
-    const Eigen::VectorXd             level = levels.Of(energies.LightDn()(i)).head(frames);
+    const Eigen::VectorXd             level = levels.Of(energies.SignalDn()(i)).head(frames);
     const Eigen::ArrayXd              variance = VariancesOfFrames(energies, levels, line, i);
     const Eigen::ArrayXd              shot = (line.gain * (level.array() - reference.blackDn)).max(0.0).min(variance);
     const Eigen::VectorXd             expected = energies.ExpectedSquares(variance.matrix());

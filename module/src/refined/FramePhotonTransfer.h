@@ -27,9 +27,9 @@ public:
    * [DN]. */
   TileLevels(const std::vector<double> & gamma, double offsetDn, double zeroDn);
 
-  /** Returns the levels in every frame of a tile whose signal in the mean frame is \a lightDn [DN]. */
+  /** Returns the levels in every frame of a tile whose signal in the mean frame is \a signalDn [DN]. */
   Eigen::VectorXd
-  Of(double lightDn) const;
+  Of(double signalDn) const;
 
   /** Returns the dark offset about which the illumination factors are given [DN]. */
   double

@@ -171,13 +171,14 @@ ApplyMeanGain(GainEstimate & estimate, const VarianceCurve & curve, double black
   {
     return;
   }
-  const double bend = parabola->value - curve.line.gain;
+  const double difference = parabola->value - curve.line.gain;
   const double chance = dispersion * parabola->variance;
-  const bool   isSure = estimate.IsNonlinear() || bend * bend > Significance.oneTest * Significance.oneTest * chance;
+  const bool   isSure =
+    estimate.IsNonlinear() || difference * difference > Significance.oneTest * Significance.oneTest * chance;
   if (!isSure || !(estimate.nonlinearity > InRefined.leastNonlinearity))
   {
-    double & side = bend < 0.0 ? estimate.below : estimate.above;
-    side = std::max(side, SizeBeyondChance(bend, chance, Significance.hint));
+    double & side = difference < 0.0 ? estimate.below : estimate.above;
+    side = std::max(side, SizeBeyondChance(difference, chance, Significance.hint));
     return;
   }
   const MeanGain best = FindMeanGain(curve, 3).value_or(*parabola);
@@ -187,7 +188,7 @@ ApplyMeanGain(GainEstimate & estimate, const VarianceCurve & curve, double black
     std::max(ofShape, InRefined.errorOfMeanGain * std::abs(best.value - curve.line.gain));
   const double read = curve.line.intercept + curve.line.gain * blackDn;
   const auto   shotNoise = FindMeanGain(curve, 2, blackDn);
-  if (shotNoise && read > InRefined.largestReadShare * curve.line.At(curve.LevelOf(curve.bins.back())))
+  if (shotNoise && read > InRefined.largestReadFraction * curve.line.At(curve.LevelOf(curve.bins.back())))
   {
     estimate.above = std::max(estimate.above, shotNoise->value - best.value);
     estimate.below = std::max(estimate.below, best.value - shotNoise->value);

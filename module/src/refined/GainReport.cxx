@@ -35,12 +35,12 @@ AskIfExchanged(const RefinedResults & found, const std::string & otherwise)
 
 /** Returns why the variance is not that of a sensor of one gain, and what to do. */
 std::string
-TextOfFailure(const RefinedResults & found, const JudgedGain & judged)
+TextOfFailure(const RefinedResults & found, const TestedGain & tested)
 {
-  const GainEstimate & gain = judged.line;
+  const GainEstimate & gain = tested.line;
   const std::string    notRaw = ": the frames are not raw (gamma, compression), not linear";
   const bool           hasCodes = found.scene.summary.codes.clipHighDn.has_value();
-  switch (judged.verdict)
+  switch (tested.verdict)
   {
     case GainVerdict::FramesDiffer:
       return "the noise variance of the frames does not follow their levels, " +
@@ -177,10 +177,10 @@ WarnOfStep(Report & report, const GainEstimate & gain)
 }
 
 void
-WarnOfIdentified(Report & report, const JudgedGain & judged)
+WarnOfIdentified(Report & report, const TestedGain & tested)
 {
-  const GainEstimate & gain = judged.line;
-  for (const UnlikeParts & parts : judged.parts)
+  const GainEstimate & gain = tested.line;
+  for (const UnlikeParts & parts : tested.parts)
   {
     WarnOfParts(report, parts);
   }
@@ -199,12 +199,12 @@ WarnOfIdentified(Report & report, const JudgedGain & judged)
 } // namespace
 
 void
-WarnOfGain(Report & report, const RefinedResults & found, const JudgedGain & judged, double effectOfLines)
+WarnOfGain(Report & report, const RefinedResults & found, const TestedGain & tested, double effectOfLines)
 {
-  switch (judged.verdict)
+  switch (tested.verdict)
   {
     case GainVerdict::Identified:
-      WarnOfIdentified(report, judged);
+      WarnOfIdentified(report, tested);
       return;
     case GainVerdict::NoiseNotLinear: // WarnOfCorrelation() has the reason
       return;
@@ -213,21 +213,21 @@ WarnOfGain(Report & report, const RefinedResults & found, const JudgedGain & jud
       return;
     case GainVerdict::TooFewPixels:
       report.Warn(WarningCode::TooLittleToMeasure,
-                  TextOfTooFewPixels(report.pixels.used, found.scene.usable, judged.line));
+                  TextOfTooFewPixels(report.pixels.used, found.scene.usable, tested.line));
       return;
     case GainVerdict::FewLitFrames:
       report.Warn(WarningCode::TooLittleToMeasure,
                   TextOfLitFrames(*FindFewLitFrames(found), found.series.basis.GetBasis().rows()));
       return;
     case GainVerdict::LevelsTooAlike:
-      report.Warn(WarningCode::IntensityRangeTooSmall, TextOfLevels(found, judged.line));
+      report.Warn(WarningCode::IntensityRangeTooSmall, TextOfLevels(found, tested.line));
       return;
     case GainVerdict::FramesDiffer:
     case GainVerdict::IlluminationIsLeft:
     case GainVerdict::NotAffine:
     case GainVerdict::GainDependsOnOffset:
     case GainVerdict::NotRising:
-      report.Warn(WarningCode::VarianceNotAffine, TextOfFailure(found, judged));
+      report.Warn(WarningCode::VarianceNotAffine, TextOfFailure(found, tested));
       return;
   }
 }

@@ -44,7 +44,7 @@ struct FrameWeights
   /** Returns the expectation of a weighted sum of squares about the weighted mean, over the variance: the number of
    * frames minus 1 if all weights are 1. */
   double
-  Freedom() const
+  Dof() const
   {
     return sum - squares / sum;
   }
@@ -58,7 +58,7 @@ struct FrameWeights
   double
   MeanNoise() const
   {
-    return (frames - 1.0) / this->Freedom();
+    return (frames - 1.0) / this->Dof();
   }
 };
 
@@ -118,24 +118,24 @@ SpreadOf(const TCoefficients &       coefficients,
       sum += weights.ofFrames[t] * spread.series[t] * spread.series[t];
     }
   }
-  spread.square = sum / weights.Freedom() - noiseSquare;
+  spread.square = sum / weights.Dof() - noiseSquare;
   return spread;
 }
 
 /** Shifts along one axis by either method, for the offset of the flicker that was subtracted. */
 struct AxisShifts
 {
-  Eigen::VectorXd    coefficients; ///< (1 + gamma_t) times the shift [pixel]
-  Eigen::RowVector2d ofLight;      ///< apparent shifts by a change of level, and by a change of contrast
-  double             noise{ 0.0 }; ///< variance of the coefficient of one frame [pixel^2]
+  Eigen::VectorXd    coefficients;   ///< (1 + gamma_t) times the shift [pixel]
+  Eigen::RowVector2d ofIllumination; ///< apparent shifts by a change of level, and by a change of contrast
+  double             noise{ 0.0 };   ///< variance of the coefficient of one frame [pixel^2]
 
   /** Returns the shifts for another offset, where another flicker is subtracted. */
   AxisShifts
   About(const OffsetLine & before, const OffsetLine & after) const
   {
     AxisShifts   moved = *this;
-    const double off = ofLight.dot(Eigen::RowVector2d(-after.offset, 1.0));
-    const double on = ofLight.dot(Eigen::RowVector2d(-before.offset, 1.0));
+    const double off = ofIllumination.dot(Eigen::RowVector2d(-after.offset, 1.0));
+    const double on = ofIllumination.dot(Eigen::RowVector2d(-before.offset, 1.0));
     for (std::size_t t = 0; t < before.gamma.size(); ++t)
     {
       moved.coefficients(static_cast<Eigen::Index>(t)) += before.gamma[t] * on - after.gamma[t] * off;
@@ -147,8 +147,8 @@ struct AxisShifts
 AxisShifts
 ByLeastSquares(const ReestimatedComponents & reestimated, Eigen::Index k)
 {
-  AxisShifts   shifts{ reestimated.motion.coefficients.col(k), reestimated.motion.ofLight.row(k), 0.0 };
-  const double ofFlicker = shifts.ofLight.dot(Eigen::RowVector2d(-reestimated.line.offset, 1.0));
+  AxisShifts   shifts{ reestimated.motion.coefficients.col(k), reestimated.motion.ofIllumination.row(k), 0.0 };
+  const double ofFlicker = shifts.ofIllumination.dot(Eigen::RowVector2d(-reestimated.line.offset, 1.0));
   shifts.noise = reestimated.motion.covariance(k, k) + ofFlicker * ofFlicker / reestimated.line.precision;
   return shifts;
 }
@@ -157,7 +157,7 @@ AxisShifts
 ByInstruments(const ReestimatedComponents & reestimated, Eigen::Index axis)
 {
   const InstrumentShifts & shifts = *reestimated.shifts;
-  return { shifts.coefficients.col(axis), shifts.ofLight.row(axis), shifts.covariance(axis, axis) };
+  return { shifts.coefficients.col(axis), shifts.ofIllumination.row(axis), shifts.covariance(axis, axis) };
 }
 
 /** Flicker that is subtracted from the shifts, with its error. */
@@ -191,24 +191,24 @@ Slack(double phi)
  * subtracted: half of the sum of what an offset too low and an offset too high add. */
 ShiftVariance
 SpreadAbout(const AxisShifts &           shifts,
-            const IlluminationOfShifts & light,
+            const IlluminationOfShifts & illumination,
             const FrameWeights &         weights,
             double &                     errorSquare)
 {
   const double white = std::max(0.0, shifts.noise) * weights.MeanNoise(); // a difference of sums may be below 0
-  const double noise = white * (1.0 + Slack(light.phi));
+  const double noise = white * (1.0 + Slack(illumination.phi));
   const auto   spreadAt = [&](const OffsetLine & line) {
-    return SpreadOf(shifts.About(light.solved, line).coefficients, line.gamma, weights, noise);
+    return SpreadOf(shifts.About(illumination.solved, line).coefficients, line.gamma, weights, noise);
   };
-  ShiftVariance spread = spreadAt(light.inUse);
-  const double  low = spreadAt(light.Beyond(-1.0)).square - spread.square;
-  const double  high = spreadAt(light.Beyond(1.0)).square - spread.square;
+  ShiftVariance spread = spreadAt(illumination.inUse);
+  const double  low = spreadAt(illumination.Beyond(-1.0)).square - spread.square;
+  const double  high = spreadAt(illumination.Beyond(1.0)).square - spread.square;
   const double  ofFlicker = std::max(0.0, 0.5 * (low + high));
   spread.square -= ofFlicker;
   const double square = std::max(0.0, spread.square);
   errorSquare = 4.0 * square * noise / weights.EffectiveDof() + 2.0 * noise * noise / weights.EffectiveDof() +
                 0.25 * (high - low) * (high - low) + 2.0 * ofFlicker * ofFlicker +
-                std::pow(white * Slack(light.phi), 2);
+                std::pow(white * Slack(illumination.phi), 2);
   return spread;
 }
 
@@ -233,7 +233,7 @@ MotionAlong(Eigen::Index                  axis,
             std::size_t                   stencil,
             const ReestimatedComponents & reestimated,
             const Eigen::Vector2d &       scaleErrors,
-            const IlluminationOfShifts &  light,
+            const IlluminationOfShifts &  illumination,
             const FrameWeights &          weights)
 {
   AxisMotion   result;
@@ -245,13 +245,13 @@ MotionAlong(Eigen::Index                  axis,
   }
   result.place = static_cast<Eigen::Index>(place - stencils.begin());
   double        errorSquare = 0.0;
-  ShiftVariance spread = SpreadAbout(ByLeastSquares(reestimated, result.place), light, weights, errorSquare);
+  ShiftVariance spread = SpreadAbout(ByLeastSquares(reestimated, result.place), illumination, weights, errorSquare);
   double        systematic = 2.0 * std::max(0.0, spread.square) * scaleErrors(axis);
   result.leastSquares = spread.series;
   if (reestimated.shifts)
   {
     const double leastSquares = std::sqrt(std::max(0.0, spread.square));
-    spread = SpreadAbout(ByInstruments(reestimated, axis), light, weights, errorSquare);
+    spread = SpreadAbout(ByInstruments(reestimated, axis), illumination, weights, errorSquare);
     const double sd = std::sqrt(std::max(0.0, spread.square));
     systematic = 2.0 * sd * std::hypot(InRefined.errorOfMotion * (sd - leastSquares), sd * scaleErrors(axis));
   }
@@ -272,7 +272,7 @@ ProductOf(const std::vector<double> & a, const std::vector<double> & b, const Fr
   {
     sum += weights.ofFrames[t] * a[t] * b[t];
   }
-  return sum / weights.Freedom();
+  return sum / weights.Dof();
 }
 
 /** Returns the covariance of the shifts along both axes without the covariance of their noise. Its error is the error
@@ -380,17 +380,17 @@ EstimateMotion(const RefinedResults & found, const std::vector<double> & gamma, 
     motion.sdX = motion.sdY = Quantity::Without(EstimateStatus::NotIdentifiable);
     return motion;
   }
-  IlluminationOfShifts light{ reestimated.line, reestimated.line, 0.0, reestimated.motionPhi };
+  IlluminationOfShifts illumination{ reestimated.line, reestimated.line, 0.0, reestimated.motionPhi };
   const double         offsetFromCentre = offset.valueDn - found.scene.model.centreDn;
   if (std::isfinite(offsetFromCentre) && std::isfinite(offset.errorDn))
   {
-    light.offsetErrorDn = offset.errorDn;
-    light.inUse.offset = offsetFromCentre;
-    light.inUse.UseOffset(offsetFromCentre);
+    illumination.offsetErrorDn = offset.errorDn;
+    illumination.inUse.offset = offsetFromCentre;
+    illumination.inUse.UseOffset(offsetFromCentre);
   }
   const Eigen::Vector2d scaleErrors = ScaleErrors(reestimated, found.scene.model.isSharp);
-  const AxisMotion      x = MotionAlong(0, StencilX, reestimated, scaleErrors, light, weights);
-  const AxisMotion      y = MotionAlong(1, StencilY, reestimated, scaleErrors, light, weights);
+  const AxisMotion      x = MotionAlong(0, StencilX, reestimated, scaleErrors, illumination, weights);
+  const AxisMotion      y = MotionAlong(1, StencilY, reestimated, scaleErrors, illumination, weights);
   motion.sdX = x.sd;
   motion.sdY = y.sd;
   if (x.series.empty() || y.series.empty())

@@ -145,7 +145,7 @@ FindFailure(const RefinedResults & found,
   {
     return OffsetFailure::OutOfLimits;
   }
-  return isLocal && local->phi > InPattern.largestDriftChi2 ? OffsetFailure::LampsDisagree : OffsetFailure::None;
+  return isLocal && local->phi > InPattern.largestDriftChi2 ? OffsetFailure::OffsetsDisagree : OffsetFailure::None;
 }
 
 /** Returns the dark offset as the illumination determines it. */
@@ -174,8 +174,8 @@ OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, co
 
   // Offsets that differ between pixels are taken for signal, which moves the zero away from the levels. A non-linear
   // response has the same effect.
-  const double lightDn = std::abs(model.centreDn - estimate.valueDn);
-  const double fromPatternDn = lightDn * std::hypot(found.variance.pattern.offsetFraction, gain.RelativeModelError());
+  const double signalDn = std::abs(model.centreDn - estimate.valueDn);
+  const double fromPatternDn = signalDn * std::hypot(found.variance.pattern.offsetFraction, gain.RelativeModelError());
   if (fromPatternDn > InPixels.negligiblePattern * estimate.standardErrorDn)
   {
     estimate.standardErrorDn = std::hypot(estimate.standardErrorDn, fromPatternDn);

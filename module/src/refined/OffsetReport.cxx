@@ -63,7 +63,7 @@ WarnOfKnownOffset(Report & report, const RefinedEstimate & estimate)
   const KnownOffset &    known = *estimate.known;
   const OffsetEstimate & flicker = estimate.flickerOffset;
   const OffsetLimits &   limits = estimate.limits;
-  if (estimate.isLightSteady)
+  if (estimate.isIlluminationSteady)
   {
     const double difference = flicker.valueDn - known.valueDn;
     const double error = std::hypot(flicker.standardErrorDn, known.standardErrorDn);
@@ -141,7 +141,7 @@ ReasonOf(const OffsetEstimate & offset, const RefinedResults & found)
              " DN, is above the darkest level or makes the squared read noise negative: parts of the "
              "illumination flicker differently" +
              Ask("");
-    case OffsetFailure::LampsDisagree:
+    case OffsetFailure::OffsetsDisagree:
       break;
   }
   return "the lamps do not agree on one offset (dispersion " + RoundedApart(found.reestimated.localOffset->phi, 1.0) +

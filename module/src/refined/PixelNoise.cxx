@@ -336,11 +336,12 @@ MeasurePixelNoise(ResidualSquares                          squares,
   const double              offsetDn = series->offset + scene.model.centreDn;
   std::vector<std::uint8_t> pixelUse = scene.pixelUse;
   std::vector<std::uint8_t> chosen = PixelsOfVariance(scene, settings, pixelUse);
-  const bool                isTold = settings.offset.has_value() || series->isOffsetIdentifiable;
-  const double   zeroDn = isTold ? blackDn : ZeroOfSignal(scene.model.darkestDn, scene.model.brightestDn, blackDn);
+  const bool                isIdentifiable = settings.offset.has_value() || series->isOffsetIdentifiable;
+  const double              zeroDn =
+    isIdentifiable ? blackDn : ZeroOfSignal(scene.model.darkestDn, scene.model.brightestDn, blackDn);
   const double   repeated = sample.RepeatedFraction(chosen, scene.summary.codes.quantisationStepDn);
   NoiseResiduals residuals(
-    std::move(sample), series->basis.GetBasis(), { scene.frame.mean, chosen, zeroDn, isTold }, parallelFor);
+    std::move(sample), series->basis.GetBasis(), { scene.frame.mean, chosen, zeroDn, isIdentifiable }, parallelFor);
   AllowedLines allowed;
   if (settings.rollingShutter != RollingShutter::Off)
   {

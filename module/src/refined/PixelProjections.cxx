@@ -81,7 +81,7 @@ struct PixelProjections::Batch
   PixelProjections *      to;
   const ReferenceFrame *  frame;
   ProjectedFrames<TPixel> projected;
-  PixelCoordinates        light; // coordinates for the illumination components, if all frames are added at once
+  PixelCoordinates ofIllumination; // coordinates for the illumination components, if all frames are added at once
 
   Batch(const Plane & plane, const TPixel * frames, std::size_t count)
     : to(plane.projections)
@@ -98,10 +98,10 @@ struct PixelProjections::Batch
       return;
     }
     const std::size_t pixels = to->m_Geometry.Pixels();
-    light = to->MakeCoordinates();
+    ofIllumination = to->MakeCoordinates();
     for (std::size_t p = 0; p < pixels; p += ProjectionSums::SlabPixels)
     {
-      light.AllocateSlabOf(p);
+      ofIllumination.AllocateSlabOf(p);
     }
     to->m_Squares = { MakeMap<double>(pixels, to->m_ParallelFor), MakeMap<float>(pixels, to->m_ParallelFor) };
     to->m_IsProjected = true;
@@ -113,7 +113,7 @@ struct PixelProjections::Batch
   {
     if (to->m_IsProjected)
     {
-      FillResidualSquares(*frame, to->m_Basis, projected, begin, end, to->m_Squares, light);
+      FillResidualSquares(*frame, to->m_Basis, projected, begin, end, to->m_Squares, ofIllumination);
       return;
     }
     begin = std::max(begin, to->m_Sums.FirstPixel());
@@ -125,7 +125,7 @@ struct PixelProjections::Batch
   {
     if (to->m_IsProjected && to->m_Options.keepIllumination)
     {
-      to->m_Coordinates = std::move(light);
+      to->m_Coordinates = std::move(ofIllumination);
     }
   }
 };
@@ -242,7 +242,7 @@ PixelProjections::EndPass(const ReferenceFrame & frame)
 void
 PixelProjections::StartIlluminationPass()
 {
-  m_Basis = m_Basis.OfLight();
+  m_Basis = m_Basis.OfIllumination();
   m_NextSlab = 0;
   m_Options.slabsAtOnce = ProjectionSums::NumberOfSlabs(m_Geometry.Pixels());
   this->AllocateNextSlabs();

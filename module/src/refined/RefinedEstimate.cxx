@@ -49,9 +49,9 @@ SettingsOfSensor(const RefinedResults & found, double codesDn2)
 std::optional<double>
 FindStrongVibration(const RefinedResults & found, const SeriesOfMotion & motion)
 {
-  const auto alongAxis = [](const Quantity & sd, double provisional) {
-    return sd.interval95 && sd.interval95->high ? std::min(*sd.interval95->high, std::sqrt(provisional))
-                                                : std::sqrt(provisional);
+  const auto alongAxis = [](const Quantity & sd, double initial) {
+    return sd.interval95 && sd.interval95->high ? std::min(*sd.interval95->high, std::sqrt(initial))
+                                                : std::sqrt(initial);
   };
   const double vibration = std::max(alongAxis(motion.sdX, found.scene.model.vibrationXPixels2),
                                     alongAxis(motion.sdY, found.scene.model.vibrationYPixels2));
@@ -59,13 +59,13 @@ FindStrongVibration(const RefinedResults & found, const SeriesOfMotion & motion)
 }
 
 GainVerdict
-JudgeSensor(const RefinedResults & found, const GainEstimate & gain, double effectOfLines)
+TestSensor(const RefinedResults & found, const GainEstimate & gain, double effectOfLines)
 {
   if (effectOfLines > 0.0)
   {
     return GainVerdict::LineIllumination;
   }
-  return found.correlation.kind == NoiseKind::NotLinear ? GainVerdict::NoiseNotLinear : JudgeGain(found, gain);
+  return found.correlation.kind == NoiseKind::NotLinear ? GainVerdict::NoiseNotLinear : TestGain(found, gain);
 }
 
 /** Returns the signal of the darkest areas over that of the brightest, if neither it nor dark frames let a non-linear
@@ -97,7 +97,7 @@ EstimateBy(const RefinedResults & found, const GainEstimate & gain)
   estimate.strongVibrationPixels = FindStrongVibration(found, estimate.motion);
   estimate.effectOfLines = EffectOfLineIllumination(
     found.lines.left, found.scene.model.brightestDn - found.blackDn, gain.line.gain, InRefined.largestLineIllumination);
-  const GainVerdict verdict = JudgeSensor(found, gain, estimate.effectOfLines);
+  const GainVerdict verdict = TestSensor(found, gain, estimate.effectOfLines);
   estimate.ofSensor = QuantitiesBy(verdict, gain, found, codesDn2);
   if (verdict != GainVerdict::Identified)
   {
@@ -109,7 +109,7 @@ EstimateBy(const RefinedResults & found, const GainEstimate & gain)
   {
     const OffsetEstimate & flicker = estimate.flickerOffset;
     const double           error = std::hypot(flicker.standardErrorDn, estimate.known->standardErrorDn);
-    estimate.isLightSteady =
+    estimate.isIlluminationSteady =
       flicker.IsIdentified() && std::abs(flicker.valueDn - estimate.known->valueDn) > Significance.oneTest * error;
     estimate.isOffsetOutOfLimits = IsKnownOffsetOutOfLimits(found, gain, estimate.limits);
   }
@@ -170,7 +170,7 @@ EstimateRefined(const RefinedResults & found)
   {
     estimate = EstimateBy(found, ofFrames);
   }
-  estimate.ofFrames = QuantitiesBy(JudgeGain(found, ofFrames), ofFrames, found, 0.0);
+  estimate.ofFrames = QuantitiesBy(TestGain(found, ofFrames), ofFrames, found, 0.0);
   if (found.correlation.kind == NoiseKind::Enlarged)
   {
     return WithholdGain(std::move(estimate));

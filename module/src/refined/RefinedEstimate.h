@@ -20,10 +20,10 @@ namespace sensornoise
 struct RefinedEstimate
 {
   /** Line of the variance of the frames as they are: what a denoiser needs. */
-  JudgedGain ofFrames;
+  TestedGain ofFrames;
   /** Line of the variance before filters and without the noise of rows and columns: gain and intercept of the sensor.
    */
-  JudgedGain      ofSensor;
+  TestedGain      ofSensor;
   DarkQuantities  dark;
   SeriesOfFlicker flicker;
   SeriesOfMotion  motion;
@@ -36,7 +36,7 @@ struct RefinedEstimate
   /** Whether the gain is bounded alone, and not identified, as frames have fewer samples than pixels. */
   bool isWithheld{ false };
   /** Whether the known offset and that of the flicker differ by more than their errors: some light is steady. */
-  bool isLightSteady{ false };
+  bool isIlluminationSteady{ false };
   /** Whether the known offset lies outside of its limits. */
   bool isOffsetOutOfLimits{ false };
   /** Addition of the illumination of rows or columns to the slope of the variance, where it is too large [1]; 0: it is
@@ -51,7 +51,7 @@ struct RefinedEstimate
   /** Returns whether the verdict on the sensor is by its line of the variance, and not by what the line does not show.
    */
   bool
-  IsSensorLineJudged() const
+  IsSensorLineTested() const
   {
     return ofSensor.verdict != GainVerdict::LineIllumination && ofSensor.verdict != GainVerdict::NoiseNotLinear;
   }

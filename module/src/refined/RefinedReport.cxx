@@ -207,7 +207,7 @@ CopyQuantities(Report & report, const RefinedResults & found, const RefinedEstim
   report.vibrationSdY = estimate.motion.sdY;
   report.vibrationCovariance = estimate.motion.covariance;
   report.motion = estimate.motion.shifts;
-  report.fit = FitOf(found, (estimate.IsSensorLineJudged() ? estimate.ofSensor : estimate.ofFrames).line);
+  report.fit = FitOf(found, (estimate.IsSensorLineTested() ? estimate.ofSensor : estimate.ofFrames).line);
   if (estimate.ofSensor.IsIdentified())
   {
     report.fit.offsetLinePhi = estimate.flickerOffset.phi;
@@ -242,7 +242,7 @@ WarnOfEstimate(Report & report, const RefinedResults & found, const RefinedEstim
   {
     WarnOfNarrowRange(report, found, *estimate.uncheckedFraction);
   }
-  if (!estimate.IsSensorLineJudged() && !estimate.ofFrames.IsIdentified())
+  if (!estimate.IsSensorLineTested() && !estimate.ofFrames.IsIdentified())
   {
     WarnOfGain(report, found, estimate.ofFrames, 0.0);
   }

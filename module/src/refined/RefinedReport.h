@@ -36,7 +36,7 @@ MakeFailedReport(const RefinedSettings &           settings,
 /** Warns of what the verdict on the gain is due to, or, if the gain is identified, of what its interval allows for. The
  * numbers of pixels must be in the report. \a effectOfLines is RefinedEstimate::effectOfLines [1]. */
 SensorNoise_EXPORT void
-WarnOfGain(Report & report, const RefinedResults & found, const JudgedGain & judged, double effectOfLines);
+WarnOfGain(Report & report, const RefinedResults & found, const TestedGain & tested, double effectOfLines);
 
 /** Warns that the darkest areas have so much signal, \a darkestFraction of that of the brightest [1], that a non-linear
  * response would not be noticed. */

@@ -87,16 +87,16 @@ ReestimateComponents(const FrameSums &        sums,
                                    reestimated.line.offset);
   if (series.local.series.cols() > 0)
   {
-    const IlluminationResponses light{
+    const IlluminationResponses illumination{
       sums.GetFrame(), coordinates,     series.basis.NumberOfIlluminationFactors(), variance.line, variance.mask,
       model.centreDn,  model.darkestDn, model.brightestDn - model.darkestDn
     };
-    reestimated.isOffsetDrift = IsOffsetDrift(light);
+    reestimated.isOffsetDrift = IsOffsetDrift(illumination);
     if (!reestimated.isOffsetDrift)
     {
-      reestimated.localOffset = FindLocalOffset(light, parallelFor);
+      reestimated.localOffset = FindLocalOffset(illumination, parallelFor);
     }
-    reestimated.localFlicker = SumLocalFlicker(light);
+    reestimated.localFlicker = SumLocalFlicker(illumination);
   }
   return reestimated;
 }
@@ -127,13 +127,13 @@ TileIllumination
 SumTileIllumination(const NoiseResiduals & residuals, std::size_t i)
 {
   const float * const w = residuals.WeightOf(i);
-  const float * const z = residuals.LightOf(i);
+  const float * const z = residuals.SignalOf(i);
   const std::size_t   size = residuals.GetTiles().Pixels();
-  TileIllumination    light;
+  TileIllumination    illumination;
   double              noise = 0.0;
   for (std::size_t p = 0; p < size; ++p)
   {
-    light.pixels += w[p] > 0.0F ? 1.0 : 0.0;
+    illumination.pixels += w[p] > 0.0F ? 1.0 : 0.0;
     noise += static_cast<double>(w[p]) * static_cast<double>(z[p]) * static_cast<double>(z[p]);
   }
   if (!(noise > 0.0))
@@ -148,10 +148,10 @@ SumTileIllumination(const NoiseResiduals & residuals, std::size_t i)
     {
       sum += static_cast<double>(w[p]) * static_cast<double>(z[p]) * static_cast<double>(values[p]);
     }
-    light.square += sum * sum / noise;
+    illumination.square += sum * sum / noise;
   }
-  light.frames = residuals.GetDof();
-  return light;
+  illumination.frames = residuals.GetDof();
+  return illumination;
 }
 } // namespace
 

@@ -18,7 +18,7 @@ void
 AddShape(double weight, const WeightedShape & shape, WeightedShape & sum)
 {
   sum.ofVariance += weight * shape.ofVariance;
-  sum.ofLight += weight * shape.ofLight;
+  sum.ofSignal += weight * shape.ofSignal;
   sum.ofSquare += weight * shape.ofSquare;
   sum.constantDn2 += weight * shape.constantDn2;
 }
@@ -64,10 +64,10 @@ public:
   double
   SensorOf(double varianceDn2, double levelDn) const
   {
-    const double light = levelDn - m_BlackDn;
+    const double signal = levelDn - m_BlackDn;
     const double noise = varianceDn2 - m_CodesDn2 - m_LinesDn2;
     return m_CodesDn2 + noise * this->Factor() + m_Mean.constantDn2 +
-           light * (m_Mean.ofLight + light * m_Mean.ofSquare);
+           signal * (m_Mean.ofSignal + signal * m_Mean.ofSquare);
   }
   /** Returns the derivative of the sensor's variance with respect to a pixel's variance [1]. */
   double
@@ -81,9 +81,9 @@ public:
   {
     VarianceLine sensor = line;
     const double factor = this->Factor();
-    sensor.gain = factor * line.gain + m_Mean.ofLight + m_Mean.ofSquare * lineOfSquare(0);
+    sensor.gain = factor * line.gain + m_Mean.ofSignal + m_Mean.ofSquare * lineOfSquare(0);
     sensor.intercept = m_CodesDn2 + factor * (line.intercept - m_CodesDn2 - m_LinesDn2) +
-                       m_Mean.ofSquare * lineOfSquare(1) - m_Mean.ofLight * m_BlackDn + m_Mean.constantDn2;
+                       m_Mean.ofSquare * lineOfSquare(1) - m_Mean.ofSignal * m_BlackDn + m_Mean.constantDn2;
     sensor.lowestDn2 = line.lowestDn2 * factor;
     sensor.covariance = line.covariance * (factor * factor);
     sensor.curvature = line.curvature * factor + m_Mean.ofSquare;
@@ -111,10 +111,10 @@ LineOfSquare(const VarianceCurve & curve, double blackDn)
   {
     if (bin.weight > 0.0)
     {
-      const double light = curve.LevelOf(bin) - blackDn;
+      const double signal = curve.LevelOf(bin) - blackDn;
       weight += bin.weight;
-      first += bin.weight * light;
-      second += bin.weight * light * light;
+      first += bin.weight * signal;
+      second += bin.weight * signal * signal;
     }
   }
   if (!(weight > 0.0))
@@ -129,9 +129,9 @@ LineOfSquare(const VarianceCurve & curve, double blackDn)
   {
     if (bin.weight > 0.0)
     {
-      const double light = curve.LevelOf(bin) - blackDn;
-      spread += bin.weight * (light - mean) * (light - mean);
-      product += bin.weight * (light - mean) * (light * light - meanSquare);
+      const double signal = curve.LevelOf(bin) - blackDn;
+      spread += bin.weight * (signal - mean) * (signal - mean);
+      product += bin.weight * (signal - mean) * (signal * signal - meanSquare);
     }
   }
   const double slope = spread > 0.0 ? product / spread : 2.0 * mean;
@@ -186,7 +186,7 @@ ProbabilityOfFilter(const NoiseCorrelation & correlation)
   double probability = 0.0;
   for (const WeightedShape & shape : correlation.timeShapes)
   {
-    probability += shape.ofVariance > 0.0 || shape.ofLight > 0.0 ? shape.probability : 0.0;
+    probability += shape.ofVariance > 0.0 || shape.ofSignal > 0.0 ? shape.probability : 0.0;
   }
   return probability;
 }
@@ -202,7 +202,7 @@ ErrorOf(const NoiseCorrelation & correlation,
 {
   const auto unitOf = [&](const WeightedShape & shape) {
     return Eigen::Vector2d(shape.ofVariance * Eigen::Vector2d(line.gain, line.intercept - codesDn2) +
-                           shape.ofLight * Eigen::Vector2d(1.0, -blackDn) + shape.ofSquare * lineOfSquare +
+                           shape.ofSignal * Eigen::Vector2d(1.0, -blackDn) + shape.ofSquare * lineOfSquare +
                            Eigen::Vector2d(0.0, shape.constantDn2));
   };
   const double    ofSpace = 1.0 + MeanOf(correlation.shapes).ofVariance;
@@ -244,14 +244,16 @@ double
 StandardDeviationOfShapes(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2)
 {
   const double noise = varianceDn2 - codesDn2 - correlation.LineNoise().value;
-  const auto   sharedOf = [noise](const WeightedShape & shape) { return shape.ofVariance * noise + shape.constantDn2; };
-  const auto   deviationOf = [&sharedOf](const Shapes & shapes) {
-    const double mean = sharedOf(MeanOf(shapes));
+  const auto   covarianceOf = [noise](const WeightedShape & shape) {
+    return shape.ofVariance * noise + shape.constantDn2;
+  };
+  const auto deviationOf = [&covarianceOf](const Shapes & shapes) {
+    const double mean = covarianceOf(MeanOf(shapes));
     double       square = 0.0;
     double       left = 1.0;
     for (const WeightedShape & shape : shapes)
     {
-      const double own = shape.coefficient.value * sharedOf(shape) - mean;
+      const double own = shape.coefficient.value * covarianceOf(shape) - mean;
       square += shape.probability * own * own;
       left -= shape.probability;
     }

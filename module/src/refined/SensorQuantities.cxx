@@ -59,7 +59,7 @@ AreTooFew(const std::vector<std::uint8_t> & pixelUse, double usable)
 } // namespace
 
 GainVerdict
-JudgeGain(const RefinedResults & found, const GainEstimate & gain)
+TestGain(const RefinedResults & found, const GainEstimate & gain)
 {
   // If all levels are alike, parts of them differ by fixed-pattern noise, and not by a non-linear response.
   const double error = gain.isWide ? std::sqrt(gain.covariance(0, 0)) : gain.StandardError();
@@ -108,8 +108,8 @@ std::optional<Interval>
 GainBounds(const RefinedResults & found, const GainEstimate & gain)
 {
   const auto & known = found.settings.offset;
-  const double light = known ? gain.line.pivotDn - known->valueDn : 0.0;
-  if (!known || known->variance || !(light > 0.0))
+  const double signal = known ? gain.line.pivotDn - known->valueDn : 0.0;
+  if (!known || known->variance || !(signal > 0.0))
   {
     return std::nullopt;
   }
@@ -117,7 +117,7 @@ GainBounds(const RefinedResults & found, const GainEstimate & gain)
   const double          atPivot = gain.line.intercept + gain.line.gain * gain.line.pivotDn;
   const double          error = 2.0 * std::sqrt(std::max(0.0, pivot.dot(gain.covariance * pivot)));
   const double          lowest = std::min(gain.line.At(found.scene.model.darkestDn), atPivot);
-  return Interval{ std::max(0.0, atPivot - lowest - error) / light, (atPivot + error) / light };
+  return Interval{ std::max(0.0, atPivot - lowest - error) / signal, (atPivot + error) / signal };
 }
 
 std::optional<LitFrames>
@@ -293,44 +293,44 @@ UnlikeParts::Extremes() const
   return { *lowest, *highest };
 }
 
-JudgedGain
+TestedGain
 QuantitiesBy(GainVerdict verdict, const GainEstimate & line, const RefinedResults & found, double quantisationDn2)
 {
-  JudgedGain judged;
-  judged.line = line;
-  judged.verdict = verdict;
+  TestedGain tested;
+  tested.line = line;
+  tested.verdict = verdict;
   if (verdict != GainVerdict::Identified)
   {
-    for (Quantity * quantity : { &judged.gain, &judged.varianceSlope, &judged.intercept, &judged.totalIntercept })
+    for (Quantity * quantity : { &tested.gain, &tested.varianceSlope, &tested.intercept, &tested.totalIntercept })
     {
       *quantity = Quantity::Without(StatusBy(verdict));
     }
     if (verdict == GainVerdict::FewLitFrames || verdict == GainVerdict::LevelsTooAlike)
     {
-      judged.gain.bracket = GainBounds(found, line);
+      tested.gain.bracket = GainBounds(found, line);
     }
-    return judged;
+    return tested;
   }
-  judged.parts = FindUnlikeParts(found, line);
+  tested.parts = FindUnlikeParts(found, line);
   const CodeNoise & codes = found.variance.codeNoise;
   const double      student = StudentOf(found);
   const double      gain = line.line.gain;
-  const PartsRange  parts = RangeOf(judged.parts, gain);
+  const PartsRange  parts = RangeOf(tested.parts, gain);
   const double      error = std::sqrt(line.covariance(0, 0));
-  judged.gain = WithError(gain, std::hypot(line.StandardError(), parts.rms * gain), student);
-  judged.gain.interval95 = Interval{ gain * (1.0 - parts.below) - line.below - student * error * (1.0 - parts.below),
+  tested.gain = WithError(gain, std::hypot(line.StandardError(), parts.rms * gain), student);
+  tested.gain.interval95 = Interval{ gain * (1.0 - parts.below) - line.below - student * error * (1.0 - parts.below),
                                      gain * (1.0 + parts.above) + line.above + student * error * (1.0 + parts.above) };
-  judged.varianceSlope = judged.gain;
-  judged.varianceSlope.value = gain + codes.slopeDn;
-  judged.varianceSlope.interval95 =
-    Interval{ *judged.gain.interval95->low + codes.slopeDn, *judged.gain.interval95->high + codes.slopeDn };
-  judged.gain.bracket = GainBounds(found, line);
+  tested.varianceSlope = tested.gain;
+  tested.varianceSlope.value = gain + codes.slopeDn;
+  tested.varianceSlope.interval95 =
+    Interval{ *tested.gain.interval95->low + codes.slopeDn, *tested.gain.interval95->high + codes.slopeDn };
+  tested.gain.bracket = GainBounds(found, line);
   // The value at the pivot is precise, so that an error of the gain changes the intercept in the opposite direction.
   const double interceptError =
     std::hypot(std::sqrt(line.covariance(1, 1)), 0.5 * (line.below + line.above) * line.line.pivotDn);
-  judged.totalIntercept = WithError(line.line.intercept + codes.interceptDn2, interceptError, student);
-  judged.intercept = WithError(line.line.intercept - quantisationDn2, interceptError, student);
-  return judged;
+  tested.totalIntercept = WithError(line.line.intercept + codes.interceptDn2, interceptError, student);
+  tested.intercept = WithError(line.line.intercept - quantisationDn2, interceptError, student);
+  return tested;
 }
 
 DarkQuantities

@@ -41,7 +41,7 @@ enum class GainVerdict : std::uint8_t
 /** Returns the verdict on the slope of \a gain by the fit and the pixels: all but LineIllumination and NoiseNotLinear,
  * which do not depend on the fit. */
 SensorNoise_EXPORT GainVerdict
-JudgeGain(const RefinedResults & found, const GainEstimate & gain);
+TestGain(const RefinedResults & found, const GainEstimate & gain);
 
 /** Returns the status of the sensor's quantities by the verdict. */
 SensorNoise_EXPORT EstimateStatus
@@ -82,7 +82,7 @@ struct UnlikeParts
 };
 
 /** A line of the variance, the verdict on it, and its quantities. */
-struct JudgedGain
+struct TestedGain
 {
   GainEstimate             line;
   GainVerdict              verdict{ GainVerdict::NoiseNotLinear };
@@ -102,7 +102,7 @@ struct JudgedGain
 /** Returns the quantities of \a line as far as \a verdict lets them be identified. The intervals contain the gains of
  * all parts of the levels, the frame and the burst. \a quantisationDn2 is the variance of the quantization noise
  * [DN^2]. */
-SensorNoise_EXPORT JudgedGain
+SensorNoise_EXPORT TestedGain
 QuantitiesBy(GainVerdict verdict, const GainEstimate & line, const RefinedResults & found, double quantisationDn2);
 
 /** Dark offset and read noise. */

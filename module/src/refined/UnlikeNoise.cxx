@@ -86,8 +86,8 @@ Turned(const VarianceLine & line, double byGain)
 double
 SteepestSlope(const VarianceLine & line, const TileLevels & levels)
 {
-  const double lightDn = line.pivotDn - levels.OffsetDn();
-  return lightDn > 0.0 ? 2.0 * line.At(line.pivotDn) / lightDn : std::numeric_limits<double>::infinity();
+  const double signalDn = line.pivotDn - levels.OffsetDn();
+  return signalDn > 0.0 ? 2.0 * line.At(line.pivotDn) / signalDn : std::numeric_limits<double>::infinity();
 }
 
 /** The noise of a frame and its index. */

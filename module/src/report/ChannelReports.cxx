@@ -170,7 +170,7 @@ CompareLevels(ChannelReports & reports)
 /** Sets the bit depth of all channels that have one to the largest of them. A dark plane may show too small a bit
  * depth, but all planes have one converter. */
 void
-ShareBitDepth(std::array<Report, 4> & channels)
+UnifyBitDepths(std::array<Report, 4> & channels)
 {
   std::optional<int> bits;
   for (const Report & channel : channels)
@@ -199,7 +199,7 @@ ChannelReports::IsUsable() const
 ChannelReports
 MakeChannelReports(BayerPattern pattern, BayerSource source, std::array<Report, 4> channels)
 {
-  ShareBitDepth(channels);
+  UnifyBitDepths(channels);
   for (const BayerPlane plane : BayerPlanes)
   {
     Report & report = channels.at(static_cast<std::size_t>(plane));

@@ -346,7 +346,7 @@ ReportSceneChange(Report & report, const SceneChange & change)
     warnings.end());
   const Warning warning{ WarningCode::SceneChanges,
                          "the frames do not show one static scene: " +
-                           PercentApart(change.share, InMoments.sceneChangeFraction) +
+                           PercentApart(change.fraction, InMoments.sceneChangeFraction) +
                            " of the differences between areas change from frame to frame (expected less than " +
                            Percent(InMoments.sceneChangeFraction) +
                            "). Check whether another axis was taken for time, the scene or camera moves, a pulsed lamp "

@@ -94,7 +94,7 @@ struct SceneConstants
    * they are 0.35 to 0.95 and 0.2 to 0.6. With 0.2 for the second number a faint object is taken for a lamp, with 0.05
    * this bleaching is taken for an object. */
   double leastIlluminationFraction{ 0.8 };
-  double largestLight{ 0.1 };
+  double largestModulation{ 0.1 };
   /** Least fraction of pixels outside of the region [1]. If fewer are left, the whole frame moves, and all pixels are
    * left to the later passes. Chosen empirically. */
   double leastStaticFraction{ 0.05 };

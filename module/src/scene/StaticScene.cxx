@@ -244,16 +244,16 @@ MarkBorder(StaticScene & scene)
 bool
 ExcludeTransientRegion(StaticScene & scene)
 {
-  const std::vector<std::uint8_t> crossed = FindTransientRegion(scene.frame, scene.model);
-  for (std::size_t p = 0; p < crossed.size(); ++p)
+  const std::vector<std::uint8_t> transient = FindTransientRegion(scene.frame, scene.model);
+  for (std::size_t p = 0; p < transient.size(); ++p)
   {
-    if (crossed[p] != 0 && scene.frame.usable[p] != 0)
+    if (transient[p] != 0 && scene.frame.usable[p] != 0)
     {
       scene.frame.usable[p] = 0;
       scene.pixelUse[p] = static_cast<std::uint8_t>(PixelUse::NotStatic);
     }
   }
-  return !crossed.empty();
+  return !transient.empty();
 }
 } // namespace
 

@@ -33,7 +33,7 @@ VarianceTiles::VarianceTiles(const VarianceSample &           sample,
 }
 
 TileComparison
-VarianceTiles::Judge(const VariancePrediction & prediction) const
+VarianceTiles::Compare(const VariancePrediction & prediction) const
 {
   const std::size_t                count = m_Columns * m_Rows;
   std::vector<std::vector<double>> ratios(count);
@@ -44,39 +44,39 @@ VarianceTiles::Judge(const VariancePrediction & prediction) const
     ratios[c].push_back(m_Sample.raw[i] / (m_MedianRatio * prediction.variance[i]));
     far[c] += prediction.keep[i] != 0 ? 0.0 : 1.0;
   }
-  TileComparison judged;
+  TileComparison comparison;
   double         all = 0.0;
   for (std::size_t c = 0; c < count; ++c)
   {
     const auto pixels = static_cast<double>(ratios[c].size());
     if (ratios[c].size() < InScene.fewestPixelsOfCell)
     {
-      judged.fits.push_back(CellFit::Unknown);
+      comparison.fits.push_back(CellFit::Unknown);
       continue;
     }
     const double median = Quantile(ratios[c], 0.5);
     const bool   isAbove = median > InScene.largestMedianRatio || far[c] > InCommon.largestOutlierFraction * pixels;
     const bool   isBelow = median < 1.0 / InScene.largestMedianRatio;
-    judged.fits.push_back(isAbove ? CellFit::Above : isBelow ? CellFit::Below : CellFit::Fits);
-    (isAbove ? judged.above : isBelow ? judged.below : judged.fitting) += pixels;
+    comparison.fits.push_back(isAbove ? CellFit::Above : isBelow ? CellFit::Below : CellFit::Fits);
+    (isAbove ? comparison.above : isBelow ? comparison.below : comparison.fitting) += pixels;
     all += pixels;
   }
-  for (double * share : { &judged.fitting, &judged.below, &judged.above })
+  for (double * fraction : { &comparison.fitting, &comparison.below, &comparison.above })
   {
-    *share /= std::max(1.0, all);
+    *fraction /= std::max(1.0, all);
   }
-  return judged;
+  return comparison;
 }
 
 IlluminationTest
-VarianceTiles::FindLight(const TileComparison &     judged,
-                         const VariancePrediction & prediction,
-                         double                     largestRatio) const
+VarianceTiles::TestIllumination(const TileComparison &     comparison,
+                                const VariancePrediction & prediction,
+                                double                     largestRatio) const
 {
-  std::vector<std::vector<std::size_t>> pixels(judged.fits.size());
+  std::vector<std::vector<std::size_t>> pixels(comparison.fits.size());
   for (std::size_t i = 0; i < m_Sample.Size(); ++i)
   {
-    if (judged.fits[m_CellOf[i]] == CellFit::Above)
+    if (comparison.fits[m_CellOf[i]] == CellFit::Above)
     {
       pixels[m_CellOf[i]].push_back(i);
     }
@@ -117,12 +117,12 @@ using Coefficients = VarianceSample::Coefficients;
 struct Candidate
 {
   VariancePrediction prediction;
-  TileComparison     judged;
+  TileComparison     comparison;
 
   double
   Score() const
   {
-    return judged.fitting - InScene.penaltyOfBelow * judged.below;
+    return comparison.fitting - InScene.penaltyOfBelow * comparison.below;
   }
 };
 
@@ -205,18 +205,18 @@ FollowPart(const VarianceSample & part, const VarianceSample & whole, const Vari
   for (int round = 0; round < 6; ++round)
   {
     Predict(whole, theta, largestRatio, own.prediction);
-    own.judged = cells.Judge(own.prediction);
+    own.comparison = cells.Compare(own.prediction);
     if (round == 0 || own.Score() > best.Score())
     {
       best = own;
     }
-    if (!(own.judged.fitting > 0.0))
+    if (!(own.comparison.fitting > 0.0))
     {
       break;
     }
     for (std::size_t i = 0; i < whole.Size(); ++i)
     {
-      own.prediction.keep[i] = own.judged.fits[cells.CellOf(i)] == CellFit::Fits ? own.prediction.keep[i] : 0;
+      own.prediction.keep[i] = own.comparison.fits[cells.CellOf(i)] == CellFit::Fits ? own.prediction.keep[i] : 0;
     }
     theta = NotNegative(SolveKept(whole, own.prediction));
   }
@@ -302,34 +302,35 @@ FindTransientRegion(const ReferenceFrame & frame, const InitialNoiseModel & mode
   Candidate                      best;
   best.prediction.lowest = model.interceptDn2;
   Predict(sample, CoefficientsOf(model, sample.scale), model.largestRatio, best.prediction);
-  best.judged = cells.Judge(best.prediction);
+  best.comparison = cells.Compare(best.prediction);
   if (best.Score() >= InScene.enoughScore)
   {
     return {};
   }
   best = FindBest(std::move(best), frame, model, pixels, sample, cells);
-  const IlluminationTest light = cells.FindLight(best.judged, best.prediction, model.largestRatio);
-  if (light.explained >= InScene.leastIlluminationFraction && light.modulation <= InScene.largestLight)
+  const IlluminationTest illumination = cells.TestIllumination(best.comparison, best.prediction, model.largestRatio);
+  if (illumination.explained >= InScene.leastIlluminationFraction &&
+      illumination.modulation <= InScene.largestModulation)
   {
     return {};
   }
-  std::vector<std::uint8_t> region(best.judged.fits.size());
-  std::transform(best.judged.fits.begin(), best.judged.fits.end(), region.begin(), [](CellFit fit) {
+  std::vector<std::uint8_t> region(best.comparison.fits.size());
+  std::transform(best.comparison.fits.begin(), best.comparison.fits.end(), region.begin(), [](CellFit fit) {
     return static_cast<std::uint8_t>(fit == CellFit::Above ? 1 : 0);
   });
   region = Close(region, cells);
-  const auto still =
+  const auto staticPixels =
     std::count_if(pixels.begin(), pixels.end(), [&](std::size_t p) { return region[cells.CellOfPixel(p)] == 0; });
-  if (static_cast<double>(still) < InScene.leastStaticFraction * static_cast<double>(pixels.size()))
+  if (static_cast<double>(staticPixels) < InScene.leastStaticFraction * static_cast<double>(pixels.size()))
   {
     return {};
   }
-  std::vector<std::uint8_t> crossed(frame.mean.size());
-  for (std::size_t p = 0; p < crossed.size(); ++p)
+  std::vector<std::uint8_t> transient(frame.mean.size());
+  for (std::size_t p = 0; p < transient.size(); ++p)
   {
-    crossed[p] = region[cells.CellOfPixel(p)];
+    transient[p] = region[cells.CellOfPixel(p)];
   }
-  return crossed;
+  return transient;
 }
 
 } // namespace sensornoise

@@ -80,12 +80,12 @@ public:
   }
   /** Compares the cells with the variance that a model predicts. */
   TileComparison
-  Judge(const VariancePrediction & prediction) const;
+  Compare(const VariancePrediction & prediction) const;
 
-  /** Tests whether changes of the illumination explain the cells of \a judged that are above the model: a separate
+  /** Tests whether changes of the illumination explain the cells of \a comparison that are above the model: a separate
    * flicker in every cell. A pixel is not explained if its variance differs by more than the factor \a largestRatio. */
   IlluminationTest
-  FindLight(const TileComparison & judged, const VariancePrediction & prediction, double largestRatio) const;
+  TestIllumination(const TileComparison & comparison, const VariancePrediction & prediction, double largestRatio) const;
 
 private:
   const VarianceSample & m_Sample;

@@ -288,7 +288,7 @@ MarkOutlierPixels(const ReferenceFrame & frame,
                   InitialNoiseModel      model,
                   std::size_t            begin,
                   std::size_t            end,
-                  std::uint8_t *         unexplained)
+                  std::uint8_t *         outliers)
 {
   const double * const       mean = frame.mean.data();
   const double * const       level = frame.neighbourMean.data();
@@ -301,14 +301,14 @@ MarkOutlierPixels(const ReferenceFrame & frame,
     const auto [gx, gy] = ApplyGradient(mean, width, p);
     const double expected = std::max(leastDn2, model.RawVariance(level[p], gx, gy));
     const bool   isAbove = variance[p] > model.largestRatio * expected;
-    unexplained[p] = usable[p] != 0 && isAbove ? 1 : 0;
+    outliers[p] = usable[p] != 0 && isAbove ? 1 : 0;
   }
   for (std::size_t p = begin; p < end && model.isSharp; ++p) // apart from the first loop, which is vectorized
   {
-    if (unexplained[p] != 0)
+    if (outliers[p] != 0)
     {
       const double largest = model.LargestVariance(level[p], SquaredStepsNear(mean, width, p));
-      unexplained[p] = variance[p] > largest ? 1 : 0;
+      outliers[p] = variance[p] > largest ? 1 : 0;
     }
   }
 }
@@ -317,18 +317,18 @@ MarkOutlierPixels(const ReferenceFrame & frame,
 std::vector<std::uint8_t>
 FindOutlierPixels(const ReferenceFrame & frame, const InitialNoiseModel & model, const ParallelFor & parallelFor)
 {
-  std::vector<std::uint8_t> unexplained(frame.mean.size(), 0);
+  std::vector<std::uint8_t> outliers(frame.mean.size(), 0);
   ForInnerBlocks(frame.geometry, parallelFor, [&](std::size_t begin, std::size_t end) {
-    MarkOutlierPixels(frame, model, begin, end, unexplained.data());
+    MarkOutlierPixels(frame, model, begin, end, outliers.data());
   });
   const std::size_t         width = frame.geometry.width;
-  const auto                rows = [&] { return RowsOf(unexplained, width); };
-  std::vector<std::uint8_t> crowded(unexplained.size());
+  const auto                rows = [&] { return RowsOf(outliers, width); };
+  std::vector<std::uint8_t> crowded(outliers.size());
   ForBoxRows(rows, width, frame.geometry.height, 3, parallelFor, [&](std::size_t y, const double * crowd) {
     const double most = InCommon.largestOutlierFraction * 49.0;
     std::transform(crowd,
                    crowd + width,
-                   unexplained.data() + y * width,
+                   outliers.data() + y * width,
                    crowded.data() + y * width,
                    [most](double near, std::uint8_t own) { return near > most ? std::uint8_t{ 2 } : own; });
   });

@@ -85,10 +85,10 @@ struct FrameSums::Batch
   {
     const PixelLayout & layout = sums->m_Layout;
     RegressorBand       band(sums->m_Regressors, sums->m_CellsPerRow);
-    std::vector<TPixel> room;
+    std::vector<TPixel> buffer;
     parts[cellRow].resize(count);
     detail::ForBands(sums->GetFrame().geometry, cellRow, sums->m_CellRows, band, [&] {
-      room.resize(layout.AreSideBySide() ? 0 : band.Pixels());
+      buffer.resize(layout.AreSideBySide() ? 0 : band.Pixels());
       if (!ofColumns.empty()) // uses the same band, so that it need not be computed again
       {
         sums->AddColumns(band, cellRow, ofColumns[cellRow]);
@@ -99,8 +99,8 @@ struct FrameSums::Batch
         const std::size_t together = std::min(RegressorBand::Together, count - t);
         for (std::size_t k = 0; k < together; ++k)
         {
-          const TPixel * const frame =
-            layout.SideBySide(frames + (t + k) * layout.frame, band.First(), band.First() + band.Pixels(), room.data());
+          const TPixel * const frame = layout.SideBySide(
+            frames + (t + k) * layout.frame, band.First(), band.First() + band.Pixels(), buffer.data());
           double * const series = band.Series(k);
           CallWithAvx2([&] {
             std::transform(frame, frame + band.Pixels(), mean, series, [](TPixel value, double expected) {

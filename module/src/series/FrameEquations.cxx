@@ -234,27 +234,27 @@ void
 PartialOutMotion(FrameEquations & equations)
 {
   const auto motion = static_cast<Eigen::Index>(equations.active.size() - 2);
-  equations.light = equations.gram.topLeftCorner<2, 2>();
+  equations.illumination = equations.gram.topLeftCorner<2, 2>();
   equations.response = equations.right.leftCols<2>();
   if (motion > 0)
   {
     const Eigen::MatrixXd partial =
       equations.gram.bottomRightCorner(motion, motion).ldlt().solve(equations.gram.bottomLeftCorner(motion, 2));
-    equations.light -= equations.gram.topRightCorner(2, motion) * partial;
+    equations.illumination -= equations.gram.topRightCorner(2, motion) * partial;
     equations.response -= equations.right.rightCols(motion) * partial;
   }
 }
 
 /** Removes the level from the equations of the illumination, where it cannot be distinguished from motion. */
 void
-RemoveLevel(FrameEquations & equations, double leastShare)
+RemoveLevel(FrameEquations & equations, double leastFraction)
 {
-  Eigen::Matrix2d & light = equations.light;
-  equations.isLevelMotion =
-    equations.active.size() > 2 && !(light(0, 0) > leastShare * equations.gram(0, 0)) && light(1, 1) > 0.0;
+  Eigen::Matrix2d & illumination = equations.illumination;
+  equations.isLevelMotion = equations.active.size() > 2 &&
+                            !(illumination(0, 0) > leastFraction * equations.gram(0, 0)) && illumination(1, 1) > 0.0;
   if (equations.isLevelMotion)
   {
-    light(0, 0) = light(0, 1) = light(1, 0) = 0.0;
+    illumination(0, 0) = illumination(0, 1) = illumination(1, 0) = 0.0;
     equations.response.col(0).setZero();
   }
 }

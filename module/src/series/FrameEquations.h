@@ -34,8 +34,8 @@ struct SensorNoise_EXPORT FrameEquations
   Eigen::MatrixXd          allRawGram; ///< raw Gram matrix of all columns, active or not
   Eigen::MatrixXd          allGram;    ///< the same without the noise of the regressors
   Eigen::MatrixXd          allRight;   ///< right-hand sides of all columns, frames x columns
-  Eigen::Matrix2d          light;      ///< Gram matrix of columns 0 and 1, the motion partialled out (Schur complement)
-  Eigen::MatrixX2d         response;   ///< right-hand sides of columns 0 and 1, the motion partialled out, frames x 2
+  Eigen::Matrix2d  illumination;       ///< Gram matrix of columns 0 and 1, the motion partialled out (Schur complement)
+  Eigen::MatrixX2d response;           ///< right-hand sides of columns 0 and 1, the motion partialled out, frames x 2
   /** Whether a level that all pixels have in common cannot be distinguished from motion: the scene is a ramp, with the
    * same derivatives everywhere. Then `light` and `response` hold column 1 alone, all else partialled out. */
   bool isLevelMotion{ false };

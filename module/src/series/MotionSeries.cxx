@@ -108,8 +108,9 @@ ThirdDifference(const FrameEquations &      equations,
   for (Eigen::Index i = 0; i < size; ++i)
   {
     const auto   column = columns[static_cast<std::size_t>(i)];
-    const double light = equations.allGram(column, 1) - offset * equations.allGram(column, 0);
-    right.col(i) = equations.allRight.col(column) - light * Eigen::Map<const Eigen::VectorXd>(gamma.data(), frames);
+    const double illumination = equations.allGram(column, 1) - offset * equations.allGram(column, 0);
+    right.col(i) =
+      equations.allRight.col(column) - illumination * Eigen::Map<const Eigen::VectorXd>(gamma.data(), frames);
     for (Eigen::Index j = 0; j < size; ++j)
     {
       gram(i, j) = equations.allGram(column, columns[static_cast<std::size_t>(j)]);
@@ -176,16 +177,16 @@ SolveMotion(const FrameEquations & equations, const std::vector<double> & gamma,
     series.coefficients.resize(frames, 0);
     series.covariance.resize(0, 0);
     series.inverseGram.resize(0, 0);
-    series.ofLight.resize(0, 2);
+    series.ofIllumination.resize(0, 2);
     return series;
   }
   const Eigen::MatrixXd  inverse = equations.gram.bottomRightCorner(motion, motion).inverse();
   const Eigen::MatrixX2d columns = equations.gram.bottomLeftCorner(motion, 2);
-  const Eigen::VectorXd  light = columns * Eigen::Vector2d(-offset, 1.0);
+  const Eigen::VectorXd  illumination = columns * Eigen::Vector2d(-offset, 1.0);
   const Eigen::VectorXd  flicker = Eigen::Map<const Eigen::VectorXd>(gamma.data(), frames);
-  series.coefficients = (equations.right.rightCols(motion) - flicker * light.transpose()) * inverse;
+  series.coefficients = (equations.right.rightCols(motion) - flicker * illumination.transpose()) * inverse;
   series.inverseGram = inverse;
-  series.ofLight = inverse * columns;
+  series.ofIllumination = inverse * columns;
   const bool hasX = equations.Find(2 + StencilX).has_value();
   if (hasX != equations.Find(2 + StencilY).has_value())
   {
@@ -218,8 +219,8 @@ ScaleError(const FrameSums &       sums,
     const double energy = gram(column, column) - noise.variance[c] * ofNoise;
     if (energy > InSeries.leastSignalFraction * gram(column, column))
     {
-      const double light = gram(column, 1) - offset * gram(column, 0);
-      double       product = -light * flicker.dot(series);
+      const double illumination = gram(column, 1) - offset * gram(column, 0);
+      double       product = -illumination * flicker.dot(series);
       for (Eigen::Index t = 0; t < series.size(); ++t)
       {
         product += sums.GetClassSums(static_cast<std::size_t>(t), c)(column) * series(t);
@@ -274,8 +275,8 @@ ShiftsOfSums(const FrameEquations &  equations,
   const auto         size = static_cast<Eigen::Index>(motion.stencils.size());
   Eigen::RowVectorXd flicker = Eigen::RowVectorXd::Zero(columns + 2);
   flicker.head(2) = direction.transpose();
-  flicker.segment(2, size) = -(motion.ofLight * direction).transpose();
-  flicker /= direction.dot(equations.light * direction);
+  flicker.segment(2, size) = -(motion.ofIllumination * direction).transpose();
+  flicker /= direction.dot(equations.illumination * direction);
   Eigen::MatrixXd solution = Eigen::MatrixXd::Zero(gram.rows(), columns + 2);
   solution.rightCols<2>() = instruments;
   solution -= gram.leftCols<2>() * direction * flicker;
@@ -284,7 +285,7 @@ ShiftsOfSums(const FrameEquations &  equations,
     const std::size_t k = motion.stencils[static_cast<std::size_t>(i)];
     if (MotionStencils()[k].order == 2)
     {
-      Eigen::RowVectorXd coefficient = -motion.ofLight.row(i).dot(direction) * flicker;
+      Eigen::RowVectorXd coefficient = -motion.ofIllumination.row(i).dot(direction) * flicker;
       coefficient.segment(2, size) += motion.inverseGram.row(i);
       solution -= gram.col(static_cast<Eigen::Index>(2 + k)) * coefficient;
     }
@@ -344,7 +345,7 @@ SolveShifts(const FrameSums &           sums,
   const Eigen::MatrixXd gram = axes * ofBoth;
   const Eigen::Vector2d direction(-offset, 1.0); // direction of the flicker in the columns 0 and 1
   InstrumentShifts      shifts;
-  shifts.ofLight = axes.transpose() * inverse * gram.leftCols<2>();
+  shifts.ofIllumination = axes.transpose() * inverse * gram.leftCols<2>();
   shifts.scaleErrors << alongX.sd * std::abs(ofBoth(0, 2 + StencilXXX) / derivatives(0, 0)),
     alongY.sd * std::abs(ofBoth(1, 2 + StencilYYY) / derivatives(1, 1));
   shifts.coefficients.resize(static_cast<Eigen::Index>(frames), 2);

@@ -24,7 +24,7 @@ struct SensorNoise_EXPORT MotionSeries
   Eigen::MatrixXd          covariance;   ///< covariance of the coefficients of one frame
   Eigen::MatrixXd          inverseGram;  ///< inverse Gram matrix of the regression
   /** Coefficients that imitate a change of the level by 1 DN, and a change of the contrast by 1; stencils x 2. */
-  Eigen::MatrixX2d ofLight;
+  Eigen::MatrixX2d ofIllumination;
   /** If only one of the first derivatives is active: the shift along its axis that imitates a shift by 1 along the
    * other axis [1]; 0: both are active, or neither. */
   double ofOtherAxis{ 0.0 };
@@ -58,7 +58,7 @@ struct InstrumentShifts
                                  ///< [pixel^2]
   /** Shifts along x and y that imitate a change of the level by 1 DN, and a change of the contrast by 1 [pixel/DN,
    * pixel]. */
-  Eigen::Matrix2d ofLight;
+  Eigen::Matrix2d ofIllumination;
   /** Relative error common to all shifts along x, and along y, by the approximation of derivatives by differences of
    * pixels [1]. */
   Eigen::Vector2d scaleErrors;

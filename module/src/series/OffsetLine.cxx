@@ -27,8 +27,8 @@ SetStandardError(OffsetLine & line, double frames)
     squares += gamma * gamma;
   }
   const double signal = squares - (frames - 1.0) / line.precision * line.Widening();
-  const double across = v.dot(line.light.col(0));
-  const double information = signal * (line.light(0, 0) - across * across / line.precision);
+  const double across = v.dot(line.illumination.col(0));
+  const double information = signal * (line.illumination(0, 0) - across * across / line.precision);
   if (information > 0.0)
   {
     line.standardError = std::sqrt(line.Widening() / information);
@@ -40,7 +40,7 @@ void
 SetInterval(OffsetLine & line, const Eigen::Matrix2d & energy, double larger, double frames)
 {
   const double          student = StudentQuantile(0.975, std::max(1.0, frames - 2.0));
-  const Eigen::Matrix2d q = energy - (larger - student * student * line.Widening()) * line.light;
+  const Eigen::Matrix2d q = energy - (larger - student * student * line.Widening()) * line.illumination;
   const double          discriminant = q(0, 1) * q(0, 1) - q(0, 0) * q(1, 1);
   if (q(0, 0) < 0.0 && discriminant > 0.0)
   {
@@ -55,8 +55,8 @@ void
 OffsetLine::UseOffset(double m)
 {
   const Eigen::Vector2d v(-m, 1.0);
-  precision = v.dot(light * v);
-  sensitivity = v.dot(light.col(0)) / precision;
+  precision = v.dot(illumination * v);
+  sensitivity = v.dot(illumination.col(0)) / precision;
   gamma.clear();
   for (Eigen::Index t = 0; t < response.rows(); ++t)
   {
@@ -69,7 +69,7 @@ FitOffsetLine(const FrameEquations & equations)
 {
   const auto                        frames = static_cast<double>(equations.response.rows());
   const Eigen::Matrix2d             energy = equations.response.transpose() * equations.response;
-  const Eigen::LLT<Eigen::Matrix2d> factor(equations.light);
+  const Eigen::LLT<Eigen::Matrix2d> factor(equations.illumination);
   if (equations.isLevelMotion || factor.info() != Eigen::Success || !energy.allFinite())
   {
     return std::nullopt;
@@ -88,7 +88,7 @@ FitOffsetLine(const FrameEquations & equations)
   {
     return std::nullopt;
   }
-  line.light = equations.light;
+  line.illumination = equations.illumination;
   line.response = equations.response;
   line.UseOffset(line.offset);
   SetStandardError(line, frames);
@@ -109,12 +109,12 @@ ContrastOf(const FrameEquations & equations)
 std::optional<OffsetLine>
 LineOfOneLevel(const FrameEquations & equations, double offset)
 {
-  if (!(equations.light(0, 0) > 0.0) || !(offset != 0.0))
+  if (!(equations.illumination(0, 0) > 0.0) || !(offset != 0.0))
   {
     return std::nullopt;
   }
   OffsetLine line;
-  line.light << equations.light(0, 0), 0.0, 0.0, 0.0;
+  line.illumination << equations.illumination(0, 0), 0.0, 0.0, 0.0;
   line.response = equations.response;
   line.offset = offset;
   line.lastClass = GradientClasses - 1;
@@ -128,7 +128,7 @@ OffsetLine
 LineOfRamp(const FrameEquations & equations, double offset)
 {
   OffsetLine line;
-  line.light = equations.light;
+  line.illumination = equations.illumination;
   line.response = equations.response;
   line.offset = offset;
   line.contrast = ContrastOf(equations);
@@ -153,7 +153,7 @@ FitOffsetLine(const FrameSums & sums, const RegressorNoise & noise, const std::v
     std::optional<OffsetLine> line = FitOffsetLine(equations);
     if (line)
     {
-      const Eigen::Matrix2d & g = equations.light;
+      const Eigen::Matrix2d & g = equations.illumination;
       const double            error = std::sqrt(line->Widening() / (g(0, 0) - g(0, 1) * g(0, 1) / g(1, 1)));
       if (error < smallest)
       {
@@ -238,7 +238,7 @@ LevelsOfOffsets(const ValueRange & offsets, const Eigen::MatrixX2d & changes, co
 FrameOffsets
 FindFrameOffsets(const OffsetLine & line, const ValueRange & offsets, double leastStepDn)
 {
-  const Eigen::LLT<Eigen::Matrix2d> factor(line.light);
+  const Eigen::LLT<Eigen::Matrix2d> factor(line.illumination);
   if (line.isLevelMotion || !(line.contrast > InSeries.leastContrast) || factor.info() != Eigen::Success ||
       !(offsets.highest > offsets.lowest))
   {

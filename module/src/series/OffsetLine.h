@@ -42,8 +42,8 @@ struct SensorNoise_EXPORT OffsetLine
    * FrameEquations::isLevelMotion. */
   bool isLevelMotion{ false };
 
-  Eigen::Matrix2d  light;    ///< see FrameEquations::light, of the equations that were used
-  Eigen::MatrixX2d response; ///< see FrameEquations::response, frames x 2
+  Eigen::Matrix2d  illumination; ///< see FrameEquations::light, of the equations that were used
+  Eigen::MatrixX2d response;     ///< see FrameEquations::response, frames x 2
 
   /** Returns whether the flicker determines the offset: the flicker is significant, and levels differ. */
   bool

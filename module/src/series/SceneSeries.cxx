@@ -71,13 +71,13 @@ TemporalBasis::TemporalBasis(const std::vector<double> & gamma,
                              const Eigen::MatrixXd &     motion)
 {
   const auto      frames = static_cast<Eigen::Index>(gamma.size());
-  Eigen::MatrixXd light(frames, 1 + local.cols());
-  light.col(0) = Eigen::Map<const Eigen::VectorXd>(gamma.data(), frames);
-  light.rightCols(local.cols()) = local;
-  Eigen::MatrixXd all(frames, light.cols() + motion.cols());
-  all << light, motion;
-  const Eigen::MatrixXd basis = Orthonormalise(all, std::max(light.cols(), MostSeries(frames)));
-  m_IlluminationFactors = static_cast<std::size_t>(std::min(basis.cols(), Orthonormalise(light, frames).cols()));
+  Eigen::MatrixXd illumination(frames, 1 + local.cols());
+  illumination.col(0) = Eigen::Map<const Eigen::VectorXd>(gamma.data(), frames);
+  illumination.rightCols(local.cols()) = local;
+  Eigen::MatrixXd all(frames, illumination.cols() + motion.cols());
+  all << illumination, motion;
+  const Eigen::MatrixXd basis = Orthonormalise(all, std::max(illumination.cols(), MostSeries(frames)));
+  m_IlluminationFactors = static_cast<std::size_t>(std::min(basis.cols(), Orthonormalise(illumination, frames).cols()));
   this->Round(basis);
 }
 
@@ -107,18 +107,18 @@ TemporalBasis::WithUnit(double unit) const
 }
 
 TemporalBasis
-TemporalBasis::OfLight() const
+TemporalBasis::OfIllumination() const
 {
-  const auto    light = static_cast<Eigen::Index>(m_IlluminationFactors);
+  const auto    illumination = static_cast<Eigen::Index>(m_IlluminationFactors);
   TemporalBasis basis;
   basis.m_IlluminationFactors = m_IlluminationFactors;
   basis.m_Unit = m_Unit;
-  basis.m_Rounded = m_Rounded.leftCols(light);
-  basis.m_Series = m_Series.leftCols(light);
-  basis.m_Basis = m_Basis.leftCols(light);
-  basis.m_Inverse = m_Inverse.topLeftCorner(light, light);
-  basis.m_Sums = m_Sums.leftCols(light);
-  basis.m_Means = m_Means.leftCols(light);
+  basis.m_Rounded = m_Rounded.leftCols(illumination);
+  basis.m_Series = m_Series.leftCols(illumination);
+  basis.m_Basis = m_Basis.leftCols(illumination);
+  basis.m_Inverse = m_Inverse.topLeftCorner(illumination, illumination);
+  basis.m_Sums = m_Sums.leftCols(illumination);
+  basis.m_Means = m_Means.leftCols(illumination);
   return basis;
 }
 

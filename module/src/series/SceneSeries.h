@@ -55,7 +55,7 @@ public:
   /** Returns the basis of the illumination alone. The coordinates on its series are the same as in the whole basis,
    * because of its triangular form. */
   TemporalBasis
-  OfLight() const;
+  OfIllumination() const;
   /** Returns this basis with integer series of the norm \a unit, a power of 2 of at most Unit. */
   TemporalBasis
   WithUnit(double unit) const;

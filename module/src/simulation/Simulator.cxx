@@ -28,7 +28,7 @@ namespace sensornoise
 /** The scene on the sensor, the read-out, and the state of the temporal filter. */
 struct StackSimulator::Sensor
 {
-  ExpectedSignal                  light;
+  ExpectedSignal                  scene;
   ReadOut                         readOut;
   std::shared_ptr<TemporalFilter> temporalFilter;
 };
@@ -66,13 +66,13 @@ void
 StackSimulator::ExpectedElectronsRow(std::size_t frame, std::size_t y, double * electrons) const
 {
   RequireRow(frame, y);
-  m_Sensor->light.ExpectedElectronsRow(m_Truth, frame, y, electrons);
+  m_Sensor->scene.ExpectedElectronsRow(m_Truth, frame, y, electrons);
 }
 
 double
 StackSimulator::LocalGainAt(std::size_t pixel) const
 {
-  return m_Sensor->readOut.LocalGainAt(pixel, m_Sensor->light.ElectronsAtRest(pixel, m_MeanBrightness));
+  return m_Sensor->readOut.LocalGainAt(pixel, m_Sensor->scene.ElectronsAtRest(pixel, m_MeanBrightness));
 }
 
 double

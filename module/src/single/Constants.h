@@ -72,8 +72,8 @@ struct SingleConstants
   /** Fraction of the windows without edges below which texture dominates [1], and below which it dominates if the
    * relative error of the gain is above largestErrorInTexture. Chosen empirically: where the gain was off by more than
    * 10 %, one of these warnings or the next ones stood beside it. */
-  double leastEvenShare{ 0.1 };
-  double leastEvenShareIfUncertain{ 0.5 };
+  double leastEvenFraction{ 0.1 };
+  double leastEvenFractionIfUncertain{ 0.5 };
   double largestErrorInTexture{ 0.03 };
   /** Excess of the variance of the horizontal and vertical details over the diagonal ones [1]; 0 in white noise. Chosen
    * empirically: texture has more of its power in the former. */

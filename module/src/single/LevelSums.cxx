@@ -71,9 +71,9 @@ MakeStartingGroups(const std::vector<BandTile> & sample)
     return starting;
   }
   constexpr double outermost = 0.0005; // share of the positions beyond an end, so that no defect is one
-  const auto       at = [&](double share) {
+  const auto       at = [&](double fraction) {
     return static_cast<double>(
-      positions[static_cast<std::size_t>(share * static_cast<double>(positions.size() - 1))].level);
+      positions[static_cast<std::size_t>(fraction * static_cast<double>(positions.size() - 1))].level);
   };
   starting.low = at(outermost);
   starting.high = at(1.0 - outermost);

@@ -165,8 +165,8 @@ SignsOfTexture(const SingleImageRecord & record, const NoiseLine & line)
   const double slopeError = std::sqrt(line.slopeVariance) / std::max(std::abs(line.line.slopeDn), 1e-300);
   std::string  text;
   const auto   add = [&text](const std::string & sign) { text += (text.empty() ? "" : "; ") + sign; };
-  if (record.evenFraction < InSingle.leastEvenShare ||
-      (record.evenFraction < InSingle.leastEvenShareIfUncertain && slopeError > InSingle.largestErrorInTexture))
+  if (record.evenFraction < InSingle.leastEvenFraction ||
+      (record.evenFraction < InSingle.leastEvenFractionIfUncertain && slopeError > InSingle.largestErrorInTexture))
   {
     add("only " + Percent(record.evenFraction) + " of the frame is even");
   }

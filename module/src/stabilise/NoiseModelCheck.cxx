@@ -123,8 +123,8 @@ SortingError(const NoiseModelCheck::Band & band, const VarianceModel & model, do
 bool
 Fits(const NoiseModelCheck::Band & band, double tolerance, double sortingError)
 {
-  const double departure = std::abs(band.ratio.value_or(0.0) - 1.0);
-  return band.ratio && (departure <= tolerance + sortingError || departure <= StandardErrors * band.standardError);
+  const double deviation = std::abs(band.ratio.value_or(0.0) - 1.0);
+  return band.ratio && (deviation <= tolerance + sortingError || deviation <= StandardErrors * band.standardError);
 }
 
 /** Returns the variance after the transform at a level for a correct model [1]; null if it cannot be computed. */
@@ -144,13 +144,13 @@ TransformVariance(const NoiseModel & model, double levelDn, std::optional<double
 NoiseModelCheck::Verdict
 VerdictOf(const std::vector<NoiseModelCheck::Band> & bands)
 {
-  const auto isTold = [](const NoiseModelCheck::Band & band) { return band.standardError < LargestError; };
+  const auto isDetermined = [](const NoiseModelCheck::Band & band) { return band.standardError < LargestError; };
   if (!std::all_of(bands.begin(), bands.end(), [](const auto & band) { return band.fits; }))
   {
     return NoiseModelCheck::Verdict::DoesNotFit;
   }
-  const auto told = static_cast<std::size_t>(std::count_if(bands.begin(), bands.end(), isTold));
-  return 2 * told >= bands.size() ? NoiseModelCheck::Verdict::Fits : NoiseModelCheck::Verdict::NotTold;
+  const auto determined = static_cast<std::size_t>(std::count_if(bands.begin(), bands.end(), isDetermined));
+  return 2 * determined >= bands.size() ? NoiseModelCheck::Verdict::Fits : NoiseModelCheck::Verdict::NotTold;
 }
 } // namespace
 
@@ -169,8 +169,8 @@ CheckVariance(const Report & frames, const VarianceModel & model, const std::fun
     const double              excess = ExcessScatter(scatter, model, errors2);
     const double              zero = scatter.mean.front();
     const auto                bandOf = [&](std::size_t bin) {
-      const double share = std::sqrt((scatter.mean[bin] - zero) / std::max(scatter.mean.back() - zero, 1e-300));
-      return std::min(Bands - 1, static_cast<std::size_t>(share * Bands));
+      const double fraction = std::sqrt((scatter.mean[bin] - zero) / std::max(scatter.mean.back() - zero, 1e-300));
+      return std::min(Bands - 1, static_cast<std::size_t>(fraction * Bands));
     };
     for (std::size_t begin = 0; begin < bins;)
     {

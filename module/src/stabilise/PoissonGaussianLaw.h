@@ -18,9 +18,9 @@ namespace sensornoise
 /** Moments of the stabilised values of one pixel. */
 struct StabilisedMoments
 {
-  double mean;          ///< D = E f
-  double variance;      ///< var f; 1 for a perfect transform
-  double negativeShare; ///< probability that the argument of the root is negative, so that f = 0 [1]
+  double mean;                ///< D = E f
+  double variance;            ///< var f; 1 for a perfect transform
+  double negativeProbability; ///< probability that the argument of the root is negative, so that f = 0 [1]
 };
 
 /** Returns the moments for a pixel with a mean of \a electrons, 0 to 1e6 [e-], and a read noise of

@@ -148,8 +148,8 @@ FindGainStep(const std::vector<SettingNoise> & settings)
     const GainLevel after = FindGainLevel(ratios, behind, ratios.size());
     const double    step = after.logRatio - before.logRatio;
     const double    chi2 = lossWithout - before.loss - after.loss;
-    const bool      isShared = before.settings >= side && after.settings >= side;
-    if (isShared && std::abs(step) > std::log1p(InSweep.leastGainDeviation) && (!best || chi2 > best->chi2))
+    const bool      areEnough = before.settings >= side && after.settings >= side;
+    if (areEnough && std::abs(step) > std::log1p(InSweep.leastGainDeviation) && (!best || chi2 > best->chi2))
     {
       const double ratio = std::exp(step);
       best = { ratios[behind - 1].setting,

@@ -65,10 +65,11 @@ InterpolateNumber(const std::vector<SettingNumber> & points, double setting, boo
   const double      x = std::log(setting);
   const double      weight = (x - low.x) / (high.x - low.x);
   const double      y = (1.0 - weight) * low.y + weight * high.y;
-  double            bend = above > 1 ? std::abs(SecondDifference(line[above - 2], low, high)) : 0.0;
-  bend = above + 1 < line.size() ? std::max(bend, std::abs(SecondDifference(low, high, line[above + 1]))) : bend;
+  double            curvature = above > 1 ? std::abs(SecondDifference(line[above - 2], low, high)) : 0.0;
+  curvature =
+    above + 1 < line.size() ? std::max(curvature, std::abs(SecondDifference(low, high, line[above + 1]))) : curvature;
   const double error =
-    std::hypot((1.0 - weight) * low.error, weight * high.error, std::abs((x - low.x) * (high.x - x)) * bend);
+    std::hypot((1.0 - weight) * low.error, weight * high.error, std::abs((x - low.x) * (high.x - x)) * curvature);
   return isLogarithmic ? NumberWithError{ std::exp(y), std::exp(y) * error } : NumberWithError{ y, error };
 }
 

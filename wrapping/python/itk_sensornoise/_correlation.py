@@ -89,7 +89,7 @@ class NoiseCorrelation(Record):
     def _rows(self) -> list[tuple[str, str]]:
         correlation = self["noise_correlation"]
         rows = [("kind", self.kind), ("sum over lags", _number(self["sum_over_lags"]))]
-        rows += [(f"{light['light']:.4g} DN of light", _light(light)) for light in self["lights"]]
+        rows += [(f"{signal_bin['light']:.4g} DN of light", _bin_text(signal_bin)) for signal_bin in self["lights"]]
         rows += [(f"{lag['lag'][0]} columns, {lag['lag'][1]} rows", _lag(lag)) for lag in correlation["space"]]
         rows += [(f"{lag['lag']} frames", _lag(lag)) for lag in correlation["time"]]
         rows += [(f"{line} noise", _number(correlation[f"{line}_noise"])) for line in ("row", "column")]
@@ -109,9 +109,9 @@ def _lag(lag: Mapping[str, Any]) -> str:
     return rounded if rounded.startswith("-") else f"+{rounded}"
 
 
-def _light(light: Mapping[str, Any]) -> str:
-    variance = f"{measured(light['variance'], light['variance_standard_error'])} DN²"
-    return f"variance {variance}, sum over lags {_number(light['sum_over_lags'])}"
+def _bin_text(signal_bin: Mapping[str, Any]) -> str:
+    variance = f"{measured(signal_bin['variance'], signal_bin['variance_standard_error'])} DN²"
+    return f"variance {variance}, sum over lags {_number(signal_bin['sum_over_lags'])}"
 
 
 def noise_correlation_estimator(

@@ -28,8 +28,8 @@ _BILATERAL_SIGMAS = 1.5, 2.0
 _CODES_PER_SIGMA = 256.0
 
 # Limits of what can be a frame of the report's camera, as in examples/tools/ImageScale.cxx, which says why.
-_IMPOSSIBLE_LIGHT = 8.0
-_DOUBTFUL_LIGHT = 2.0
+_IMPOSSIBLE_SIGNAL = 8.0
+_DOUBTFUL_SIGNAL = 2.0
 _LEAST_CODES = 16
 
 Denoiser = Callable[[np.ndarray], Any]
@@ -154,7 +154,7 @@ def _require_scale(levels: np.ndarray, slope: float, intercept: float, record: M
     step = record.get("quantisation_step") or 0
     high = record.get("clip_high")
     means = [mean for mean in (record.get("scatter") or {}).get("mean") or [] if mean is not None]
-    light = (median - zero) / (max(means) - zero) if means and max(means) > zero else 0.0
+    signal = (median - zero) / (max(means) - zero) if means and max(means) > zero else 0.0
     spacing = _code_spacing(levels) if levels.dtype.kind in "iu" and step >= 1 else 0
     found = None
     # Every second code of a frame of few levels may lack by chance; a spacing below the report's is never chance.
@@ -164,14 +164,14 @@ def _require_scale(levels: np.ndarray, slope: float, intercept: float, record: M
         found = f"half of its pixels are at or below {median:g} DN, the level of no light is {zero:.5g} DN"
     elif high is not None and median > high:
         found = f"half of its pixels are at or above {median:g} DN, the sensor attains {high:g} DN"
-    elif light > _IMPOSSIBLE_LIGHT:
+    elif signal > _IMPOSSIBLE_SIGNAL:
         found = f"half of its pixels are at or above {median:g} DN, the brightest measured had {max(means):.5g} DN"
     if found:
         raise ValueError(
             f"image is on another scale than the report: {found}; expected levels of the same camera at the same "
             "setting, as they were"
         )
-    if light > _DOUBTFUL_LIGHT:
+    if signal > _DOUBTFUL_SIGNAL:
         warnings.warn(
             f"image is far brighter than what was measured: half of its pixels are at or above {median:g} DN, the "
             f"brightest in the report had {max(means):.5g} DN",

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 #: Codes of the warnings of a non-linear response.
-BENDS = {"response-not-straight", "variance-not-affine"}
+NONLINEARITY_CODES = {"response-not-straight", "variance-not-affine"}
 
 #: Colours of the page, told apart without colour vision; markers and dashes differ, too.
 BEFORE, AFTER, LINE = "#b85c00", "#0072b2", "#00795a"
@@ -71,7 +71,7 @@ def draw(report: Mapping[str, Any], data: Mapping[str, Any], axes: "Axes", resid
         ends = data["line_mean"], data["band_low"], data["band_high"]
         axes.fill_between(*ends, color=LINE, alpha=0.22, linewidth=0, label="its 95 % band")
     axes.set_ylabel("variance [DN$^2$]")
-    axes.legend(title=_bend(report))
+    axes.legend(title=_nonlinearity(report))
     if residuals is not None:
         _draw_residuals(data, residuals)
     (axes if residuals is None else residuals).set_xlabel("mean [DN]")
@@ -86,10 +86,10 @@ def _draw_residuals(data: Mapping[str, Any], axes: "Axes") -> None:
     axes.set_ylabel("residual\n[standard errors]")
 
 
-def _bend(report: Mapping[str, Any]) -> str | None:
+def _nonlinearity(report: Mapping[str, Any]) -> str | None:
     """Text on the deviation of the variance from its line, if a warning names it."""
-    bend = report["fit"].get("nonlinearity")
+    nonlinearity = report["fit"].get("nonlinearity")
     codes = {warning["code"] for warning in report["warnings"]}
-    if not bend or codes.isdisjoint(BENDS):
+    if not nonlinearity or codes.isdisjoint(NONLINEARITY_CODES):
         return None
-    return f"the response bends: variance off its line by up to {100 * bend:.2g} %"
+    return f"the response bends: variance off its line by up to {100 * nonlinearity:.2g} %"

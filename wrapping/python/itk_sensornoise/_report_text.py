@@ -75,8 +75,8 @@ def text_of_channels(record: Mapping[str, Any]) -> str:
 
 
 def _with_warnings(lines: Sequence[str], warnings: Sequence[Mapping[str, Any]]) -> str:
-    told = [f"{warning['severity']}: {warning['message']} [{warning['code']}]" for warning in warnings]
-    return "\n".join([*lines, *(["", *told] if told else [])]) + "\n"
+    texts = [f"{warning['severity']}: {warning['message']} [{warning['code']}]" for warning in warnings]
+    return "\n".join([*lines, *(["", *texts] if texts else [])]) + "\n"
 
 
 def _warnings_of_channels(record: Mapping[str, Any]) -> list[Mapping[str, Any]]:
@@ -162,10 +162,10 @@ def _fit(record: Mapping[str, Any]) -> str:
 
 
 def _response(record: Mapping[str, Any]) -> str:
-    bend = record["fit"].get("nonlinearity")
-    if bend is None:
+    nonlinearity = record["fit"].get("nonlinearity")
+    if nonlinearity is None:
         return ""
-    by = f"up to {100.0 * bend:.2g} % of itself" if bend > 0 else "no more than noise"
+    by = f"up to {100.0 * nonlinearity:.2g} % of itself" if nonlinearity > 0 else "no more than noise"
     return f"response: the variance deviates from its line by {by}"
 
 

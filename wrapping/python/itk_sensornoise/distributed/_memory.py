@@ -58,7 +58,7 @@ def need_of_worker(pixels: int, frames: int, dtype: str, block_bytes: int) -> in
 def require_memory(workers: Collection[WorkerState], need: int, of: str) -> None:
     """Raises RuntimeError where a worker would be ended before it has the memory that it needs for a measurement `of`
     something."""
-    usable = _share("terminate")
+    usable = _fraction("terminate")
     small = [worker for worker in workers if worker.limit and worker.limit * usable < need]
     if small:
         least = min(small, key=lambda worker: worker.limit)
@@ -92,7 +92,7 @@ def memory_of_task(frames: object) -> int | None:
     limit = getattr(worker.memory_manager, "memory_limit", None)
     if not limit:
         return None
-    usable = _share("pause") * int(limit)
+    usable = _fraction("pause") * int(limit)
     held = int(frames.nbytes) if isinstance(frames, np.ndarray) else 0
     left = (usable - _PROCESS_BYTES) / max(1, worker.state.nthreads) - held
     if left < 1:
@@ -103,7 +103,7 @@ def memory_of_task(frames: object) -> int | None:
     return int(left)
 
 
-def _share(name: str) -> float:
+def _fraction(name: str) -> float:
     """The share of memory_limit at which Dask does something with a worker; 1 if never. As it is set here."""
     import dask
 

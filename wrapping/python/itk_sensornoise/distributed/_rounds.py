@@ -178,7 +178,7 @@ class _Run:
         frames, height, width = self.parts.shape
         require_memory(self.watch.workers(), self.need, f"{frames} frames of {width} x {height} pixels")
         looks, merged = self._submit(f"{self.name}-{number}", None)
-        seen = results_of(self.client, looks, self.watch, self._tell)
+        seen = results_of(self.client, looks, self.watch, self._report_progress)
         self._require_all(seen)
         flags = _counted_elsewhere(seen, self.parts.shape[0]) if number == 1 else None
         if flags is not None:
@@ -190,7 +190,7 @@ class _Run:
         self.sums.merge(part.sums)
         self.sums.end_pass()
         self.ended.append(merged)
-        self._tell(0)
+        self._report_progress(0)
         took = time.monotonic() - began
         _LOG.info("pass %d: %d tasks, merged sums of %d bytes, %.2f s", number, len(seen), part.sums.nbytes, took)
 
@@ -205,7 +205,7 @@ class _Run:
         with contextlib.suppress(OSError):  # the scheduler goes away just now
             self.client.run(_worker.forget, self.name, wait=False, on_error="ignore")
 
-    def _tell(self, done: int) -> None:
+    def _report_progress(self, done: int) -> None:
         """How far it is, when so many tasks of the pass have read their frames. Merging takes the rest of its time."""
         if self.bar is not None:
             passes = self.sums.passes_ended + 0.9 * done / len(self.spans)

@@ -63,15 +63,15 @@ def find_steps(values: ArrayLike, standard_errors: ArrayLike, false_alarms: floa
     rate = number("false_alarms", false_alarms, expected, above=0.0)
     if rate >= 1:
         raise refuse("false_alarms", false_alarms, expected)
-    told = np.flatnonzero(np.isfinite(measured) & np.isfinite(errors))
-    if (errors[told] <= 0).any():
-        raise ValueError(f"standard_errors has {errors[told].min():g} as its least; expected numbers above 0")
+    determined = np.flatnonzero(np.isfinite(measured) & np.isfinite(errors))
+    if (errors[determined] <= 0).any():
+        raise ValueError(f"standard_errors has {errors[determined].min():g} as its least; expected numbers above 0")
     threshold = NormalDist().inv_cdf(1 - rate / 2)
-    values, weights = measured[told], errors[told] ** -2.0
+    values, weights = measured[determined], errors[determined] ** -2.0
     steps = _places(values, weights, threshold)
     parts = pairwise(pairwise([0, *steps, len(values)]))
     return [
-        Step(int(told[at]), *_difference(values[first:end], weights[first:end], at - first))
+        Step(int(determined[at]), *_difference(values[first:end], weights[first:end], at - first))
         for (first, at), (_, end) in parts
     ]
 

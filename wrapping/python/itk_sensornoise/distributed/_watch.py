@@ -29,7 +29,7 @@ class Watch:
         self._gone = f"{_GONE}; {advice}"
         self._done = -1
         self._moved = self._looked = time.monotonic()
-        self._is_told = False
+        self._is_reported = False
 
     def require_scheduler(self) -> None:
         """Raises RuntimeError where there is none."""
@@ -66,26 +66,26 @@ class Watch:
             workers = worker_states(self._client)
         except OSError:
             return  # the client finds out whether it is back, and tells
-        stands_still = not workers or any(worker.is_paused for worker in workers)
-        if not stands_still or any(worker.is_busy for worker in workers):
+        is_waiting = not workers or any(worker.is_paused for worker in workers)
+        if not is_waiting or any(worker.is_busy for worker in workers):
             self._moved = now
         elif now - self._moved >= _PATIENCE_SECONDS:
             if workers:
                 raise RuntimeError(stuck_sentence(workers, now - self._moved))
-            if not self._is_told:
+            if not self._is_reported:
                 _LOG.warning("Dask has no worker; waiting for one")
-                self._is_told = True
+                self._is_reported = True
 
 
 def wait_for(
-    futures: "Sequence[distributed.Future]", watch: Watch, tell: Callable[[int], None] = lambda done: None
+    futures: "Sequence[distributed.Future]", watch: Watch, report: Callable[[int], None] = lambda done: None
 ) -> None:
     """Waits until all futures are done, or one of them failed. `tell` is called with the number of those that are done,
     again and again. Raises as Watch.wait()."""
     pending = list(futures)
     while True:
         pending = [future for future in pending if not future.done()]
-        tell(len(futures) - len(pending))
+        report(len(futures) - len(pending))
         if not pending or any(future.status == "error" for future in futures):
             return
         watch.wait(pending, len(futures) - len(pending))
@@ -95,13 +95,13 @@ def results_of(
     client: "distributed.Client",
     futures: "Sequence[distributed.Future]",
     watch: Watch,
-    tell: Callable[[int], None] = lambda done: None,
+    report: Callable[[int], None] = lambda done: None,
 ) -> list[Any]:
     """The results of all futures. Raises what a task raised as soon as one did, and as Watch.wait()."""
     from distributed import CancelledError
     from distributed.comm import CommClosedError
 
-    wait_for(futures, watch, tell)
+    wait_for(futures, watch, report)
     watch.require_scheduler()
     try:
         results: list[Any] = client.gather(list(futures))
