@@ -64,7 +64,7 @@ def mean_electrons(camera):
 
 
 def dip(camera, shape):
-    """Returns a frame with a smooth dip of the illumination, like an object out of focus in front of the lamp."""
+    """Returns a frame with a smooth dip of the illumination, like an object out of focus before its source."""
     y, x = np.indices(shape)
     squared = (x - shape[1] / 2) ** 2 + (y - shape[0] / 2) ** 2
     illumination = 1 - DIP_DEPTH * np.exp(-squared / (2 * (DIP_RADIUS * shape[1]) ** 2))

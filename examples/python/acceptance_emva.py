@@ -5,7 +5,7 @@
 Each exposure level has two or more frames. Its mean mu and its temporal variance v are means over all pixels. The
 photon transfer equation v - v_dark = K (mu - mu_dark) is fitted by unweighted least squares, up to 70 % of saturation
 (Release 3.1, section 6, equations 9, 28 and 29). Release 4 Linear also subtracts the difference between the mean levels
-of the two frames, which the flicker of the lamp causes.
+of the two frames, which the flicker of the illumination causes.
 
 The standard uses flat fields, dark frames and two frames per level. Three extensions compare the estimator with it on
 other series. A level with more frames has the mean variance of all pairs of its frames. A series without dark frames is

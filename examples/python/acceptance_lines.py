@@ -18,8 +18,8 @@ CAMERA = {"gain": 0.5, "read-noise": 3, "electrons": 5000, "size": "240x200", "f
 SCENES = ("target", "texture", "flat")
 OFFSETS_DN = {12: 100, 16: 4000}  # dark offset [DN] by the bits of the converter
 FRAMES = 60
-# Options of the exposure series, exposures/*: a steady lamp, and no vibration, which EMVA's photon transfer takes for
-# noise.
+# Options of the exposure series, exposures/*: steady illumination, and no vibration, which EMVA's photon
+# transfer takes for noise.
 BENCH = ("--flicker-sd", "0.002", "--vibration-sd", "0,0")
 LOWEST_LIT = 0.05  # illumination factor of the darkest level of a series without dark frames [1]
 FIXED_PATTERN = ("--prnu", "0.007", "--dsnu", "2")  # PRNU [1] and DSNU [DN] in half of the exposure series

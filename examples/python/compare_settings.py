@@ -76,7 +76,7 @@ class Frames(NamedTuple):
 
 
 def flat_options(camera, bits):
-    """Returns the options of flats of a camera under a steady lamp."""
+    """Returns the options of flats of a camera under steady illumination."""
     return camera_options(camera, bits) | {
         "reference": "flat",
         "electrons": (2**bits - 1 - camera.offset) / camera.gain,

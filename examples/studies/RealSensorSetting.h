@@ -43,8 +43,8 @@ struct RealSensorSetting
 
   bool hasDarkFrames{ false }; ///< dark frames of the same sensor, as many as bright frames
   bool isCrossed{ false };     ///< a textured block crosses the frame
-  /** There are two lamps, each with independent flicker of conditions.flickerSd and with its own part of the scene.
-   * The true flicker of such a stack is not defined. */
+  /** There are two light sources, each with independent flicker of conditions.flickerSd and with its own part of the
+   * scene. The true flicker of such a stack is not defined. */
   bool hasTwoSources{ false };
 
   /** Noise classes that the report may give; empty: any. */

@@ -77,7 +77,7 @@ MakeReference(const RealSensorSetting & setting, std::size_t size)
   return scene;
 }
 
-/** Returns the flicker of the two lamps in each frame: independent normal random numbers. */
+/** Returns the flicker of the two light sources in each frame: independent normal random numbers. */
 std::vector<double>
 DrawSourceFlicker(const SimulationSettings & settings, std::uint64_t seed)
 {
@@ -91,8 +91,8 @@ DrawSourceFlicker(const SimulationSettings & settings, std::uint64_t seed)
   return flicker;
 }
 
-/** Applies the flicker of two lamps to a row of electrons. The fraction of the second lamp rises from 0 to 1 along
- * the diagonal of the frame. */
+/** Applies the flicker of two light sources to a row of electrons. The fraction of the second source rises from 0 to 1
+ * along the diagonal of the frame. */
 void
 ApplyTwoSources(double first, double second, std::size_t y, std::vector<double> & electrons)
 {
@@ -113,7 +113,7 @@ MakeSimulator(const RealSensorSetting & setting, std::size_t size, std::uint64_t
   settings.isDark = isDark;
   if (setting.hasTwoSources)
   {
-    settings.conditions.flickerSd = 0.0; // each lamp has its own flicker
+    settings.conditions.flickerSd = 0.0; // each source has its own flicker
   }
   return { MakeReference(setting, size), size, FillsRange(setting) ? size : size + EdgeRows + FieldRows, settings };
 }

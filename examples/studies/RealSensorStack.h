@@ -46,7 +46,7 @@ public:
   }
 
 private:
-  /** Renders a row that the block crosses, or that two lamps illuminate: the simulator has neither. */
+  /** Renders a row that the block crosses, or that two light sources illuminate: the simulator has neither. */
   void
   RenderLitRow(std::size_t t, std::size_t y, std::uint16_t * out) const;
 
@@ -56,7 +56,7 @@ private:
   RealSensorSetting   m_Setting;
   std::size_t         m_Size;
   StackSimulator      m_Simulator;
-  std::vector<double> m_SourceFlicker; ///< flicker of the two lamps in each frame [1]; empty: one lamp
+  std::vector<double> m_SourceFlicker; ///< flicker of the two light sources in each frame [1]; empty: one source
   std::vector<double> m_Block;         ///< texture of the block, as wide and high as it [1]; empty: no block
 };
 

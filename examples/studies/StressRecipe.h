@@ -45,8 +45,8 @@ struct StressRecipeEntry
   std::function<void(StressRecipe &)> prepare;
 };
 
-/** Appends cases of the scene: rolling shutters, lamps, bleaching, moving objects, vibration, flicker and length of
- * the burst. */
+/** Appends cases of the scene: rolling shutters, light sources, bleaching, moving objects, vibration, flicker and
+ * length of the burst. */
 void
 AppendSceneRecipes(std::vector<StressRecipeEntry> & entries);
 

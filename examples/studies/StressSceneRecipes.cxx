@@ -60,8 +60,8 @@ PrepareRandomRolling(StressRecipe & recipe)
   };
 }
 
-/** Two lamps have independent flicker. The fraction of the second lamp rises from 0 to 1 along the diagonal of the
- * frame. */
+/** Two light sources have independent flicker. The fraction of the second source rises from 0 to 1 along the diagonal
+ * of the frame. */
 void
 PrepareTwoSources(StressRecipe & recipe)
 {

@@ -55,7 +55,7 @@ TEST(SensorNoiseQuantiles, SampleIsEveryNthPixelOfAnyMask)
     for (const std::uint16_t least : { std::uint16_t{ 0 },
                                        std::uint16_t{ 1 },
                                        std::uint16_t{ 128 },
-                                       std::uint16_t{ 250 } }) // the share that counts falls
+                                       std::uint16_t{ 250 } }) // the fraction that counts falls
     {
       std::vector<std::uint8_t> mask(pixels);
       std::generate(mask.begin(), mask.end(), [&] {

@@ -72,7 +72,7 @@ TEST(NoiseCorrelationEstimator, WhiteNoiseIsWhiteAndSumsToOne)
   ASSERT_EQ(result.lights.size(), 4u);
   for (const auto & light : result.lights)
   {
-    // Light is measured from 0: a flat field has no dark pixels. The bins are sorted by the pixels' means.
+    // The signal is measured from 0: a flat field has no dark pixels. The bins are sorted by the pixels' means.
     EXPECT_NEAR(light.lightDn, Level, Z * NoiseSd / std::sqrt(1.0 * Frames));
     EXPECT_NEAR(light.varianceDn2.value, NoiseSd * NoiseSd, Z * light.varianceDn2.standardError);
   }
@@ -96,7 +96,7 @@ TEST(NoiseCorrelationEstimator, SmoothedNoiseSumsToItsClosedForm)
   }
 }
 
-// The mean of two frames: variance 1/2 of before, frames next to each other share 1/2 of their noise. The variance of
+// The mean of two frames: variance 1/2 of before, frames next to each other have the correlation 1/2. The variance of
 // 30 such frames about their own mean is 1 - 1/30 of that, a little less with more series: the sum is relative to it.
 TEST(NoiseCorrelationEstimator, MixedFramesGiveTheVarianceOfBefore)
 {
@@ -137,7 +137,7 @@ TEST(NoiseCorrelationEstimator, SeriesAreTakenOut)
   std::vector<double> series(Frames);
   for (std::size_t t = 0; t < Frames; ++t)
   {
-    // Its mean is 0: what is in the mean image is light, whose means of frames are taken out.
+    // Its mean is 0: the mean image is signal, whose means of frames are removed.
     series[t] = t % 3 == 0 ? 2.0 : -1.0;
   }
   const auto stack = FlatStack({}, [&](std::size_t x, std::size_t y, std::size_t t) {

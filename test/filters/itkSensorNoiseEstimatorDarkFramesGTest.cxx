@@ -16,7 +16,7 @@ namespace
 using namespace sensornoisetest;
 using namespace sensornoisetest::estimator;
 
-/** Frames of the same camera without light. */
+/** Dark frames of the same camera. */
 template <typename TStack>
 typename TStack::Pointer
 DarkStack(unsigned int frames, unsigned int width = Width)

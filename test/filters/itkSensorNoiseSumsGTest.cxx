@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-// Several processes share the sums of the estimator.
+// Several processes exchange the sums of the estimator.
 
 using namespace sensornoisetest;
 using namespace sensornoisetest::estimator;

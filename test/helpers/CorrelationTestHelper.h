@@ -29,7 +29,7 @@ namespace sensornoise::test::correlation
 /** The noise of a frame. */
 using FrameOf = std::function<DoubleFrame(std::size_t t)>;
 
-/** Light that grows from left to right, the same in every row [DN]. */
+/** Returns a signal that grows from left to right, the same in every row [DN]. */
 inline std::vector<double>
 Ramp(const FrameGeometry & geometry, double low, double high)
 {

@@ -68,7 +68,7 @@ struct Maps
   }
 };
 
-/** Light that rises from 50 to 150 DN down the frame: smooth, but for less than half a DN from row to row. */
+/** Returns a signal that rises from 50 to 150 DN down the frame: smooth, with less than half a DN from row to row. */
 inline double
 Ramp(std::size_t y)
 {

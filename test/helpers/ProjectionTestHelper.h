@@ -43,7 +43,7 @@ Wave(double periods, double phase)
   return series;
 }
 
-/** Two series of light and one of motion. */
+/** Two components of the illumination and one of motion. */
 inline const TemporalBasis &
 Basis()
 {

@@ -88,7 +88,7 @@ struct HandMadeResults
       reestimated.line.response(t, 1) = 1e8 * reestimated.line.gamma[static_cast<std::size_t>(t)];
     }
   }
-  /** Light that differs over the frame, with an offset of its own: 102 +- 1 DN. */
+  /** Makes illumination that differs over the frame, with an offset of its own: 102 +- 1 DN. */
   void
   MakeLocal()
   {

@@ -18,7 +18,7 @@
 #include <vector>
 
 /** \file
- * Stacks of camera B (1 DN/e-, 100 DN, 8 DN) with flaws, with light and without. */
+ * Stacks of camera B (1 DN/e-, 100 DN, 8 DN) with flaws, illuminated and dark. */
 
 namespace sensornoise::test::sensor
 {
@@ -36,8 +36,8 @@ StaticCamera(std::size_t frames, std::uint64_t seed = 21)
   return settings;
 }
 
-/** A scene of one level, with a shading of \a shading towards the corners; one pixel without light spans the range,
- * which the simulator spreads to its electrons. */
+/** A scene of one level, with a shading of \a shading towards the corners; one dark pixel spans the range, which the
+ * simulator spreads to its electrons. */
 inline std::vector<double>
 FlatScene(std::size_t size, double shading = 0.0)
 {

@@ -127,7 +127,7 @@ TEST(SensorNoiseUnlikeFrames, AVibrationThatFewCellsSeeIsAlike)
   {
     shifts.push_back(0.06 * random.Normal());
   }
-  // The edges are at the borders of cells: only a shift to one side moves light from one cell to another.
+  // The edges are at the borders of cells: only a shift to one side moves signal from one cell to another.
   const auto barsOf = [&](std::size_t t, double x, double shift) {
     const double reached = std::max(0.0, shift + (t == 50 ? 0.3 : 0.0));
     const auto   column = static_cast<std::size_t>(x);

@@ -94,7 +94,7 @@ TEST(SensorNoiseComparison, OnlyAValueWithAnErrorHasAVerdict)
   const Change failed = ChangeOfGain(Value(2.0, 0.1), Quantity::Without(EstimateStatus::Failed));
   EXPECT_EQ(failed.kind, ChangeKind::NoValue);
   EXPECT_FALSE(failed.difference);
-  // of what may be 0 nothing is a share
+  // a quantity that may be 0 has no fraction
   EXPECT_FALSE(ChangeOfGain(Value(0.1, 0.1), Value(5.0, 0.1)).fraction);
 }
 

@@ -42,7 +42,7 @@ TEST(SensorNoiseFigureData, ResidualsAreInUnitsOfTheBinsError)
 
 TEST(SensorNoiseFigureData, MeansByWhichPixelsAreSortedHaveNoiseToo)
 {
-  // without light 105 DN^2, half of the variance at 100 DN: the mean of a pixel in 51 frames has the error
+  // in the dark 105 DN^2, half of the variance at 100 DN: the mean of a pixel in 51 frames has the error
   // sqrt(210 / 51), and the line rises by 2 DN^2 / DN
   Report report = MakeReport();
   report.offset = Quantity::Identified(47.5);
@@ -55,7 +55,7 @@ TEST(SensorNoiseFigureData, MeansByWhichPixelsAreSortedHaveNoiseToo)
 
 TEST(SensorNoiseFigureData, TemporalCorrelationIsInTheErrorsOfResiduals)
 {
-  // frames one apart share 0.5: 1 + 2 * 0.25 = 1.5 times the variance of a variance
+  // frames one apart have the correlation 0.5: 1 + 2 * 0.25 = 1.5 times the variance of a variance
   Report report = MakeReport();
   report.noiseCorrelation.emplace();
   report.noiseCorrelation->time.push_back({ 0, 0, 1, 0.5, 0.0 });

@@ -37,7 +37,7 @@ Normal(std::size_t seed)
   return series;
 }
 
-/** Flicker of 5 %, and two lamps that illuminate the left and the lower part. */
+/** Flicker of 5 %, and two light sources that illuminate the left and the lower part. */
 struct Factors
 {
   Eigen::VectorXd flicker = 0.05 * Normal(1);
@@ -60,7 +60,7 @@ Find(const SyntheticFrames & frames,
     sums, series, motion.size() > 0 ? motion : Eigen::MatrixXd(series.coefficients), gamma, offset, most);
 }
 
-/** Returns frames with flicker, noise, and lamps of a relative size. */
+/** Returns frames with flicker, noise, and light sources of a relative amplitude. */
 SyntheticFrames
 Lit(const Factors & factors, double amplitude)
 {
@@ -100,7 +100,7 @@ TEST(SensorNoiseLocalIllumination, TwoSimulatedSourcesAreFound)
   ASSERT_EQ(found.series.cols(), 2);
   EXPECT_EQ(found.series.rows(), static_cast<Eigen::Index>(Frames));
   EXPECT_GT(found.excess, 2.0);
-  // The components of the lamps are found within the noise, together with the global flicker.
+  // The components of the light sources are found within the noise, together with the global flicker.
   Eigen::MatrixXd columns(Frames, 3);
   columns << factors.flicker, found.series;
   EXPECT_LT(Unexplained(factors.left, columns), 0.01);
@@ -121,7 +121,7 @@ TEST(SensorNoiseLocalIllumination, NothingIsFoundInNoise)
   }
 }
 
-// Bright frames have more noise than dark frames. This is not taken for a second lamp, and does not hide one.
+// Bright frames have more noise than dark frames. This is not taken for a second light source, and does not hide one.
 TEST(SensorNoiseLocalIllumination, StrongChangesOfIlluminationAreNotLocal)
 {
   Factors factors;

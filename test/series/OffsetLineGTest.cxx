@@ -17,7 +17,7 @@ using namespace sensornoise::test;
 
 namespace
 {
-/** Returns equations without motion: response = light (a_t, d_t)' + noise with the covariance `light`. */
+/** Returns equations without motion: response = illumination (a_t, d_t)' + noise with the covariance `light`. */
 FrameEquations
 EquationsOf(std::size_t frames, double offset, double flicker, double noise, double drift = 0.0)
 {
@@ -87,7 +87,7 @@ TEST(SensorNoiseOffsetLine, ExactLineIsRecovered)
   ASSERT_EQ(line->gamma.size(), 30u);
   for (Eigen::Index t = 0; t < 30; ++t)
   {
-    // response = light (-mu, 1)' gamma_t
+    // response = illumination (-mu, 1)' gamma_t
     const Eigen::Vector2d own = equations.illumination.ldlt().solve(equations.response.row(t).transpose());
     EXPECT_NEAR(line->gamma[static_cast<std::size_t>(t)], own(1), 1e-10);
   }

@@ -110,7 +110,7 @@ TEST(SensorNoiseSimulator, FixedPatternsHaveTheirSpreadAndStayFromFrameToFrame)
 
   settings.prnuSd = 0.0;
   settings.dsnuSdDn = 40.0;
-  settings.camera = { 1e-9, 1.0, 100.0, 0.0 }; // no light and no read noise: the offsets alone
+  settings.camera = { 1e-9, 1.0, 100.0, 0.0 }; // no signal and no read noise: the offsets alone
   const auto offsets = RenderAll<double>(StackSimulator(flat, size, size, settings));
   EXPECT_TRUE(std::equal(offsets.begin(), offsets.begin() + size * size, offsets.begin() + size * size));
   EXPECT_NEAR(std::sqrt(MomentsOf(offsets).variance), 40.0, 40.0 * error);

@@ -228,7 +228,7 @@ TEST(SensorNoiseSimulatorFrames, DarkFramesHaveTheSamePatternsAndOtherNoise)
     ASSERT_EQ(dark.PixelOffsetDn(pixel), bright.PixelOffsetDn(pixel));
     ASSERT_EQ(dark.PixelReadNoiseDn(pixel), bright.PixelReadNoiseDn(pixel));
   }
-  // The dark frames of a scene without light and those of a closed shutter: same law, other numbers.
+  // The dark frames of a dark scene and of a closed shutter: same law, other numbers.
   settings.isDark = false;
   settings.camera.electrons = 1e-9;
   const auto open = FrameOf<double>(MakeSimulator(settings), 0);
@@ -246,7 +246,7 @@ TEST(SensorNoiseSimulatorFrames, DarkFramesHaveTheSamePatternsAndOtherNoise)
 
 TEST(SensorNoiseSimulatorFrames, DarkNoiseIsNotThatOfDarkPixels)
 {
-  // A pixel without light draws its read noise first, as the first pixel of a dark row does.
+  // A dark pixel draws its read noise first, as the first pixel of a dark row does.
   SimulationSettings  settings = StaticSettings('B', 2);
   std::vector<double> scene(20 * 20, 0.0);
   scene.back() = 1.0;

@@ -145,7 +145,7 @@ TEST(NoiseModelCheck, TransformsOwnVarianceStandsBeside)
 {
   const Report frames = FramesOfModel();
   EXPECT_NEAR(*CheckNoiseModel(frames, Model).bands.back().transformVariance, 1.0, 1e-3);
-  // Without light, and a read noise of 2 e-: 1.1986.
+  // Without signal, and with a read noise of 2 e-: 1.1986.
   const Report dark = FramesOf([](double level) { return level / 20.0; });
   const auto   band = CheckNoiseModel(dark, { 0.05, 0.0 }, 2.0).bands.front(); // at 20 DN: 1 DN^2, 400 e-^2
   EXPECT_NEAR(*band.transformVariance, 1.0, 0.01);

@@ -31,7 +31,7 @@ TEST(PoissonGaussianLaw, IsPoissonsWithoutReadNoise)
   EXPECT_NEAR(MomentsOfStabilised(0.0, 0.0).mean, std::sqrt(1.5), 1e-15);
 }
 
-// Without light it is normal: a sum over five million slices.
+// Without signal it is normal: a sum over five million slices.
 TEST(PoissonGaussianLaw, IsNormalWithoutSignal)
 {
   for (const double readNoise : { 0.05, 0.4, 2.0, 13.0 })

@@ -108,7 +108,7 @@ TEST(GainLine, NamesTheSettingsThatLeaveIt)
   EXPECT_FALSE(line.deviation[3]);
 }
 
-// Two extended ISO speeds with the gain of the last one are no switch: they share no level.
+// Two extended ISO speeds with the gain of the last one are no switch: they have no common level.
 TEST(GainLine, TakesExtendedSpeedsForNoSwitch)
 {
   auto settings = SimulatedCamera().Measure(2);

@@ -13,7 +13,7 @@ namespace
 class EstimateDarkTool : public EstimateToolTest
 {
 protected:
-  /** Frames without light of the camera of MakeBurst(): offset 100 DN, read noise 8 DN. */
+  /** Makes dark frames of the camera of MakeBurst(): offset 100 DN, read noise 8 DN. */
   StackType::Pointer
   MakeDark(unsigned int frames, const std::string & size = "64x64")
   {

@@ -208,7 +208,7 @@ TEST_F(RealBurstOnFileTool, TheSaturatedBackgroundAndTheBallAreNotMistakenForThe
   EXPECT_EQ(report["height"], 384);
   EXPECT_GT(report["pixels"]["clipped"], 384 * 384 * 3 / 4);
   EXPECT_LT(report["pixels"]["used"], 384 * 384 / 10);
-  // The ball and its shadow change the light by tens of per cent where they pass. No line describes that.
+  // The ball and its shadow change the illumination by tens of per cent where they pass. No line describes that.
   const std::set<std::string> warnings = WarningsOf(report);
   EXPECT_TRUE(warnings.count("offset-line-misfit") + warnings.count("corrected-variance-curved") +
                 warnings.count("variance-not-affine") >

@@ -76,7 +76,7 @@ inline constexpr std::size_t NumberOfShapes = static_cast<std::size_t>(Covarianc
  * 0 for it. */
 struct WeightedShape
 {
-  MeasuredNumber coefficient;        ///< [1]; of CovarianceShape::Light [DN], of CovarianceShape::Constant [DN^2]
+  MeasuredNumber coefficient;        ///< [1]; of CovarianceShape::Signal [DN], of CovarianceShape::Constant [DN^2]
   double         probability{ 0.0 }; ///< probability of this shape among all shapes [1]
   double         ofVariance{ 0.0 };
   double         ofSignal{ 0.0 };

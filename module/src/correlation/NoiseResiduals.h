@@ -249,8 +249,8 @@ private:
   ProjectTile(std::size_t i);
   void
   SumSquares(std::size_t i);
-  /** Does the regression of TakeOffLines() for line \a line of \a tiles, without the final scaling. Stores the shares
-   * of the line, and in \a left the fraction of each pixel's variance that remains. */
+  /** Does the regression of TakeOffLines() for line \a line of \a tiles, without the final scaling. Stores the
+   * projections on the line, and in \a left the fraction of each pixel's variance that remains. */
   void
   RegressLines(LineAxis axis, const std::vector<std::size_t> & tiles, std::size_t line, std::vector<float> & left);
   /** Sets the weights by averaging the variance along the signal, and the intensity bins. */

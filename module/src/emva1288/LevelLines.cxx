@@ -11,7 +11,7 @@ namespace sensornoise
 
 namespace
 {
-/** Shares of the values in slope and intercept: the line is the sum of shares times values. */
+/** Coefficients of the values in slope and intercept: the line is the sum of coefficients times values. */
 struct LineCoefficients
 {
   std::vector<double> ofSlope;

@@ -51,7 +51,7 @@ IsSaturated(const EmvaSeries & series, unsigned int bitDepth)
   return series.highestDn >= top && series.fractionAtHighest >= InEmva.leastSaturatedFraction;
 }
 
-/** Throws std::invalid_argument if the series have no temporal noise, or no light. */
+/** Throws std::invalid_argument if the series have no temporal noise, or no signal. */
 void
 RequireSignal(const TransferCurve & curve)
 {

@@ -14,19 +14,19 @@ namespace sensornoise
 struct DarktableFactor
 {
   double value{ 0.0 };
-  double standardDeviation{ 0.0 }; ///< between levels, gains and colours of the light
+  double standardDeviation{ 0.0 }; ///< between levels, gains and colours of the illumination
 };
 
 // Source: examples/python/calibrate_darktable.py --images 4, with darktable-cli 4.2.1 and its default demosaicing, RCD.
 // darktable's tool takes the diagonal details of a Haar transform of demosaiced images, (p - q - r + s) / 4 of the four
 // pixels of a square, which are smaller than 1/4 of the variance where demosaicing has smoothed.
 
-/** Factor of green, under light of any colour. */
+/** Factor of green, under illumination of any colour. */
 inline constexpr DarktableFactor darktableGreen{ 0.0463, 0.0007 };
 /** Factor of green by the demosaicing PPG, with which a preset may have been measured [1]. */
 inline constexpr double darktableGreenPpg = 0.0783;
-/** Factor of red and of blue, under light in which R, G and B are equal. The details of red and blue contain noise of
- * green: where red or blue have a fraction of green's level, the factor is larger, 0.15 at a third. */
+/** Factor of red and of blue, under illumination in which R, G and B are equal. The details of red and blue contain
+ * noise of green: where red or blue have a fraction of green's level, the factor is larger, 0.15 at a third. */
 inline constexpr DarktableFactor darktableRedBlue{ 0.0730, 0.0002 };
 /** Factor of pixels that are not demosaiced: exact for white noise. */
 inline constexpr DarktableFactor darktableMono{ 0.25, 0.0 };

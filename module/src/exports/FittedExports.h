@@ -32,14 +32,14 @@ LibcameraVariance(const LibcameraNoise & model, const CameraNoise & noise, doubl
 /** The section rpi.noise of a tuning file of libcamera, JSON. On a scale of 16 bits at an analogue gain of 1, its
  * standard deviation is constant + slope sqrt(mean - black). The constant and the slope are fitted between the black
  * and the white level, and stored as the tuning tool rpi-ctt 1.4.0 does: int(constant) and round(1.4 slope, 3).
- * Channels of a mosaic are averaged. The note has the largest misfit. */
+ * Channels of a mosaic are averaged. The note has the largest error of the fit. */
 NoiseExport
 ExportLibcamera(const CameraNoise & noise);
 
 /** The coefficients of Android's sensor noise model (CTS, dng_noise_model.py), JSON: for each channel S = A iso + B and
  * O = C iso^2 + D d^2 with d = max(1, iso / max_analog_iso), where S and O are those of NoiseProfile at this ISO speed.
- * The fits weight relative errors, and no coefficient of O is negative. The note has the largest misfit of the
- * variance. Throws ExportError unless two reports have different ISO speeds and all have the same channels. */
+ * The fits weight relative errors, and no coefficient of O is negative. The note has the largest error of the variance.
+ * Throws ExportError unless two reports have different ISO speeds and all have the same channels. */
 NoiseExport
 ExportAndroid(const std::vector<CameraNoise> & settings);
 

@@ -20,7 +20,7 @@ namespace
 constexpr std::size_t localHeadBytes = 30;
 constexpr std::size_t centralHeadBytes = 46;
 constexpr std::size_t endRecordBytes = 22;
-/** Largest array [bytes] and most arrays of an archive, as several names may share one array. Chosen: a model of one
+/** Largest array [bytes] and most arrays of an archive, as several names may have one array. Chosen: a model of one
  * Gaussian has four arrays of at most 48 bytes behind 128 bytes of head. */
 constexpr std::size_t   mostMemberBytes = 65536;
 constexpr std::uint64_t mostMembers = 64;

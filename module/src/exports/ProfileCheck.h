@@ -10,7 +10,7 @@ namespace sensornoise
 {
 
 /** Compares the variance of frames with the variance that a profile of another program gives, by intensity bands. A
- * band fits if the ratio is within 0.05 of 1 or within four standard errors; rounding in the file, and the misfit of
+ * band fits if the ratio is within 0.05 of 1 or within four standard errors; rounding in the file, and the error of
  * libcamera's form, come on top. The ratio is the variance of the frames over the variance of the profile.
  *
  * If a band does not fit, the sentence names the mistakes with which the profile would agree in all bands. They are

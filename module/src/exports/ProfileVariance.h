@@ -42,13 +42,12 @@ struct ProfileVariance
   At(double levelDn) const;
 
   /** Returns the relative error of the variance at a level that the file cannot avoid: its rounding, the error of
-   * darktable's factor, and in libcamera's form the misfit to the line of the burst [1]. */
+   * darktable's factor, and in libcamera's form the deviation from the line of the burst [1]. */
   double
   UnavoidableErrorAt(double levelDn) const;
 };
 
-/** Returns the level of the burst without light: its offset if it is identified, else its black level; none: neither.
- */
+/** Returns the dark level of the burst: its offset if it is identified, else its black level; none: neither. */
 std::optional<double>
 DarkLevelOf(const CameraNoise & burst);
 

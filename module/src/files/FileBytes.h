@@ -136,8 +136,7 @@ public:
     return Add(m_Pixels, offset, count, false);
   }
 
-  /** Adds bytes that hold a table; several tables may share bytes. Returns false if there are too many separate ranges.
-   */
+  /** Adds bytes that hold a table; several tables may overlap. Returns false if there are too many separate ranges. */
   bool
   AddTable(std::uint64_t offset, std::uint64_t count)
   {
@@ -156,8 +155,7 @@ public:
 private:
   static constexpr std::size_t MaximumRanges = std::size_t{ 1 } << 18;
 
-  /** Sorts the ranges and joins ranges that follow each other. Ranges that may share bytes are also joined if they
-   * overlap. */
+  /** Sorts the ranges and joins ranges that follow each other. Ranges that may overlap are also joined if they do. */
   static void
   Join(std::vector<Range> & ranges, bool mayOverlap);
 

@@ -144,7 +144,7 @@ struct MomentsConstants
    * more in all scenes tried. */
   double sceneChangeFraction{ 0.15 };
   /** Square root of the unexplained variance, relative to the mean level, from which the scene changes [1]. Chosen
-   * empirically: a rolling shutter under a lamp that flickers by 5 % makes 5 % of a flat field. */
+   * empirically: a rolling shutter under illumination that flickers by 5 % makes 5 % of a flat field. */
   double sceneChangeOfTheLevel{ 0.1 };
   ///@}
 

@@ -89,8 +89,7 @@ struct MeanOfPixels
 SensorNoise_EXPORT MeanOfPixels
 MeanWithin(const std::vector<double> & values, double low, double high);
 
-/** Measures the offset and the read noise from frames taken without light, at the exposure, gain and temperature of the
- * others.
+/** Measures the offset and the read noise from dark frames, at the exposure, gain and temperature of the others.
  *
  * The offset is the mean of the temporal means of the pixels within 6 standard deviations of their median. (Half the
  * distance between the quantiles 0.16 and 0.84 is taken as a standard deviation.) Hot and dead pixels are thus

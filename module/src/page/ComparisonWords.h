@@ -25,7 +25,7 @@ VerdictOf(const Comparison & comparison);
 std::string
 DifferenceText(const ComparedQuantity & quantity, std::size_t row);
 
-/** Returns the relative difference, for example "+2.5 % of the first"; "" if Change::share is not known. */
+/** Returns the relative difference, for example "+2.5 % of the first"; "" if Change::fraction is not known. */
 std::string
 FractionText(const ComparedQuantity & quantity, std::size_t row);
 

@@ -232,8 +232,8 @@ SENSORNOISE_CONSTANT PartsConstants InParts;
 /** Constants of the component `pixels` for the detection of a step of the variance. Estimator.md, 3.16. */
 struct StepConstants
 {
-  /** Reduced chi-square of the variance about its line above which a step is looked for [1]. A step of five standard
-   * errors increases the reduced chi-square of 64 bins by this much. */
+  /** Reduced chi-square of the variance about its line above which a step is tested [1]. A step of five standard errors
+   * increases the reduced chi-square of 64 bins by this much. */
   double leastChi2{ 1.25 };
   /** Smallest size of a step that counts, relative to the larger of the variances beside it [1]. Chosen by the size of
    * the effect: in the middle of the levels a step of this size changes the gain by 1 to 2 %. */

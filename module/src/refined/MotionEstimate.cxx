@@ -313,7 +313,7 @@ FlickerFailure
 FindFailure(const SeriesOfFlicker & flicker)
 {
   const Quantity & sd = flicker.sd;
-  // The noise of an unknown flicker may be large, but a lamp that is off in most frames makes more than 1, too.
+  // The noise of an unknown flicker may be large, but illumination that is off in most frames makes more than 1, too.
   const bool isLarge = sd.value && sd.standardError && *sd.standardError < InCommon.largestRelativeError * *sd.value;
   const bool isBelowOne = sd.interval95 && sd.interval95->high.value_or(2.0) < 1.0;
   if (!(flicker.scaleError > InCommon.largestRelativeError) && (isLarge || isBelowOne))

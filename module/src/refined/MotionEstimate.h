@@ -25,7 +25,7 @@ enum class FlickerFailure : std::uint8_t
   NoiseOfFrames    ///< the flicker is not distinguished from the noise of the frames
 };
 
-/** Flicker, relative to the light above an offset. */
+/** Flicker, relative to the signal above an offset. */
 struct SeriesOfFlicker
 {
   std::vector<double>     gamma; ///< illumination factor of every frame, minus 1 [1]

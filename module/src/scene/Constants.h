@@ -90,8 +90,8 @@ struct SceneConstants
   double penaltyOfBelow{ 2.0 };
   /** Cells above the model are due to the illumination if a separate flicker of every cell explains at least this
    * fraction of them [1]. The relative rms of the flicker must be at most the second number [1]. Chosen empirically:
-   * where half of the signal bleaches by 20 % the two numbers are 1.0 and 0.06. For objects on charts and textures
-   * they are 0.35 to 0.95 and 0.2 to 0.6. With 0.2 for the second number a faint object is taken for a lamp, with 0.05
+   * where half of the signal bleaches by 20 % the two numbers are 1.0 and 0.06. For objects on charts and textures they
+   * are 0.35 to 0.95 and 0.2 to 0.6. With 0.2 for the second number a faint object is taken for illumination, with 0.05
    * this bleaching is taken for an object. */
   double leastIlluminationFraction{ 0.8 };
   double largestModulation{ 0.1 };

@@ -42,7 +42,7 @@ struct SensorNoise_EXPORT OffsetLine
    * FrameEquations::isLevelMotion. */
   bool isLevelMotion{ false };
 
-  Eigen::Matrix2d  illumination; ///< see FrameEquations::light, of the equations that were used
+  Eigen::Matrix2d  illumination; ///< see FrameEquations::illumination, of the equations that were used
   Eigen::MatrixX2d response;     ///< see FrameEquations::response, frames x 2
 
   /** Returns whether the flicker determines the offset: the flicker is significant, and levels differ. */

@@ -70,12 +70,12 @@ public:
   double
   LocalGainAt(std::size_t pixel, double electrons) const;
 
-  /** Returns the standard deviation of the code of a pixel without light, before rounding and without line noise [DN].
+  /** Returns the standard deviation of the digital number of a dark pixel, before rounding and without line noise [DN].
    * It is sigma_p, times the relative gain of the pixel, times the slope of the response in the dark. */
   double
   PixelReadNoiseDn(std::size_t pixel) const;
 
-  /** Returns the mean code of a pixel without light [DN]. Under Gamma it is above mu_p, because this curve clips noise
+  /** Returns the mean digital number of a dark pixel [DN]. Under Gamma it is above mu_p, because this curve clips noise
    * below 0. */
   double
   PixelOffsetDn(std::size_t pixel) const;

@@ -88,7 +88,7 @@ template <typename TPixel>
 SingleFrame<TPixel>
 ScaleFrame(const PlaneOfFrame<TPixel> & plane)
 {
-  constexpr double    outermost = 0.002; // share of the pixels beyond an end: defects do not set the unit
+  constexpr double    outermost = 0.002; // fraction of the pixels beyond an end: defects do not set the unit
   std::vector<double> values;
   ForSampledPixels(plane, [&values](double value) { values.push_back(value); });
   if (values.empty())

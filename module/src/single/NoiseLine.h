@@ -28,7 +28,7 @@ struct ClippedMoments
 };
 
 /** Returns the moments of a normal variable of mean \a meanDn and standard deviation \a sdDn > 0, clipped at both ends:
- * the integrals of x and x^2 over the normal density between the levels, and the levels' own shares. */
+ * the integrals of x and x^2 over the normal density between the levels, and the probabilities of the levels. */
 SensorNoise_EXPORT ClippedMoments
 MomentsOfClipped(double meanDn, double sdDn, const ClipLevels & levels);
 

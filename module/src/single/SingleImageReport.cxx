@@ -260,7 +260,7 @@ ReasonAgainst(Report & report, const SingleImageFindings & found, const AllFrame
                 ? all.diagonal[i].details
                 : 0.0;
   }
-  constexpr double largestHidden = 0.2; // share of the details, as of the pixels of a burst
+  constexpr double largestHidden = 0.2; // fraction of the details, as of the pixels of a burst
   if (line.details > 0.0 && hidden > largestHidden * line.details)
   {
     report.Warn(WarningCode::CodesTooCoarse,

@@ -19,7 +19,7 @@ struct GainRatio
   double standardError{ 0.0 }; ///< with SweepConstants::gainRounding
 };
 
-/** The level that the largest group of ratios shares. */
+/** Level of the largest group of ratios. */
 struct GainLevel
 {
   double logRatio{ 0.0 };

@@ -143,8 +143,8 @@ def noise_correlation_estimator(
         What changes from frame to frame (flicker, motion), of any unit: an array (frames,) or (frames, k). What is in
         proportion to it is taken out of every pixel, each by its own factor. Default: none.
     remove_frame_means : bool, default True
-        Takes out the means of the frames, too, plain and weighted with the light: flicker and a drifting offset.
-        Without, a fluctuating light is seen as noise that is shared.
+        Takes out the means of the frames, too, plain and weighted with the signal: flicker and a drifting offset.
+        Without it, a fluctuating illumination counts as noise correlation.
     offset : float, optional
         The level without light [DN]. Default: the darkest level if that is below 0.3 of the brightest, else 0.
     quantisation_step : float, optional

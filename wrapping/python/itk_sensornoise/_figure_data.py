@@ -53,7 +53,7 @@ def _line_of(record: Mapping[str, Any]) -> tuple[float, float] | None:
 
 
 def _factor_of(lags: Sequence[Mapping[str, Any]]) -> float:
-    """Factor of the variance of a sample variance where its values share noise."""
+    """Factor of the variance of a sample variance where the noise of its values is correlated."""
     squares: Iterable[float] = (
         lag["value"] ** 2 - lag["standard_error"] ** 2 for lag in lags if lag["standard_error"] is not None
     )

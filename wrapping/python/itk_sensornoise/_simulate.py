@@ -114,7 +114,7 @@ def simulate_sensor_noise(
     Parameters
     ----------
     camera, condition : {"A", "B", "C"}, {1, 2, 3}
-        Camera, light and floor of Table 1 of Sur & Grédiac 2015; each of their numbers can be replaced below.
+        Camera, illumination and floor of Table 1 of Sur & Grédiac 2015; each of their numbers can be replaced below.
     frames : int, default 100
         Number of frames T, at least 1.
     size : (int, int), optional

@@ -29,7 +29,7 @@ def generalized_anscombe_image_filter(
     total_intercept: float | None = None,
     dtype: Any = None,
 ) -> Any:
-    """Makes noise whose variance grows with the light into noise of variance 1, for whatever removes Gaussian noise.
+    """Transforms noise whose variance grows with the signal to noise of variance 1, for denoisers of Gaussian noise.
 
         f(x) = (2/a) sqrt(max(0, a x + 3/8 a^2 + b)),   a the variance slope, b the total intercept
 

@@ -104,7 +104,7 @@ def memory_of_task(frames: object) -> int | None:
 
 
 def _fraction(name: str) -> float:
-    """The share of memory_limit at which Dask does something with a worker; 1 if never. As it is set here."""
+    """Returns the fraction of memory_limit at which Dask acts on a worker; 1 if never. As it is set here."""
     import dask
 
     return float(dask.config.get(f"distributed.worker.memory.{name}", None) or 1.0)
