@@ -63,7 +63,7 @@ SimulateFlawOptions::AddTo(CLI::App & app)
   app
     .add_option("--response",
                 response,
-                "SHAPE,SIZE: quadratic, wave or shoulder and the departure of the local gain, gamma and its exponent, "
+                "SHAPE,SIZE: quadratic, wave or shoulder and the deviation of the local gain, gamma and its exponent, "
                 "s-curve and its weight; straight,0")
     ->delimiter(',')
     ->group(SensorGroup);
