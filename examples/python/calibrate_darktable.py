@@ -10,10 +10,10 @@ absolute deviation over 0.6745. The result is the variance of the mosaic times a
 demosaicing and on the channel.
 
 This script writes flat raw files (DNG, RGGB, 14 bits) with known noise, exports them with darktable-cli as that tool
-does, and prints the factor for each channel: at several levels, for two gains, for grey and coloured illumination. Its colour
-changes the noise of the channels relative to each other. Flat files suffice, because darktable's tool asks for an image
-out of focus. The last lines are the means and standard deviations of the cases with grey light and of all cases, and
-the standard error of the latter. The standard deviation is the error of a profile. The constants in
+does, and prints the factor for each channel: at several levels, for two gains, for grey and coloured illumination.
+The colour changes the noise of the channels relative to each other. Flat files suffice, because darktable's tool asks
+for an image out of focus. The last lines are the means and standard deviations of the cases with grey light and of
+all cases, and the standard error of the latter. The standard deviation is the error of a profile. The constants in
 module/src/exports/DarktableExport.h are these numbers.
 
 The median is taken of all details of an image, which have one level. Method: tools/noise/noiseprofile.c of darktable.

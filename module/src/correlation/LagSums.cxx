@@ -73,8 +73,8 @@ struct RowOfPixels
   const float *  signal;
 };
 
-/** Returns the terms of one row of pairs. \a weights are the weights of the positions in the row, \a ofRow the weight of
- * the row. \a products are the sums over time of the products of both ends, by the pixel in \a here. */
+/** Returns the terms of one row of pairs. \a weights are the weights of the positions in the row, \a ofRow the weight
+ * of the row. \a products are the sums over time of the products of both ends, by the pixel in \a here. */
 PairTerms
 MakeTerms(const RowOfPixels &         here,
           const RowOfPixels &         there,
