@@ -138,7 +138,7 @@ def file_calls(tools: str, folder: str, damaged: int) -> Iterator[Call]:
 
 
 def outputs_of(tools: str, call: Call) -> dict[str, str]:
-    """What a call writes, by name: text, or the SHA-256 of a file."""
+    """Outputs of a call by name: text, or the SHA-256 of a file."""
     with tempfile.TemporaryDirectory() as out:
         command = [os.path.join(tools, "estimate-sensor-noise"), *call.frames, "--json", f"{out}/report.json"]
         command += ["--plot", f"{out}/page.html", "--maps", f"{out}/maps", *call.options]

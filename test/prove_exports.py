@@ -189,7 +189,7 @@ def darktable(bench: Bench) -> tuple[str, float]:
 
 
 class Module:
-    """What the noise models use of torch.nn.Module."""
+    """Stands for torch.nn.Module, with the members that the noise models use."""
 
     def register_buffer(self, name: str, value: object) -> None:
         setattr(self, name, value)
@@ -198,7 +198,7 @@ class Module:
 
 
 class Tensor(np.ndarray):
-    """What the noise models use of a tensor."""
+    """Stands for a tensor, with the members that the noise models use."""
 
     device = None
 

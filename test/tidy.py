@@ -51,7 +51,7 @@ def read_groups(commands, root):
 
 
 def fingerprint(configuration, flags, source, root):
-    """Of all that clang-tidy reads: what is left of the source when its headers are in, wherever the checkout is."""
+    """Returns a key of all that clang-tidy reads: the preprocessed source, independent of the place of the checkout."""
     command = ["c++", "-E", "-P", "-C", *flags, str(source)]
     text = subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout
     read = repr((flags, WARNINGS)).encode() + text

@@ -37,15 +37,12 @@ GetVariedConstants()
     { "Significance.manyTests", &Significance.manyTests, "sd", "what is tested at many places" },
     { "Significance.everyPixel", &Significance.everyPixel, "sd", "what is tested of every pixel or frame" },
     { "InMoments.defectiveNoiseFactor", &InMoments.defectiveNoiseFactor, "1", "noise of a defective pixel" },
-    { "InSeries.leastSignalShare", &InSeries.leastSignalFraction, "1", "signal of a derivative that tells motion" },
+    { "InSeries.leastSignalShare", &InSeries.leastSignalFraction, "1", "signal of a derivative of the motion" },
     { "InSeries.edgeOfNoise", &InSeries.edgeOfNoise, "1", "edge of the noise, above which cells show light" },
     { "InCorrelation.unseenErrors", &InCorrelation.unseenErrors, "1", "error by neighbours that are not summed" },
-    { "InRefined.leastSharedSquares",
-      &InRefined.leastVarianceInflation,
-      "1",
-      "shared noise from which pixels are judged once more" },
-    { "InRefined.errorOfNonlinearity", &InRefined.errorOfNonlinearity, "1", "error by a bend, over its size" },
-    { "InRefined.largestNonlinearity", &InRefined.largestNonlinearity, "1", "bend that is refused" },
+    { "InRefined.leastSharedSquares", &InRefined.leastVarianceInflation, "1", "variance inflation for another test" },
+    { "InRefined.errorOfNonlinearity", &InRefined.errorOfNonlinearity, "1", "error by non-linearity, over its size" },
+    { "InRefined.largestNonlinearity", &InRefined.largestNonlinearity, "1", "non-linearity of failed estimates" },
   };
   return constants;
 }

@@ -66,7 +66,7 @@ RequireMemoryForFrame(const FrameFile & file)
                 file.name + ": a frame of " + size + " pixels");
 }
 
-/** Of one slice: what it says of x and y. */
+/** Returns the geometry of one slice along x and y. */
 FrameListGeometry
 WithoutTime(FrameListGeometry geometry)
 {

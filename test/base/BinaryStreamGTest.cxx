@@ -142,7 +142,7 @@ Saved(const TSums & sums)
   return out.str();
 }
 
-/** What Restore() complains of; "": nothing. */
+/** Returns the error of Restore(); "": none. */
 template <typename TSums>
 std::string
 RestoreComplaint(TSums & sums, const std::string & stream)

@@ -77,7 +77,7 @@ SecondsToEstimate(StackType *         stack,
   return SecondsOf([&] { estimator->Update(); });
 }
 
-/** What a benchmark that is named "statistics", "published" or "refined" does. */
+/** Work of a benchmark that is named "statistics", "published" or "refined". */
 inline double
 SecondsTo(const std::string & what, StackType * stack, unsigned int threads = Threads)
 {

@@ -27,8 +27,8 @@ ExpectTruth(const Quantity & quantity, double truth, double largest, const std::
   EXPECT_LT(*quantity.standardError, largest * truth) << name;
 }
 
-/** Returns the linearity error of the signal u + bend (u - u^2) without noise [%], for the exposures u in the range of
- * the report: by the sums of (58) to (63). */
+/** Returns the linearity error of the signal u + d (u - u^2) without noise [%], d the nonlinearity, for the exposures u
+ * in the range of the report: by the sums of (58) to (63). */
 double
 ExactLinearityError(const EmvaReport & report, double nonlinearity)
 {

@@ -152,7 +152,7 @@ TEST_F(DataFile, GivesIntegersOf32BitsAsDouble)
   EXPECT_EQ(valuesOf("uint32"), (std::vector<double>{ 4294967295.0, 2147483648.0, 1.0 }));
 }
 
-// What was inspected is what is read: a stream that another program writes to is judged again on the way.
+// What was inspected is what is read: a stream that another program writes to is checked again on the way.
 TEST_F(DataFile, AStreamThatIsDamagedAfterItsInspectionIsRefused)
 {
   const std::string pixels = RandomBytes(Frames * FrameBytes);

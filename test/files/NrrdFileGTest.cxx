@@ -119,7 +119,7 @@ TEST_F(NrrdFile, WhatIsNoImageOfOneValueIsRefused)
   HeaderIsRefused(Replaced(good, "kinds: domain", "kinds: RGB-color"), { "axis 0 is of kind rgb-color: 7 components" });
   HeaderIsRefused(Replaced(good, "domain domain domain", "domain domain list"), { "of kind list: 4 components" });
   HeaderIsRefused(Replaced(good, "domain domain domain", "domain"), { "kinds: 1, but its dimension is 3" });
-  IsStack("named.tif", good + RandomBytes(StackBytes)); // a format is told by its contents
+  IsStack("named.tif", good + RandomBytes(StackBytes)); // a format is recognised by its contents
 }
 
 TEST_F(NrrdFile, SizesThatCannotBeAreRefused)

@@ -49,7 +49,7 @@ ExpectTheLag(const NoiseCorrelationRecord::Lag * lag, double truth)
 {
   ASSERT_NE(lag, nullptr);
   EXPECT_NEAR(lag->value, truth, Z * lag->standardError);
-  // 20480 pixels, 28 freedoms, 3 for weights that fall off at the tiles' borders and for what neighbours share.
+  // 20480 pixels, 28 freedoms, 3 for weights that fall off at the tiles' borders and for the correlation of neighbours.
   EXPECT_LT(lag->standardError, 3.0 / std::sqrt(20480.0 * 28.0));
 }
 } // namespace

@@ -21,7 +21,7 @@ using namespace sensornoisetest::files;
 using StackType = itk::Image<unsigned short, 3>;
 using SourceType = itk::SensorNoiseFrameListSource<StackType>;
 
-/** What is read is what was written. */
+/** Tests that the frames of lists are read as they were written. */
 class SensorNoiseFrameListSource : public FrameFilesTest
 {};
 

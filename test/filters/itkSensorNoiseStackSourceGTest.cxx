@@ -338,7 +338,7 @@ TEST(SensorNoiseStackSource, ThrowsUntilTheReferenceIsMended)
 
 namespace
 {
-/** An upstream filter that fails as long as it is told to. */
+/** Upstream filter that fails while a flag is set. */
 class FailingSource : public itk::ImageSource<ReferenceType>
 {
 public:

@@ -31,7 +31,7 @@ from targets import Answer, PythonTarget, ToolTarget
 
 FRAMES = 8
 ROLES = ["frames"] * 12 + ["mask", "dark", "reference"]
-# What must not be all that a person is told, or shows the insides.
+# Messages that must not be the only ones, or that show internals.
 NO_SENTENCES = [
     "bad_alloc",
     "max_size",
@@ -149,7 +149,7 @@ class Fuzzer:
 def ask_known(
     target: ToolTarget | PythonTarget, frames: list[bytes], folder: str, pool: concurrent.futures.Executor
 ) -> list[str]:
-    """What of known.py is not refused, in any role."""
+    """Returns the damaged files of known.py that are not refused, in any role."""
     good = os.path.join(folder, "mha")
     files = []
     for number, (what, case) in enumerate(known_cases(frames)):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What was found: damages that once crashed a tool, hung it, or were believed. Each is to be refused."""
+"""Damages that once crashed a tool, stopped it, or were accepted. Each has to be refused."""
 
 import os
 import struct
@@ -160,7 +160,7 @@ FOUND: list[tuple[str, str, Change]] = [
 
 
 def known_cases(frames: list[bytes]) -> list[tuple[str, Case]]:
-    """What is wrong, and the files."""
+    """Description of the damage, and the files."""
     formats = {case.name: case for case in all_cases(frames)}
     made = []
     for name, what, change in FOUND:
@@ -173,7 +173,7 @@ def known_cases(frames: list[bytes]) -> list[tuple[str, Case]]:
 
 
 def misplaced(folder: str) -> list[tuple[str, str]]:
-    """What is no file of frames, and where it is made: a folder, a pipe that nobody writes to, a device, nothing."""
+    """Makes paths that are no file of frames: a folder, a pipe without a writer, a device, a missing file."""
     os.makedirs(folder)
     pipe = os.path.join(folder, "pipe.tif")
     os.mkfifo(pipe)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What can happen to a file: seeded changes of its bytes, its text, its structure, and its place in the file system."""
+"""Seeded damages of a file: of its bytes, its text, its structure, and its place in the file system."""
 
 import os
 import re
@@ -92,7 +92,7 @@ def change_line(data: bytearray, random: Random) -> None:
 
 
 def change_chunk(data: bytearray, random: Random) -> None:
-    """A chunk of a PNG, with the checksum put right: what a checksum would have told is not told."""
+    """A chunk of a PNG, with the checksum put right: the checksum does not reveal the damage."""
     chunks = []
     at = 8
     while at + 12 <= len(data):

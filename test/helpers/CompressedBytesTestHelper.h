@@ -128,7 +128,7 @@ private:
   unsigned      m_Bits{ 0 };
 };
 
-/** By the pseudo-code of TIFF 6.0, section 13. */
+/** Compresses by the pseudo-code of TIFF 6.0, section 13. */
 inline std::string
 LzwStream(const std::string & bytes)
 {

@@ -54,7 +54,7 @@ SampleOf(const FrameGeometry & geometry, std::size_t frames, const FrameOf & fra
   return sample.TakeNoise(none);
 }
 
-/** Of all pixels; black is 0. */
+/** Returns the residuals of all pixels; black is 0. */
 inline NoiseResiduals
 ComputeResiduals(const FrameGeometry &       geometry,
                  std::size_t                 frames,

@@ -24,7 +24,7 @@
 namespace sensornoise::test
 {
 
-/** Of every pixel. */
+/** True values of every pixel. */
 struct DarkSensor
 {
   std::vector<double> offsetDn;
@@ -83,7 +83,7 @@ DarkStackOf(const DarkSensor &          sensor,
   return stack;
 }
 
-/** What dark frames tell, their drift taken off, added \a chunk frames at a time. */
+/** Returns the results of dark frames without their drift, added \a chunk frames at a time. */
 template <typename TPixel>
 KnownOffset
 MeasureDarkStack(const Stack<TPixel> &             stack,

@@ -148,7 +148,7 @@ struct DngOf
     return text;
   }
 
-  /** Of the codes of a tile; beyond the image, zeros. */
+  /** Returns the digital numbers of a tile; beyond the image, zeros. */
   Codes
   Tile(unsigned left, unsigned top) const
   {

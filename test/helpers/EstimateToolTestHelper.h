@@ -43,10 +43,10 @@ protected:
   /** The JSON text of a run that must end with \a exitCode. */
   std::string
   JsonTextOf(const std::string & arguments, int exitCode = 0);
-  /** The same without `settings`, which say how it was made. */
+  /** Returns the record without `settings`, which say how it was made. */
   std::string
   MeasuredTextOf(const std::string & arguments);
-  /** The same, parsed, which fails on NaN and infinity. */
+  /** Returns the record, parsed. Parsing fails on NaN and infinity. */
   nlohmann::json
   ReportOf(const std::string & arguments, int exitCode = 0);
 

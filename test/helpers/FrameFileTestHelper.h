@@ -44,7 +44,7 @@ protected:
     return Path(name);
   }
 
-  /** What inspecting a file of these bytes says: "" if it is accepted. */
+  /** Returns the error of the inspection of a file of these bytes; "": it is accepted. */
   std::string
   SaidOf(const std::string & name, const std::string & bytes) const
   {

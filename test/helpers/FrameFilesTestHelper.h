@@ -186,7 +186,7 @@ MakeSource(const FrameList & list)
   return source;
 }
 
-/** What reading files says that were opened before. */
+/** Returns the error of reading files that were opened before. */
 template <typename TPixel>
 std::string
 ErrorOfReading(const FrameList & list)

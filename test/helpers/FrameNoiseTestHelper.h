@@ -11,8 +11,7 @@
 #include <cstdint>
 #include <numeric>
 
-/** \file
- * Frames of white noise, and what their neighbours share. */
+/** \file Frames of white noise, and the correlation of their neighbours. */
 
 namespace sensornoise::test
 {
@@ -37,7 +36,7 @@ NormalFrame(std::size_t width, std::size_t height, std::uint64_t seed)
   return frame;
 }
 
-/** Of an even, noisy frame; a margin of 10 pixels is left out. */
+/** Covariances of the noise of an even frame, without a margin of 10 pixels. */
 struct FrameCovariance
 {
   double variance{ 0.0 };

@@ -47,7 +47,7 @@ WavyScene(std::size_t width, std::size_t height)
   return map;
 }
 
-/** What one frame adds to the mean: level + slope mean + sum_k motion_k D_k mean. */
+/** Change of one frame from the mean: level + slope mean + sum_k motion_k D_k mean. */
 struct FrameChange
 {
   double                               level{ 0.0 };

@@ -119,7 +119,7 @@ ExpectReportOfOthers(Report report, const Report & expected)
   EXPECT_EQ(ToJson(report), ToJson(expected));
 }
 
-/** The same of all results of a method, RefinedMethod or PublishedMethod. */
+/** Expects equal results of a method, RefinedMethod or PublishedMethod. */
 template <typename TMethod>
 void
 ExpectResultOfOthers(const TMethod & method, const TMethod & expected)

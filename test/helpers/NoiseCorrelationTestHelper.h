@@ -27,7 +27,7 @@ inline constexpr unsigned int Frames = 30;
 inline constexpr double       Level = 100.0;
 inline constexpr double       NoiseSd = 3.0;
 
-/** What is added to a value at (x, y, t). */
+/** Number that is added to a value at (x, y, t). */
 using Addition = std::function<double(std::size_t x, std::size_t y, std::size_t t)>;
 
 /** Kernels along x and time, from lag 0 backwards; of one value: nothing is filtered. */

@@ -57,7 +57,7 @@ FaultOfTags(const std::string & text)
   return open.empty() ? "" : open.back() + " stays open";
 }
 
-/** What no page may have: another file's address, numbers that are none, tags that do not close. */
+/** Expects that a page has no address of another file, no invalid numbers, and no open tags. */
 inline void
 ExpectSound(const std::string & page)
 {

@@ -28,7 +28,7 @@ inline constexpr double      BlackDn = 100.0;
 inline constexpr double      GainDn = 0.5;            // per electron
 inline constexpr double      ReadVarianceDn2 = 400.0; // so that the weights hardly depend on the level
 
-/** What a pixel is: its light [DN at the mean gain], and its own gain, efficiency and offset. */
+/** Properties of a pixel: its signal [DN at the mean gain], its gain, efficiency and offset. */
 struct Pixel
 {
   double lightDn;

@@ -23,7 +23,7 @@ namespace sensornoisetest
 using FrameType = itk::Image<double, 2>;
 using MaskType = itk::Image<unsigned char, 2>;
 
-/** What an update, or whatever the function does, complains of. */
+/** Returns the error of an update, or of the function. */
 template <typename TFunction>
 std::string
 ErrorWhen(const TFunction & function)
@@ -72,7 +72,7 @@ ConstantImage(const typename TImage::SizeType & size, double value)
   return ImageOf<TImage>(size, [value](const auto &) { return value; });
 }
 
-/** The same pixels at another start index. */
+/** Returns the image at another start index. */
 template <typename TImage>
 typename TImage::Pointer
 MovedTo(const typename TImage::IndexType & start, const TImage * image)

@@ -69,7 +69,7 @@ NormalSeries()
   return series;
 }
 
-/** What the projection is made of: a stack, frame after frame, with its moments and sums. */
+/** Input of the projection: a stack, frame after frame, with its moments and sums. */
 struct Input
 {
   ReferenceFrame            frame;

@@ -54,7 +54,7 @@ WaysToRepeat(std::size_t distinct)
   return ways;
 }
 
-/** Of the values of all frames those of the first \a distinct ones, if equal frames have equal values. */
+/** Returns the values of the first \a distinct frames, if equal frames have equal values. */
 template <typename TValue>
 std::vector<TValue>
 OfDistinct(const std::vector<TValue> & values, const Shown & shown, std::size_t distinct)
@@ -92,7 +92,7 @@ ExpectReportOfDistinct(Report report, const Report & expected, const Shown & sho
   EXPECT_EQ(ToJson(report), ToJson(expected));
 }
 
-/** The same of all results of a method, RefinedMethod or PublishedMethod. */
+/** Expects equal results of a method, RefinedMethod or PublishedMethod. */
 template <typename TMethod>
 void
 ExpectResultOfDistinct(const TMethod & method, const TMethod & distinct, const Shown & shown)

@@ -49,7 +49,7 @@ JsonOf(const TEstimator & estimator)
   return sensornoise::ToJson(estimator->GetReport());
 }
 
-/** The same without the settings, which say how it was made. */
+/** Returns the record without the settings, which say how it was made. */
 template <typename TEstimator>
 std::string
 MeasuredBy(const TEstimator & estimator)

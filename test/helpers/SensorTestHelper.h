@@ -53,7 +53,7 @@ FlatScene(std::size_t size, double shading = 0.0)
   return scene;
 }
 
-/** The same camera without light: as many frames. */
+/** Returns as many dark frames of the same camera. */
 inline Stack<Codes>
 DarkFramesOf(SimulationSettings settings, std::size_t size)
 {

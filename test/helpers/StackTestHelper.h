@@ -34,7 +34,7 @@ struct Stack
   {
     return pixels.data() + t * width * height;
   }
-  /** The same stack, of \a TOther, with function(u) in place of u. */
+  /** Returns the stack with pixels of \a TOther, function(u) in place of u. */
   template <typename TOther = TPixel, typename TFunction>
   Stack<TOther>
   Map(TFunction function) const

@@ -53,7 +53,8 @@ WordsOf(const std::string & message)
   return std::regex_replace(message, number, "#");
 }
 
-/** By how much a number may be off. What neighbours share is summed in 4 bytes, whose rounding depends on the compiler.
+/** Returns the tolerance of a number. The noise correlation is summed in 4 bytes, whose rounding depends on the
+ * compiler.
  */
 inline double
 ToleranceOf(const std::string & path, double number)
@@ -99,7 +100,7 @@ DifferencesOf(const nlohmann::json & stored, const nlohmann::json & found, const
   return AreAlike(path, stored, found) ? "" : path + ": stored " + stored.dump() + ", found " + found.dump() + '\n';
 }
 
-/** The same value, but for a little: numbers by ten times what they may be off. */
+/** Returns the value with a small change: numbers differ by ten times their tolerance. */
 inline nlohmann::json
 Changed(const std::string & path, const nlohmann::json & value)
 {

@@ -21,7 +21,7 @@ struct TiffTag
   std::vector<std::uint64_t> values{};
 };
 
-/** By their numbers. A tag without values is left out. */
+/** Tags by their numbers. A tag without values is left out. */
 using TiffTags = std::map<unsigned, TiffTag>;
 
 /** A TIFF, of which everything can be otherwise. */

@@ -70,7 +70,7 @@ RunPasses(TMethod & method, const Stack<Pixel> & stack, std::size_t chunk)
   }
 }
 
-/** What the method alone finds of a plane of \a stack. */
+/** Returns the results of the method for one plane of \a stack. */
 template <typename TMethod>
 void
 RunOnPlane(TMethod & method, const Stack<Pixel> & stack, const MosaicGeometry & geometry, BayerPlane plane)
@@ -170,7 +170,8 @@ TYPED_TEST(MosaicMethodOf, PlanesThatAreReadInPlaceAreThoseAlone)
   }
 }
 
-/** What RefinedMethod finds of the planes, in how many passes, if \a many sums make the rows take turns. */
+/** Returns the results of RefinedMethod for the planes, and the number of passes, if \a many sums make the rows take
+ * turns. */
 struct InTurns
 {
   using Method = MosaicPasses<Pixel, RefinedPasses<Pixel>>;

@@ -80,8 +80,8 @@ struct Response
   }
 };
 
-/** Returns a response with the local gain 0.3 (1 + bend (1 - 2 x / 10000)), for 10,000 electrons and a read noise of 2
- * electrons. */
+/** Returns a response with the local gain 0.3 (1 + d (1 - 2 x / 10000)), d the nonlinearity, for 10,000 electrons and
+ * a read noise of 2 electrons. */
 Response
 NonlinearResponse(double nonlinearity)
 {

@@ -38,7 +38,7 @@ ReportBy(const Stack<Codes> & stack)
   return method.GetReport();
 }
 
-/** By the refined and by the published method. */
+/** Returns the reports of the refined and of the published method. */
 std::vector<Report>
 ReportsOf(const Stack<Codes> & stack)
 {
@@ -46,7 +46,7 @@ ReportsOf(const Stack<Codes> & stack)
            ReportBy<PublishedMethod<Codes>, PublishedSettings>(stack) };
 }
 
-/** It is the first of the warnings, and no other error blames something else. */
+/** It is the first of the warnings, and no other error names another cause. */
 void
 ExpectScenesChange(const Stack<Codes> & stack)
 {

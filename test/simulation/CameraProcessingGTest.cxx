@@ -45,8 +45,8 @@ TEST(SensorNoiseCameraProcessing, SmoothingLeavesTheSquareOfItsKernel)
     squares /= sum * sum;
     products /= sum * sum;
     const auto found = CovarianceOf(SmoothFrame(noise, { sd }, SerialFor));
-    // Neighbours share noise, so the errors are larger than those of white noise of that variance, but below those of
-    // variance 1.
+    // Neighbours are correlated, so the errors are larger than for white noise of that variance, but smaller than
+    // for variance 1.
     EXPECT_NEAR(found.variance, squares * squares, FiveErrors);
     EXPECT_NEAR(found.horizontal, squares * products, FiveErrors);
     EXPECT_NEAR(found.vertical, squares * products, FiveErrors);

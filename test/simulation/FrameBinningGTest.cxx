@@ -74,7 +74,7 @@ TEST(SensorNoiseFrameBinning, TheMeanIsKept)
 TEST(SensorNoiseFrameBinning, LeavesTheVarianceOfItsMeans)
 {
   const DoubleFrame noise = NormalFrame(600, 500, 7);
-  // n^2 pixels share a value: the error is that of the squares.
+  // n^2 pixels have one value: the number of independent values is the number of squares.
   const auto error = [](double variance, double shared) { return 5.0 * variance * std::sqrt(2.0 * shared / 280000.0); };
   const auto two = CovarianceOf(BinFrame(noise, { 2, Interpolation::Nearest }, SerialFor));
   EXPECT_NEAR(two.variance, 0.25, error(0.25, 4.0));

@@ -62,7 +62,7 @@ TEST(SensorNoiseMedianFilter, LeavesTheVarianceOfAMedianOfNineNormals)
   }
   EXPECT_NEAR(expected, 0.166, 0.001);
   const auto found = CovarianceOf(FilterByMedian(NormalFrame(600, 500, 11), { 1 }, SerialFor));
-  // Some five pixels share their noise: the error is that of a fifth as many.
+  // Some five pixels have the same noise: the error is as for a fifth as many.
   EXPECT_NEAR(found.variance, expected, 5.0 * expected * std::sqrt(2.0 * 5.0 / 280000.0));
   EXPECT_GT(found.horizontal, 0.5 * found.variance);
 }

@@ -89,7 +89,7 @@ protected:
     }
     return sum / (96 * 96);
   }
-  /** By how much the PSNR of frame.tif rises [dB]. */
+  /** Returns the increase of the PSNR of frame.tif [dB]. */
   double
   GainOf(const std::string & arguments)
   {
@@ -132,7 +132,7 @@ TEST_F(DenoiseToolTest, RaisesThePsnr)
   }
 }
 
-// The model matters: with a slope 16 times too small or too large the noise is not what the denoiser is told.
+// The model matters: with a slope 16 times too small or too large the noise differs from the strength of the denoiser.
 TEST_F(DenoiseToolTest, WrongModelIsWorse)
 {
   WriteFrame("frame.tif");

@@ -38,7 +38,7 @@ TEST_F(EstimateFailureTool, AConstantStackGivesNoEstimate)
                     { "counted once", "only 1 distinct frame is left", "expected at least 5" });
     for (unsigned short t = 0; t < 20; ++t)
     {
-      stack->SetPixel({ { 0, 0, t } }, 700 + t); // a pixel at the border tells the frames apart
+      stack->SetPixel({ { 0, 0, t } }, 700 + t); // a pixel at the border distinguishes the frames
     }
     GivesNoEstimate(Write(name, stack.GetPointer()), { "only 0 pixels", "expected at least" });
   }

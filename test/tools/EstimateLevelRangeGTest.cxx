@@ -17,7 +17,7 @@ protected:
   using MapType = itk::Image<double, 2>;
   using UseType = itk::Image<unsigned char, 2>;
 
-  /** What the range goes by: the mean of a pixel's 8 neighbours [DN]. */
+  /** Returns the level that the range limits: the mean of a pixel's 8 neighbours [DN]. */
   static double
   NeighbourMean(const MapType * mean, int x, int y)
   {

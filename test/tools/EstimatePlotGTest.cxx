@@ -7,7 +7,7 @@
 
 namespace
 {
-/** What --plot writes. */
+/** Tests of the files that --plot writes. */
 class EstimatePlotTool : public EstimateToolTest
 {};
 } // namespace

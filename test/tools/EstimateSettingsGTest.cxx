@@ -11,7 +11,7 @@
 namespace
 {
 
-/** What the options about the data do, and the maps. */
+/** Tests of the options about the data, and of the maps. */
 class EstimateSettingsTool : public EstimateToolTest
 {
 protected:

@@ -21,7 +21,7 @@ protected:
     const int code = RunCommand(command);
     EXPECT_TRUE(code == 0 || code == 2 || code == 3) << code << m_Message;
     const std::string & all = m_Message;
-    if (code != 2) // a refusal says what was found
+    if (code != 2) // an error says what was found
     {
       EXPECT_EQ((m_Output + all).find("nan"), std::string::npos) << m_Output << all;
     }

@@ -15,14 +15,14 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/** What the tools write: nothing that is read, nothing twice, no device replaced. */
+/** Tests of the written files: no input is overwritten, no file is written twice, no device is replaced. */
 class OutputFilesTool : public EstimateToolTest
 {
 protected:
   const std::string m_Tool{ "\"" + ToolFolder() + "/estimate-sensor-noise\" --quiet " };
   const std::string m_Simulator{ "\"" + ToolFolder() + "/simulate-sensor-noise\" " };
 
-  /** A refusal in one sentence that leaves every file as it was. */
+  /** Expects an error of one sentence that leaves every file unchanged. */
   void
   LeavesAll(const std::string & command, const std::vector<std::string> & parts)
   {
@@ -175,7 +175,7 @@ TEST_F(OutputFilesTool, WhatMayNotBeWrittenIsRefusedBeforeTheFramesAreRead)
   const auto readable = fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read;
   fs::permissions(Path("r.json"), readable);
   fs::permissions(Path("maps/mean.mha"), readable);
-  // neither is an image: the refusal is older than the reading
+  // neither is an image: the error comes before the reading
   LeavesAll(tool + "r.json --json r.json", { "cannot write r.json", "may not be written", "denied" });
   LeavesAll(tool + "r.json --maps maps", { "cannot write maps/mean.mha" });
   fs::permissions(Path("maps"), readable | fs::perms::owner_exec | fs::perms::others_exec);

@@ -144,8 +144,8 @@ TEST_F(RealBurstOnFileTool, TheVarianceOfThePlateIsTheOtherProgramsWithoutTheFli
   EXPECT_LT(slope["standard_error"], 0.01);
 }
 
-// Neighbours in a column share some 4.5 % of their noise, as a laboratory program without any code in common found;
-// what all neighbours share is missing in the variance.
+// Neighbours in a column have a noise correlation of some 4.5 %, as a laboratory program without any code in common
+// found; the covariance of neighbours is missing in the variance.
 TEST_F(RealBurstOnFileTool, TheRefinedGainOfThePlateIncludesTheCorrelation)
 {
   const nlohmann::json report = ReportOfBurst(plate);

@@ -137,7 +137,7 @@ WithPulsedIllumination(SimulationSettings settings, double periodRows)
   return settings;
 }
 
-/** What 12 frames without light of the camera of \a settings tell. */
+/** Returns the results of 12 dark frames of the camera of \a settings. */
 KnownOffset
 MeasureDark(SimulationSettings settings)
 {

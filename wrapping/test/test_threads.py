@@ -33,8 +33,8 @@ def ticks_during(work) -> tuple[float, list[float], float]:
 
 
 def test_threads_run_during_a_call_that_has_no_observer():
-    """The frames are drawn in one call of ITK, which shows no progress: with the lock held, the thread stands still for
-    nearly all of the time. Half of it leaves room for a machine with other work."""
+    """The frames are drawn in one call of ITK, which shows no progress: with the lock held, the thread waits for nearly
+    all of the time. Half of it leaves room for a machine with other work."""
     itk.simulate_sensor_noise(frames=8, size=(64, 48))  # loads the library
     start, ticks, end = ticks_during(lambda: itk.simulate_sensor_noise(frames=30, size=(512, 512)))
     assert np.diff([start, *ticks, end]).max() < 0.5 * (end - start)

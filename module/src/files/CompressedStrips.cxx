@@ -55,7 +55,7 @@ private:
 class LzwStrings
 {
 public:
-  /** What comes goes to \a out, up to \a capacity bytes; null: nowhere. */
+  /** Writes the decoded bytes to \a out, at most \a capacity of them; null: nowhere. */
   LzwStrings(unsigned char * out, std::uint64_t capacity)
     : m_Out(out)
     , m_Capacity(capacity)

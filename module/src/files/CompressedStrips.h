@@ -11,8 +11,8 @@
 namespace sensornoise
 {
 
-/** How many bytes the codes of a strip that is compressed by LZW stand for. LZW has no checksum that would tell whether
- * they are the right ones. */
+/** How many bytes the codes of a strip that is compressed by LZW stand for. LZW has no checksum, so that wrong bytes
+ * are not detected. */
 struct LzwLength
 {
   std::uint64_t bytes{ 0 };

@@ -53,7 +53,7 @@ DataFilesOf(const std::string & name);
 bool
 HasEnding(const std::string & name, std::initializer_list<const char *> endings);
 
-/** What is expected of a file: "TIFF, PNG, MetaImage or NRRD". */
+/** Returns the formats that are expected of a file: "TIFF, PNG, MetaImage or NRRD". */
 SensorNoise_EXPORT std::string
 NamesOfFrameFormats();
 

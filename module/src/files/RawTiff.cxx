@@ -121,7 +121,7 @@ ChunksOf(const std::string & file, TiffBytes & tiff, const TiffDirectory & direc
   return chunks;
 }
 
-/** What a DNG declares of its codes, and whether they are all there. */
+/** Checks the digital numbers that a DNG declares: whether all of them are in the file. */
 class DngImage
 {
 public:

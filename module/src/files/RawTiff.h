@@ -12,7 +12,7 @@
 namespace sensornoise
 {
 
-/** What a TIFF is as a raw file of a camera. */
+/** Kind of a TIFF as a raw file of a camera. */
 enum class RawTiffKind
 {
   None,
@@ -20,7 +20,8 @@ enum class RawTiffKind
   Mosaic ///< another one with the colours of a mosaic: NEF, ARW, PEF and others
 };
 
-/** What the first directory of a TIFF and those below it say. Throws FileError where they are damaged. */
+/** Returns the kind by the first directory of a TIFF and the directories below it. Throws FileError where they are
+ * damaged. */
 RawTiffKind
 RawTiffKindOf(const std::string & file, FileBytes & bytes);
 

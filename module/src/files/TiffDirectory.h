@@ -45,7 +45,8 @@ SizeOfTiffType(unsigned type);
 class TiffBytes
 {
 public:
-  /** Of a file that begins like a TIFF: IsTiff(). Throws FileError where it ends, or is damaged, right after that. */
+  /** Reads the head of a file that begins like a TIFF (IsTiff()). Throws FileError if the file ends or is damaged right
+   * after that. */
   TiffBytes(const std::string & file, FileBytes & bytes);
 
   /** Whether the file begins like a TIFF, of any byte order and size. */
@@ -59,7 +60,7 @@ public:
     return m_First;
   }
 
-  /** Of the file's head. */
+  /** Size of the head of the file [bytes]. */
   std::uint64_t
   HeadBytes() const
   {

@@ -48,7 +48,7 @@ RequireSamePage(const std::string & page, const TiffPage & found, const TiffPage
   }
 }
 
-/** What is read from a TIFF on the way along its chain of pages. */
+/** State of reading a TIFF along its chain of pages. */
 class TiffInspection
 {
 public:

@@ -23,7 +23,7 @@ enum class TiffCompression
   PackBits
 };
 
-/** What the directory of a page says of its pixels. */
+/** Properties of the pixels by the directory of a page. */
 struct TiffPage
 {
   std::uint64_t         width{ 0 };

@@ -121,7 +121,7 @@ SdOf(const FlickerEstimate & flicker)
   return Quantity::Without(EstimateStatus::UpperLimit, Interval{ 0.0, flicker.flickerSd });
 }
 
-/** Returns the departure of the variance from its line, half way between both levels, relative to the line, if it is
+/** Returns the deviation of the variance from its line, half way between both levels, relative to the line, if it is
  * significant and large. */
 std::optional<double>
 FindCurvedFraction(const NoiseParameters & parameters, const PublishedScene & scene, double contrastDn)

@@ -109,11 +109,11 @@ struct PublishedFindings
   const CorrectedMaps &     corrected;
 };
 
-/** Largest departure of the corrected variance from its line, half way between dark and bright, that is not said,
+/** Largest deviation of the corrected variance from its line, half way between dark and bright, that is not said,
  * relative to the line [1]. Chosen. */
 inline constexpr double LargestCurvedFraction = 0.03;
 
-/** What the published method estimates from the results of its passes, without a message. */
+/** Estimates of the published method from the results of its passes, without messages. */
 struct PublishedEstimate
 {
   Quantity flickerSd;           ///< [1]
@@ -124,7 +124,7 @@ struct PublishedEstimate
   double   neededDn{ 0.0 };     ///< contrast that is needed for a line [DN]
   /** Parameters of the sensor; null: the contrast is too small. */
   std::optional<NoiseParameters> parameters;
-  /** Significant departure of the corrected variance from its line, half way between dark and bright, relative to the
+  /** Significant deviation of the corrected variance from its line, half way between dark and bright, relative to the
    * line, if it is above LargestCurvedFraction [1]; null: it is not. */
   std::optional<double> curvedFraction;
 

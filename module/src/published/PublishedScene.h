@@ -86,7 +86,7 @@ SortPixels(PublishedScene &                  scene,
            const std::vector<std::uint8_t> & mask,
            const ParallelFor &               parallelFor);
 
-/** Sets the iso-intensity sets of a scene after SortPixels(), or its obstacle. */
+/** Sets the iso-intensity sets of a scene after SortPixels(), or the reason of its failure. */
 SensorNoise_EXPORT void
 FindSets(PublishedScene &          scene,
          const PublishedSettings & settings,

@@ -15,8 +15,8 @@
 namespace sensornoise
 {
 
-/** What the refined method estimates from the results of its passes: every number with its error and verdict, and the
- * numbers that a message needs, but no message. MakeRefinedReport() makes the report of it. */
+/** Estimates of the refined method from the results of its passes: every number with its error and verdict, and the
+ * numbers of messages, but no message. MakeRefinedReport() makes the report of it. */
 struct RefinedEstimate
 {
   /** Line of the variance of the frames as they are: what a denoiser needs. */

@@ -31,7 +31,7 @@ enum class GainVerdict : std::uint8_t
   // The data contradict a sensor of one gain.
   FramesDiffer,        ///< the noise variance of the frames does not follow their levels
   IlluminationIsLeft,  ///< the noise correlation, which changes the gain much, may be that of illumination
-  NotAffine,           ///< the variance departs from its line
+  NotAffine,           ///< the variance deviates from its line
   GainDependsOnOffset, ///< the variance is a curve of the mean, and the gain depends on the assumed read noise
   NotRising,           ///< the variance does not rise with the mean
   LineIllumination,    ///< the illumination differs between rows or columns of one frame

@@ -81,7 +81,7 @@ public:
     }
   }
 
-  /** Interpolates a number that is known at both neighbours. Other settings give the bend where they have it. */
+  /** Interpolates a number that is known at both neighbours. Other settings give the curvature where they have it. */
   std::optional<NumberWithError>
   Number(const NumberOfSetting & of, bool isLogarithmic) const
   {

@@ -133,7 +133,7 @@ def noise_correlation_estimator(
     Parameters
     ----------
     stack : frames
-        Frames of a scene that stands still, flat fields for instance, as `frames` of estimate_sensor_noise().
+        Frames of a static scene, flat fields for instance, as `frames` of estimate_sensor_noise().
     mean : array_like (y, x) or itk.Image, optional
         The stack's mean [DN], an array (y, x) or an image; NaN: the pixel is left out. Default: found.
     mask : array_like (y, x) or itk.Image, optional
@@ -146,7 +146,7 @@ def noise_correlation_estimator(
         Takes out the means of the frames, too, plain and weighted with the signal: flicker and a drifting offset.
         Without it, a fluctuating illumination counts as noise correlation.
     offset : float, optional
-        The level without light [DN]. Default: the darkest level if that is below 0.3 of the brightest, else 0.
+        Dark offset [DN]. Default: the darkest level if that is below 0.3 of the brightest, else 0.
     quantisation_step : float, optional
         Spacing of the codes [DN]. Default: found; with `mean` and `mask`, 1 for integers.
 

@@ -107,7 +107,7 @@ def estimate_sensor_noise(
         ...) are read by rawpy, if installed: unprocessed codes. Arrays are shared; one that is not C-contiguous or not
         in the machine's byte order is copied once.
     method : {"refined", "published", "single-image"}, default "refined"
-        "refined": all pixels of a still scene, textured or not; what is `identified` has a standard error and a 95 %
+        "refined": all pixels of a static scene, textured or not; what is `identified` has a standard error and a 95 %
         interval. "published": Figure 2 of Sur & Grédiac 2015, even areas only, without errors. "single-image": gain and
         intercept from the even areas of one frame, which may be an array (y, x), after Foi et al. 2008; each of several
         frames is measured by itself. It has no `maps`, and needs neither flicker nor `memory_limit`.
@@ -136,8 +136,8 @@ def estimate_sensor_noise(
         error of EMVA 1288, and offset and responsivity of a line through the levels. One for each of `frames`, also for
         those that `frame_range` leaves out. Default: not given. "refined" only.
     excess_noise_factor : float, default 1
-        F, 1 or more, of a sensor that multiplies electrons at random, 2 for an EMCCD: the frames cannot tell it. `gain`
-        is the slope of the variance divided by F; `variance_slope` and everything in DN stay as they are. Default: 1.
+        F, 1 or more, of a sensor that multiplies electrons at random, 2 for an EMCCD: the frames do not determine
+        it. `gain` is the slope of the variance divided by F; `variance_slope` and everything in DN do not change.
     rolling_shutter : {"auto", "off"} or float, default "auto"
         Whether the flicker may differ from line to line: "auto" (found out), "off", or the width sigma_y of a line's
         neighbourhood [lines]. "refined" looks for any light that changes in some places in another way than in others,

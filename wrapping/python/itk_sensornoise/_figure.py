@@ -56,8 +56,8 @@ def _display_once(figure: "Figure") -> None:
 def draw(report: Mapping[str, Any], data: Mapping[str, Any], axes: "Axes", residuals: "Axes | None") -> "Figure":
     """Variance and corrected variance against mean, each point an average over pixels, the line and its 95 % band.
 
-    Where there is no gain, the line is dashed: indicative, no measurement. Where the response bends, the legend says
-    how far the variance departs from its line.
+    Where there is no gain, the line is dashed: indicative, no measurement. Where the response is non-linear, the legend
+    gives the deviation of the variance from its line.
     """
     before = [float("nan") if value is None else value for value in data["variance"]]
     axes.plot(data["mean"], before, "o", color=BEFORE, markersize=4, markerfacecolor="none", label="as it is")

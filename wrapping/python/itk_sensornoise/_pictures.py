@@ -41,13 +41,13 @@ class Pictures:
 
     @classmethod
     def of(cls, estimator: ItkObject) -> "Pictures":
-        """Those of an ITK estimator that is up to date and has one report."""
+        """Returns the pictures of an ITK estimator that is up to date and has one report."""
         numbers = estimator.GetFigureAsJson()
         return cls(pack(estimator.GetReportAsHtml()), pack(estimator.GetReportAsSvg()), pack(numbers))
 
     @classmethod
     def of_channels(cls, estimator: ItkObject) -> "dict[str, Pictures]":
-        """Those of each channel of a mosaic, by its name."""
+        """Returns the pictures of each channel of a mosaic, by its name."""
         return {
             name: cls(
                 pack(estimator.GetChannelReportAsHtml(name)),

@@ -174,10 +174,11 @@ class Report(QuantityAttributes, PagedRecord):
             line_mean, line_variance             the line from the darkest to the brightest level [DN, DN^2]
             band_low, band_high                  ends of its 95 % interval at line_mean [DN^2]
             flicker, motion_x, motion_y          of every frame [1, pixel, pixel]
-            lags                                 what neighbours and frames share: dicts as in noise_correlation
+            lags                                 dicts as in noise_correlation
 
         A list is empty where there is nothing of it. `is_indicative`, a bool: there is a line, but no gain.
-        `residual_spread`, a number: how much further residuals scatter at most, as neighbours share their noise [1].
+        `residual_spread`, a number: largest factor on the scatter of residuals by the noise correlation of neighbours
+        [1].
         """
         if self._pictures is not None:
             return self._pictures.figure_data()

@@ -80,7 +80,8 @@ def _with_warnings(lines: Sequence[str], warnings: Sequence[Mapping[str, Any]]) 
 
 
 def _warnings_of_channels(record: Mapping[str, Any]) -> list[Mapping[str, Any]]:
-    """Those of all channels together, then those of channels, each once with the names of its channels before it."""
+    """Returns the warnings of all channels together, then each warning of channels once, with the names of its
+    channels."""
     channels_of: dict[tuple[str, str, str], list[str]] = {}
     for channel in record["channels"]:
         for warning in channel["warnings"]:

@@ -161,7 +161,7 @@ def simulate_sensor_noise(
     read_noise_tail : (float, float), optional
         (fraction, spread): in so many pixels that logarithm is greater by |normal| times spread. Default: none.
     response : (str, float), optional
-        (shape, size): ("quadratic", "wave" or "shoulder", departure of the local gain), ("gamma", exponent) or
+        (shape, size): ("quadratic", "wave" or "shoulder", deviation of the local gain), ("gamma", exponent) or
         ("s-curve", weight). Default: straight.
     row_noise, column_noise : float, default 0
         Standard deviations of what the pixels of a row or of a column share in a frame [DN].

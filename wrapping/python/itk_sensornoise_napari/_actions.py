@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What the widget "Stabilise / Denoise" does to pixels, without a window."""
+"""Actions of the widget "Stabilise / Denoise" on pixels, without a window."""
 
 from collections.abc import Callable
 from typing import Any

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What both widgets have: lists of layers, work in a background thread, and sentences in place of tracebacks."""
+"""Base of both widgets: lists of layers, work in a background thread, and sentences in place of tracebacks."""
 
 import threading
 from collections.abc import Callable
@@ -20,7 +20,7 @@ class Stopped(Exception):
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a call in a background thread returned, or the sentence of its error."""
+    """Result of a call in a background thread, or the sentence of its error."""
 
     value: Any = None
     error: str | None = None

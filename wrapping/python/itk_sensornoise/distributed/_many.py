@@ -53,7 +53,7 @@ def estimate_many(
         A dask.distributed.Client: each source is a task of its workers, measured by one thread (unless `threads` says
         otherwise). If its worker is killed, another one tries, as often as Dask's setting
         distributed.scheduler.allowed-failures says; then, at the end, as often again with no other task at work: Dask
-        blames all tasks that a killed worker had, also those that were waiting in it. A task takes the memory that its
+        counts a failure for all tasks that a killed worker had, also for waiting ones. A task takes the memory that its
         worker's memory_limit leaves, as `memory_limit` of estimate_sensor_noise() does; a burst that needs more is a
         row with its reason. An iterator is not read further ahead than the workers need.
         Default: one source after the other in this process, by all threads; Dask is not needed.
@@ -61,7 +61,7 @@ def estimate_many(
         A file that ends in .jsonl: a line of JSON for each source as soon as it is measured, with `name`, `settings`,
         `reason` and `report`, the whole record. Or in .parquet: the table of all that was written to it, made at the
         end, also of an interrupted run, from such lines in a file beside it, name.parquet.jsonl: a Parquet file cannot
-        be read before it is complete, so that it could not tell what a killed process had done. If the file is there,
+        be read before it is complete, so that it would not show the work of a killed process. If the file is there,
         the run goes on: sources that have a report in it are not measured again, those without one are. A name stands
         for the same frames: their files are not looked at. Default: the table is returned and nothing is written.
     settings

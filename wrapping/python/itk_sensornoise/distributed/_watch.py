@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 _LOG = logging.getLogger(__name__)
 _POLL_SECONDS = 0.05  # between two looks at futures, which ask nobody
 _LOOK_SECONDS = 2.0  # between two questions to the scheduler, which hears from workers each second or less often
-# How long all may stand still. A worker that Dask paused writes results to disk, and goes on soon if that helps.
+# Longest time without progress. A worker that Dask paused writes results to disk, and goes on soon if that helps.
 _PATIENCE_SECONDS = 30.0
 _GONE = "Dask's scheduler went away, was restarted or cancelled the tasks"
 
@@ -49,7 +49,7 @@ class Watch:
 
     def wait(self, futures: "Collection[distributed.Future]", done: int) -> None:
         """Waits a moment. `done`: how many have ended; `futures`: those that have not. Raises RuntimeError where they
-        never will: the scheduler went away, or all that could go on stands still, as Dask paused workers."""
+        never will: the scheduler went away, or all remaining workers are paused by Dask."""
         self.require_scheduler()
         if any(future.cancelled() for future in futures):
             raise self.gone()

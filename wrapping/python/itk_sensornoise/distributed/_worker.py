@@ -66,7 +66,7 @@ def _require_going(run: str) -> None:
 
 
 def _threads() -> int:
-    """Those of this worker of Dask's: other workers of the machine have theirs."""
+    """Returns the number of threads of this worker of Dask; other workers of the machine have their own."""
     from distributed import get_worker
 
     return max(1, int(get_worker().state.nthreads))
