@@ -38,12 +38,12 @@ _BODY = re.compile(r"^  \{.*?^  \}\n", re.MULTILINE | re.DOTALL)
 
 
 def _lines(comment: str) -> str:
-    """The comment without the stars before its lines."""
+    """Returns the comment without the stars before its lines."""
     return re.sub(r"^[ \t]*\*? ?", "", comment.strip(), flags=re.MULTILINE).strip()
 
 
 def _text(comment: str) -> str:
-    """The comment without Doxygen's commands, its paragraphs as they are."""
+    """Returns the comment without the commands of Doxygen; paragraphs are kept."""
     text = _lines(comment).replace(r"Gredi\'ac", "Grédiac")
     text = re.sub(r"^\\(class|ingroup)\b.*\n?", "", text, flags=re.MULTILINE)
     text = re.sub(r"\\brief\s+", "", text)
@@ -57,7 +57,7 @@ def _text(comment: str) -> str:
 
 
 def _methods(body: str) -> dict[str, str]:
-    """The texts of the methods in what follows a class's comment."""
+    """Returns the texts of the methods in the code behind the comment of a class."""
     found: dict[str, list[str]] = {}
     for comment in _COMMENT.finditer(body):
         # What the comment is about ends at a blank line or the next comment; bodies may hold blank lines and calls.
@@ -72,7 +72,7 @@ def _methods(body: str) -> dict[str, str]:
 
 
 def class_docs(header: str) -> dict[str, tuple[str, dict[str, str]]]:
-    """The classes of a header with the texts of their public methods."""
+    """Returns the classes of a header with the texts of their public methods."""
     comments = [comment for comment in _COMMENT.finditer(header) if _CLASS.search(comment[1])]
     bounds = [comment.start() for comment in comments] + [len(header)]
     docs = {}

@@ -68,12 +68,13 @@ class Estimate(NamedTuple):
 
     @property
     def is_held(self):
-        """Whether the 95 % interval contains the truth; None if the quantity is not identified or has no truth."""
+        """Returns whether the 95 % interval contains
+        the truth; None if the quantity is not identified or has no truth."""
         return None if self.error is None else bool(self.interval) and holds(self.interval, self.truth)
 
     @property
     def is_below_limit(self):
-        """Whether the truth is at most the upper limit; None for another status or without a truth."""
+        """Returns whether the truth is at most the upper limit; None for another status or without a truth."""
         limit = self.bounds or self.interval
         if self.status != "upper-limit" or self.truth is None:
             return None
@@ -81,7 +82,7 @@ class Estimate(NamedTuple):
 
     @property
     def is_within_bounds(self):
-        """Whether the bounds contain the truth; None if there are no bounds or no truth."""
+        """Returns whether the bounds contain the truth; None if there are no bounds or no truth."""
         return None if not self.bounds or self.truth is None else holds(self.bounds, self.truth)
 
     def is_within(self, fraction):

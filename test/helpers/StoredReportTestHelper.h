@@ -54,8 +54,7 @@ WordsOf(const std::string & message)
 }
 
 /** Returns the tolerance of a number. The noise correlation is summed in 4 bytes, whose rounding depends on the
- * compiler.
- */
+ * compiler. */
 inline double
 ToleranceOf(const std::string & path, double number)
 {

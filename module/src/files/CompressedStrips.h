@@ -11,8 +11,8 @@
 namespace sensornoise
 {
 
-/** How many bytes the codes of a strip that is compressed by LZW stand for. LZW has no checksum, so that wrong bytes
- * are not detected. */
+/** Number of decoded bytes of a strip that is compressed by LZW. LZW has no checksum, so that wrong bytes are not
+ * detected. */
 struct LzwLength
 {
   std::uint64_t bytes{ 0 };
@@ -30,9 +30,9 @@ LengthOfLzw(FileBytes &     bytes,
             std::uint64_t   whole,
             unsigned char * out = nullptr);
 
-/** How many samples the JPEG without loss (ITU-T T.81, Annex H: SOF3) in these bytes declares. Throws FileError, of
- * which \a piece begins the sentence, where it is another JPEG, which loses something, or none, or where its only scan
- * does not go on to the end of the image within these bytes. */
+/** Returns the number of samples that the lossless JPEG (ITU-T T.81, Annex H: SOF3) in these bytes declares. Throws
+ * FileError, of which \a piece begins the sentence, where it is another JPEG, which loses something, or none, or where
+ * its only scan does not go on to the end of the image within these bytes. */
 std::uint64_t
 SamplesOfLosslessJpeg(const std::string & piece, FileBytes & bytes, std::uint64_t offset, std::uint64_t count);
 

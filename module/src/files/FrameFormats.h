@@ -21,7 +21,7 @@ struct FrameFormat
   const char * name{ nullptr };       ///< as sentences call it
   bool         hasITKReader{ false }; ///< ITK's own class reads it, to which itk::ImageFileReader is left
 
-  /** Whether a file is of this format, by its first bytes, 512 or all, and where these do not tell by its name. */
+  /** Returns whether a file is of this format, by its first bytes, 512 or all, and otherwise by its name. */
   bool (*isItsHead)(const std::string & head, const std::string & name){ nullptr };
 
   /** Fills in all of \a file but its name, format and first identity, and sets its reader, or throws FileError, see
@@ -32,7 +32,7 @@ struct FrameFormat
   std::vector<std::string> (*dataFiles)(FileBytes & bytes, const std::string & name){ nullptr };
 };
 
-/** All formats. A file is of the first that takes its head. */
+/** Returns all formats. A file has the first format that accepts its head. */
 SensorNoise_EXPORT const std::vector<FrameFormat> &
 FrameFormats();
 
@@ -49,7 +49,7 @@ FindFrameFormat(const std::string & head, const std::string & name);
 SensorNoise_EXPORT std::vector<std::string>
 DataFilesOf(const std::string & name);
 
-/** Whether a file's name ends in one of \a endings, each with its dot. */
+/** Returns whether a file's name ends in one of \a endings, each with its dot. */
 bool
 HasEnding(const std::string & name, std::initializer_list<const char *> endings);
 
@@ -59,13 +59,13 @@ NamesOfFrameFormats();
 
 // The functions of each format, in the order of the table; their bodies are in <Name>File.cxx.
 
-/** Whether a file is a raw file of a camera: DNG, CR2, CR3, NEF, ARW, RAF, ORF, RW2 and others. Most of them begin as a
- * TIFF does: then its first directory and those below are read for the version of DNG or for the colours of a mosaic,
- * and where these are not to be found the ending of the name tells. */
+/** Returns whether a file is a raw file of a camera: DNG, CR2, CR3, NEF, ARW, RAF, ORF, RW2 and others. Most of them
+ * begin as a TIFF does: then its first directory and those below are read for the version of DNG or for the colours of
+ * a mosaic, and where these are not to be found the ending of the name tells. */
 bool
 IsHeadOfRawCamera(const std::string & head, const std::string & name);
 
-/** Whether this build reads raw files of cameras: SensorNoise_USE_LibRaw. */
+/** Returns whether this build reads raw files of cameras: SensorNoise_USE_LibRaw. */
 SensorNoise_EXPORT bool
 ReadsRawCameraFiles();
 
@@ -79,7 +79,7 @@ ReadsRawCameraFiles();
 void
 InspectRawCamera(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
-/** Whether a file begins as a TIFF, or a BigTIFF, of either byte order. */
+/** Returns whether a file begins as a TIFF, or a BigTIFF, of either byte order. */
 bool
 IsHeadOfTiff(const std::string & head, const std::string & name);
 
@@ -88,7 +88,7 @@ IsHeadOfTiff(const std::string & head, const std::string & name);
 void
 InspectTiff(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
-/** Whether a file begins as a PNG. */
+/** Returns whether a file begins as a PNG. */
 bool
 IsHeadOfPng(const std::string & head, const std::string & name);
 
@@ -98,7 +98,7 @@ IsHeadOfPng(const std::string & head, const std::string & name);
 void
 InspectPng(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
-/** Whether a file may be a MetaImage, which has no mark of its own: its name ends as one, and fields begin. */
+/** Returns whether a file may be a MetaImage, which has no mark of its own: its name ends as one, and fields begin. */
 bool
 IsHeadOfMetaImage(const std::string & head, const std::string & name);
 
@@ -111,7 +111,7 @@ InspectMetaImage(FileBytes & bytes, FrameFile & file, const BeforeInflating & be
 std::vector<std::string>
 DataFilesOfMetaImage(FileBytes & bytes, const std::string & name);
 
-/** Whether a file begins as a NRRD file, whatever its name. */
+/** Returns whether a file begins as a NRRD file, whatever its name. */
 bool
 IsHeadOfNrrd(const std::string & head, const std::string & name);
 
@@ -124,7 +124,7 @@ InspectNrrd(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeI
 std::vector<std::string>
 DataFilesOfNrrd(FileBytes & bytes, const std::string & name);
 
-/** Whether a file begins as a SER, the format of astronomers' recordings. */
+/** Returns whether a file begins as a SER, the format of astronomers' recordings. */
 bool
 IsHeadOfSer(const std::string & head, const std::string & name);
 
@@ -139,8 +139,8 @@ IsHeadOfSer(const std::string & head, const std::string & name);
 void
 InspectSer(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
-/** Whether a file is one of the two of a recording of a Photron camera, which have no mark of their own: by its name,
- * .mraw, or .cihx or .cih. */
+/** Returns whether a file is one of the two of a recording of a Photron camera, which have no mark of their own: by its
+ * name, .mraw, or .cihx or .cih. */
 bool
 IsHeadOfMraw(const std::string & head, const std::string & name);
 
@@ -154,7 +154,7 @@ InspectMraw(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeI
 std::vector<std::string>
 DataFilesOfMraw(FileBytes & bytes, const std::string & name);
 
-/** Whether a file begins as FITS does. */
+/** Returns whether a file begins as FITS does. */
 SensorNoise_EXPORT bool
 IsHeadOfFits(const std::string & head, const std::string & name);
 
@@ -168,7 +168,7 @@ IsHeadOfFits(const std::string & head, const std::string & name);
 SensorNoise_EXPORT void
 InspectFits(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
-/** Whether a file begins as those of numpy.save() do. */
+/** Returns whether a file begins as those of numpy.save() do. */
 SensorNoise_EXPORT bool
 IsHeadOfNpy(const std::string & head, const std::string & name);
 
@@ -178,7 +178,7 @@ IsHeadOfNpy(const std::string & head, const std::string & name);
 SensorNoise_EXPORT void
 InspectNpy(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
-/** Whether a file begins as Netpbm's formats do: PBM, PGM, PPM. */
+/** Returns whether a file begins as Netpbm's formats do: PBM, PGM, PPM. */
 SensorNoise_EXPORT bool
 IsHeadOfPnm(const std::string & head, const std::string & name);
 

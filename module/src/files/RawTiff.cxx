@@ -40,8 +40,8 @@ DirectoriesBelow(TiffBytes & tiff, const TiffDirectory & directory)
   return offsets;
 }
 
-/** All directories, those of the chain and those below each; at least one. Throws for the first alone: makers write odd
- * things into those of their previews. */
+/** Returns all directories, of the chain and below it; at least one. Throws for the first directory only: directories
+ * of previews of some makers are not valid. */
 std::vector<TiffDirectory>
 AllDirectories(const std::string & file, TiffBytes & tiff)
 {

@@ -14,7 +14,7 @@
 namespace sensornoise
 {
 
-/** One entry of a TIFF's directory: where its values are, and what. */
+/** Entry of the directory of a TIFF: type, number and place of its values. */
 struct TiffEntry
 {
   unsigned      tag{ 0 };
@@ -49,11 +49,11 @@ public:
    * after that. */
   TiffBytes(const std::string & file, FileBytes & bytes);
 
-  /** Whether the file begins like a TIFF, of any byte order and size. */
+  /** Returns whether the file begins like a TIFF, of any byte order and size. */
   static bool
   IsTiff(const unsigned char * head, std::size_t count);
 
-  /** Where the directory of the first page is. */
+  /** Returns the offset of the directory of the first page [bytes]. */
   std::uint64_t
   FirstDirectory() const
   {
@@ -77,7 +77,7 @@ public:
   std::optional<std::uint64_t>
   Number(const std::string & page, const TiffDirectory & directory, unsigned tag, const char * name);
 
-  /** Whether what could be the entry of a directory, of a whole number, is among these bytes. */
+  /** Returns whether what could be the entry of a directory, of a whole number, is among these bytes. */
   bool
   HasEntry(std::uint64_t begin, std::uint64_t end, unsigned tag, std::uint64_t value);
 

@@ -22,7 +22,7 @@ namespace sensornoise
 {
 namespace
 {
-/** How many planes MetaMorph says that there are, of which it lists one as a page; 0 where it says nothing. */
+/** Returns the number of planes of a MetaMorph file, which lists only one of them as a page; 0: no number is given. */
 std::uint64_t
 PlanesOfMetaMorph(const TiffDirectory & directory)
 {
@@ -194,7 +194,7 @@ private:
                  ":" + type + ":" + std::to_string(places.offset) + (rest == 0 ? "" : ":0:0:" + std::to_string(rest));
   }
 
-  /** Where the pages differ in more than time. */
+  /** Sets the axes beside time in which the pages differ. */
   void
   SetAxes()
   {

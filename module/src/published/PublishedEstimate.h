@@ -25,7 +25,7 @@ inline constexpr double LargestReducedChi2 = 10.0;
 /** Reduced chi-square from which the fit is said to be poor [1]. Chosen. */
 inline constexpr double PoorReducedChi2 = 1.5;
 
-/** Whether the line through the corrected variance is that of a sensor, or why not. */
+/** Verdict on the line through the corrected variance: whether it describes a sensor, or the reason why not. */
 enum class LineVerdict : std::uint8_t
 {
   Identified,

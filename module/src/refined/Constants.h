@@ -100,11 +100,11 @@ struct RefinedConstants
   /** Relative difference of a frame's noise variance from the line at its level above which the frame is left out [1].
    * Chosen by its effect: two of 60 frames that differ by it make the gain 0.3 % wrong. */
   double leastUnlikeNoise{ 0.1 };
-  /** That difference under local changes of the illumination, which are not known in every frame and tile [1]. Chosen
-   * larger than the local changes of lamps that pulse under a rolling shutter. */
+  /** Limit of the difference under local changes of the illumination, which are not known in every frame and tile [1].
+   * Chosen larger than the local changes by pulsed illumination under a rolling shutter. */
   double leastUnlikeUnderLocalIllumination{ 0.3 };
-  /** That difference where the scene moves by more than strongVibration [1]: twice the noise. Chosen empirically: the
-   * remaining motion of a frame adds less in the flatter half of a scene. */
+  /** Limit of the difference where the scene moves by more than strongVibration [1]: twice the noise. Chosen
+   * empirically: the remaining motion of a frame adds less in the flatter half of a scene. */
   double leastUnlikeUnderMotion{ 1.0 };
   /** Number of iterations that find the groups of frames with their noise from the iteration before. Chosen
    * empirically: the third one changes nothing for three frames of four times the noise. */

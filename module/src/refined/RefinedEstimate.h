@@ -33,9 +33,10 @@ struct RefinedEstimate
   OffsetEstimate             flickerOffset; ///< offset as the flicker determines it
   OffsetLimits               limits;
 
-  /** Whether the gain is bounded alone, and not identified, as frames have fewer samples than pixels. */
+  /** Whether the gain has only bounds and is not identified, as frames have fewer samples than pixels. */
   bool isWithheld{ false };
-  /** Whether the known offset and that of the flicker differ by more than their errors: some light is steady. */
+  /** Whether the known offset and the offset by the flicker differ by more than their errors: some illumination is
+   * steady. */
   bool isIlluminationSteady{ false };
   /** Whether the known offset lies outside of its limits. */
   bool isOffsetOutOfLimits{ false };

@@ -65,7 +65,7 @@ struct LineIllumination
    * \a left after that. */
   MeasuredNumber found;
   MeasuredNumber left;
-  /** Whether it was subtracted, and the number of pixels that were measured without it: those of the noise sample. */
+  /** Whether it was subtracted, and the number of pixels of the noise sample, which were measured without it. */
   bool        isTakenOff{ false };
   std::size_t pixels{ 0 };
   /** Variance by other changes of the illumination that remains in a pixel's variance, relative to it [1]; 0: none is

@@ -20,7 +20,7 @@
 namespace sensornoise
 {
 
-/** Whether the slope of the variance is the gain of a sensor, or why not. */
+/** Verdict on the slope of the variance: whether it is the gain of a sensor, or the reason why not. */
 enum class GainVerdict : std::uint8_t
 {
   Identified,

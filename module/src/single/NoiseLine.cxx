@@ -132,7 +132,7 @@ SpreadOf(const std::vector<LevelSet> & sets)
   return { centre, weights > 0.0 ? std::sqrt(squares / weights) : 0.0 };
 }
 
-/** One evaluation of the model: expected variances, which sets are fitted, and the sums. */
+/** Evaluation of the model: expected variances, the sets that are fitted, and the sums. */
 struct LineFit
 {
   const std::vector<LevelSet> & sets;

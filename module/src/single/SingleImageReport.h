@@ -32,7 +32,7 @@ struct MeasuredPlane
 
 struct SingleImageSettings;
 
-/** All that the single-image method found of a frame or a plane. */
+/** Results of the single-image method for a frame or a plane. */
 struct SingleImageFindings
 {
   const SingleImageSettings &            settings;

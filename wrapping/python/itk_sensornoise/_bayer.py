@@ -12,7 +12,7 @@ _KEY = "SensorNoise.BayerPattern"
 
 
 def cut_pattern(pattern: str, columns: int, rows: int) -> str:
-    """The pattern of what is left of a mosaic when so many columns and rows were cut off its left and upper side."""
+    """Returns the pattern of a mosaic after so many columns and rows were cut off its left and upper side."""
     return "".join(pattern[2 * ((y + rows) % 2) + (x + columns) % 2] for y in range(2) for x in range(2))
 
 

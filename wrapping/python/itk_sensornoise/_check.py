@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a noise model serves for frames: before one relies on it."""
+"""Checks a noise model on frames before it is used."""
 
 import math
 import re
@@ -72,7 +72,7 @@ class NoiseModelCheck(Record):
 
 
 def check_noise_model(frames: Any, report: Any, *, mask: Any = None, **parameters: Any) -> NoiseModelCheck:
-    """Whether frames have the noise that a report says, at every level: then its model can be used in front of a
+    """Checks whether frames have the noise of a report at every level, so that its model can be used in front of a
     denoiser.
 
     Flicker and motion of `frames` are found anew and taken out of every pixel; of the report, only variance_slope and

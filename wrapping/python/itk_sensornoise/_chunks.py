@@ -30,7 +30,7 @@ def arrays_of_graph(frames: Any) -> list[Any]:
 
 
 def is_closed(frames: Any) -> bool:
-    """Whether it is a dataset of h5py's whose file was closed: it has not even a shape."""
+    """Returns whether it is a dataset of h5py's whose file was closed: it has not even a shape."""
     return type(frames).__module__.startswith("h5py.") and not frames
 
 

@@ -85,7 +85,7 @@ def denoise_with_noise_model(
     Warns
     -----
     UserWarning
-        The image is far brighter than what was measured, or many of its pixels are below the level of no light.
+        The image is far brighter than what was measured, or many of its pixels are below the zero level of the model.
 
     See Also
     --------
@@ -147,7 +147,7 @@ def _like(result: np.ndarray, image: Any) -> Any:
 
 
 def _require_scale(levels: np.ndarray, slope: float, intercept: float, record: Mapping[str, Any]) -> None:
-    """Refuses levels that cannot be of the report's camera at the same setting, as far as they tell."""
+    """Raises ValueError for levels that the camera of the report cannot have at the same setting."""
     zero = -intercept / slope
     lowest = zero - 0.375 * slope
     median = float(np.median(levels))

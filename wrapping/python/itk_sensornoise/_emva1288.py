@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Flat fields and dark frames at several exposures, evaluated by EMVA Standard 1288."""
+"""Evaluates flat fields and dark frames at several exposures by EMVA Standard 1288."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -148,7 +148,7 @@ class _OneSeries:
 
 @dataclass
 class _Recording:
-    """All series, opened."""
+    """Series of a recording, opened."""
 
     flats: list[tuple[float, Frames]]
     darks: list[tuple[float, Frames]]

@@ -56,7 +56,7 @@ class Stack:
         return int(width), int(height), int(frames)
 
     def pieces(self) -> Iterator[np.ndarray]:
-        """All pixels, in order, as arrays (t, y, x) of a few frames each, which hold until the next is asked for. Ends
+        """Yields all pixels in order, as arrays (t, y, x) of a few frames, which are valid until the next one. Ends
         where lazy frames cannot be read, with the reason in `failed`."""
         import itk
 

@@ -27,7 +27,7 @@ def mapping_of(array: object) -> mmap.mmap | None:
 
 
 def is_lazy(value: object) -> bool:
-    """Whether it has a shape, a dtype of NumPy's, and slices, and is not in memory: numpy.memmap is not."""
+    """Returns whether it has a shape, a dtype of NumPy's, and slices, and is not in memory: numpy.memmap is not."""
     if isinstance(value, np.ndarray):
         return mapping_of(value) is not None
     if is_closed(value):
@@ -163,7 +163,7 @@ def _like(frames: Any, name: str) -> np.ndarray:
 
 
 def _is_of_file(array: np.ndarray) -> bool:
-    """Whether what a mapped array holds is in the file, too: then the memory may forget it."""
+    """Returns whether what a mapped array holds is in the file, too: then the memory may forget it."""
     mode = getattr(array, "mode", None)
     if mode is not None:
         return bool(mode != "c")

@@ -12,12 +12,12 @@ from ._errors import itk_errors
 
 
 def is_process(values: Any) -> bool:
-    """Whether it is a filter of ITK, whose first output is meant."""
+    """Returns whether it is a filter of ITK, whose first output is meant."""
     return hasattr(values, "GetOutput") and hasattr(values, "UpdateOutputInformation") and not is_image(values)
 
 
 def is_image(values: Any) -> bool:
-    """Whether it is an itk.Image."""
+    """Returns whether it is an itk.Image."""
     return hasattr(values, "GetLargestPossibleRegion")
 
 
@@ -36,7 +36,7 @@ def updated(values: Any) -> Any:
 
 
 def is_labelled(values: Any) -> bool:
-    """Whether it is an array of xarray, whose axes have names and coordinates."""
+    """Returns whether it is an array of xarray, whose axes have names and coordinates."""
     return type(values).__module__.startswith("xarray.") and hasattr(values, "dims") and hasattr(values, "coords")
 
 

@@ -90,7 +90,7 @@ def arrays_of(estimator: ItkObject) -> dict[str, np.ndarray]:
 
 
 def write_maps(estimator: ItkObject, folder: Path) -> None:
-    """All of them appear, or none. Raises RuntimeError where one cannot be written."""
+    """Writes all maps, or none. Raises RuntimeError where one cannot be written."""
     import itk
 
     written: dict[Path, Path] = {}

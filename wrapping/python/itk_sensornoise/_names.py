@@ -83,7 +83,7 @@ def _of_pattern(pattern: str) -> list[str]:
 
 
 def _of_folder(folder: Path) -> list[str]:
-    """All files of a folder that are not hidden, if they are of one kind."""
+    """Returns all files of a folder that are not hidden, if they have one format."""
     files = [path for path in folder.iterdir() if path.is_file() and not path.name.startswith(".")]
     endings = Counter(path.suffix.lower() for path in files)
     if not files:

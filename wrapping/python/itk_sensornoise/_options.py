@@ -78,7 +78,7 @@ def integers(name: str, value: Any, count: int, expected: str) -> list[int]:
 
 
 def one_of(name: str, value: Any, choices: Sequence[Any]) -> Any:
-    """One of the choices."""
+    """Returns one of the choices."""
     expected = " or ".join(repr(choice) for choice in choices)
     if not any(isinstance(value, type(choice)) for choice in choices):
         raise refuse_type(name, value, expected)
@@ -88,7 +88,7 @@ def one_of(name: str, value: Any, choices: Sequence[Any]) -> Any:
 
 
 def true_or_false(name: str, value: Any, expected: str = "True or False") -> bool:
-    """A bool, also one of NumPy's."""
+    """Returns a bool, also of NumPy."""
     if not isinstance(value, (bool, np.bool_)):
         raise refuse_type(name, value, expected)
     return bool(value)

@@ -23,7 +23,7 @@ _ENDINGS = (".html", ".htm")
 
 
 def pack(text: str) -> bytes:
-    """Text of a tenth of the size, or less: a page is 100 kB to 1 MB."""
+    """Returns compressed text, a tenth of the size or less: a page is 100 kB to 1 MB."""
     return zlib.compress(text.encode())
 
 
@@ -168,7 +168,7 @@ def _target(path: FileName) -> Path:
 
 
 def write_file(target: Path, content: bytes) -> None:
-    """All of the file, or none of it: it takes its name when it is complete."""
+    """Writes the complete file, or none: it gets its name when it is complete."""
     temporary = target.parent / f".{target.name}.{os.getpid()}"
     try:
         temporary.write_bytes(content)

@@ -22,7 +22,7 @@ class Bar(Protocol):
 
 
 class _PlainBar:
-    """One line on standard error, where there is no tqdm."""
+    """Shows the progress in one line on standard error, without tqdm."""
 
     def __init__(self) -> None:
         self.n = 0

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""One measured quantity, with attributes that a type checker and an editor know."""
+"""Defines a measured quantity, with attributes that a type checker and an editor know."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -26,7 +26,7 @@ _MAKE, _MODEL, _TEXT = 271, 272, 2
 
 
 def is_raw(name: FileName) -> bool:
-    """Whether the name ends as a raw file's of a camera."""
+    """Returns whether the name ends as a raw file's of a camera."""
     return os.fsdecode(name).lower().endswith(ENDINGS)
 
 

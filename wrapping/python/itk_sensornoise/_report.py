@@ -80,7 +80,7 @@ class QuantityAttributes:
 
 
 class Report(QuantityAttributes, PagedRecord):
-    """All that was measured from one stack: the record "itk-sensornoise-report/1", the same names as in its JSON.
+    """Results of one stack: the record "itk-sensornoise-report/1", the same names as in its JSON.
 
         report.gain.value, report.gain.standard_error, report.gain.interval95, report.gain.status
         report["gain"]["value"]       the same, by the names of the JSON

@@ -104,7 +104,7 @@ class SensorNoiseSums:
             self._sums.Start(self._prepared.estimator, recognised or "")
 
     def _recognise(self, first_frame: Frame) -> str:
-        """The Bayer pattern of what is measured of the frames, as the levels of the first one tell."""
+        """Returns the Bayer pattern of the measured frames, by the levels of the first frame."""
         stack = self._opened(np.asarray(first_frame)[None], "first_frame")
         x, y, _ = self._prepared.corner
         width, height, _ = self._prepared.size
@@ -115,19 +115,19 @@ class SensorNoiseSums:
 
     @property
     def shape(self) -> tuple[int, int, int]:
-        """All frames (t, y, x)."""
+        """Returns the shape of all frames (t, y, x)."""
         return self._given["shape"]  # type: ignore[no-any-return]
 
     @property
     def passes_ended(self) -> int:
-        """How many passes have ended."""
+        """Number of passes that have ended."""
         with self._alone():
             return int(self._sums.GetPass())
 
     @property
     def is_done(self) -> bool:
-        """All passes have ended: there are no sums, but a report. There are three passes, and one more each where
-        frames are left out, as they are unlike the others, and where the illumination changes strongly."""
+        """Whether all passes have ended: then there are no sums, but a report. There are three passes, and one more each
+        where frames are left out, as they are unlike the others, and where the illumination changes strongly."""
         with self._alone():
             return bool(self._sums.IsDone())
 

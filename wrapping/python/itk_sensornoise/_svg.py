@@ -76,7 +76,7 @@ class Plot:
         return "".join([*parts, "</svg>"])
 
     def _numbers(self) -> tuple[list[float], list[float]]:
-        """All that the axes have to hold."""
+        """Returns all values that the axes have to contain."""
         xs: list[float] = []
         ys: list[float] = [] if self.level is None else [self.level]
         for points in self.points:

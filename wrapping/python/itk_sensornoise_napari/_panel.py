@@ -130,7 +130,7 @@ class Panel(QWidget):
 
     @property
     def is_busy(self) -> bool:
-        """Whether work goes on in the background."""
+        """Returns whether work goes on in the background."""
         return self._done is not None
 
     def say(self, text: str) -> None:

@@ -192,7 +192,7 @@ def _by_tasks(
 
 
 def _tasks_wanted(client: "distributed.Client", watch: Watch) -> int:
-    """How many tasks keep all workers busy; 2 where there is no worker yet. Raises RuntimeError where there is no
+    """Returns the number of tasks that keep all workers busy; 2 without a worker. Raises RuntimeError where there is no
     scheduler."""
     watch.require_scheduler()
     try:

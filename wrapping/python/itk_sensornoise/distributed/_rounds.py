@@ -206,7 +206,8 @@ class _Run:
             self.client.run(_worker.forget, self.name, wait=False, on_error="ignore")
 
     def _report_progress(self, done: int) -> None:
-        """How far it is, when so many tasks of the pass have read their frames. Merging takes the rest of its time."""
+        """Reports the progress when so many tasks of the pass have read their frames. Merging takes the rest of the
+        time."""
         if self.bar is not None:
             passes = self.sums.passes_ended + 0.9 * done / len(self.spans)
             percent = 100 if self.sums.is_done else min(99, int(100 * passes / 3))  # there may be more

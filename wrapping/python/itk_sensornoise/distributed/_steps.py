@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Steps in a quantity that was measured again and again, told from chance by the reports' own errors."""
+"""Finds steps in a quantity that was measured repeatedly, and distinguishes them from chance by the errors of the
+reports."""
 
 from itertools import pairwise
 from statistics import NormalDist
@@ -84,7 +85,7 @@ def _difference(values: np.ndarray, weights: np.ndarray, at: int) -> tuple[float
 
 
 def _places(values: np.ndarray, weights: np.ndarray, threshold: float) -> list[int]:
-    """Where the measurements step: the place of the largest difference, then those of both parts."""
+    """Returns the places of steps: the place of the largest difference, then the places in both parts."""
     scores = [
         abs(change / error) for change, error in (_difference(values, weights, at) for at in range(1, len(values)))
     ]

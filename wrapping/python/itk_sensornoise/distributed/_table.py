@@ -50,7 +50,7 @@ def column(path: str, unit: str, part: str = "") -> str:
 
 
 def columns() -> dict[str, type]:
-    """All columns in their order, and what they hold: str, int or float; each may be empty, None."""
+    """Returns all columns in their order, with their type: str, int or float; each may be empty, None."""
     kinds: dict[str, type] = {**dict.fromkeys(_TEXTS[:-1], str), **dict.fromkeys(_COUNTS, int)}
     for quantity in quantity_list():
         path, unit = quantity["path"], quantity["unit"]

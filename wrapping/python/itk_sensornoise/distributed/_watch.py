@@ -37,7 +37,7 @@ class Watch:
             raise self.gone()
 
     def workers(self) -> list[WorkerState]:
-        """Those that are there. Raises RuntimeError where there is no scheduler."""
+        """Returns the workers. Raises RuntimeError where there is no scheduler."""
         self.require_scheduler()
         try:
             return worker_states(self._client)
