@@ -247,8 +247,9 @@ TEST(SensorNoiseFrameEquations, OneIntensityLeavesTheIlluminationUnchanged)
   InitialNoiseModel model;
   model.interceptDn2 = 30.0;
   model.centreDn = 200.0;
-  ShiftInstruments instruments{ mean, mean, mean };
-  FrameSums        sums(FrameRegressors(frame, model, frame.usable, std::move(instruments)));
+  const std::vector<float> ones(pixels, 1.0F);
+  ShiftInstruments         instruments{ ones, ones, ones };
+  FrameSums                sums(FrameRegressors(frame, model, frame.usable, std::move(instruments)));
   for (std::size_t t = 0; t < 24; ++t)
   {
     sums.AddFrames(mean.data(), t, 1, SerialFor);

@@ -126,7 +126,7 @@ TEST(SensorNoiseFrameSums, InstrumentsEqualBruteForce)
     if (Frames().take[p] != 0)
     {
       const ShiftInstruments & own = sums.GetRegressors().GetInstruments();
-      const Eigen::Vector2d    instruments(own.x[p] * own.weight[p], own.y[p] * own.weight[p]);
+      const Eigen::Vector2d    instruments(double{ own.x[p] } * own.weight[p], double{ own.y[p] } * own.weight[p]);
       sum += (Frames().Frame(t)[p] - Frames().reference.mean[p]) * instruments;
       gram += instruments * Frames().ColumnsOf(p).transpose();
     }

@@ -200,8 +200,8 @@ TEST(SensorNoiseMotionSeries, CommonNoiseOfInstrumentsAndRegressorsIsSubtracted)
   impulse.geometry = { 41, 41, 1 };
   impulse.mean.assign(41 * 41, 0.0);
   impulse.mean[20 * 41 + 20] = 1.0;
-  const std::vector<double> response = SmoothedDerivative(impulse, StencilX, SerialFor);
-  double                    shared = 0.0; // sum over dx of response(-dx) weight(dx)
+  const std::vector<float> response = SmoothedDerivative(impulse, StencilX, SerialFor);
+  double                   shared = 0.0; // sum over dx of response(-dx) weight(dx)
   for (const StencilTap & tap : MotionStencils()[StencilX].taps)
   {
     shared += tap.weight * response[static_cast<std::size_t>((20 - tap.dy) * 41 + 20 - tap.dx)];
@@ -290,8 +290,8 @@ TEST(SensorNoiseMotionSeries, SmoothedDerivativeOfARampIsItsSlope)
     ramp.mean.push_back(3.0 * static_cast<double>(p % 50) - 2.0 * static_cast<double>(p / 50));
   }
   const std::size_t middle = 20 * 50 + 25;
-  EXPECT_NEAR(SmoothedDerivative(ramp, StencilX, SerialFor)[middle], 3.0, 1e-12);
-  EXPECT_NEAR(SmoothedDerivative(ramp, StencilY, SerialFor)[middle], -2.0, 1e-12);
+  EXPECT_NEAR(SmoothedDerivative(ramp, StencilX, SerialFor)[middle], 3.0, 1e-6);
+  EXPECT_NEAR(SmoothedDerivative(ramp, StencilY, SerialFor)[middle], -2.0, 1e-6);
 }
 
 TEST(SensorNoiseMotionSeries, SmoothedDerivativeIsThatOfTwoBoxesInEveryRow)
@@ -332,7 +332,7 @@ TEST(SensorNoiseMotionSeries, SmoothedDerivativeIsThatOfTwoBoxesInEveryRow)
   const auto smoothed = SmoothedDerivative(frame, StencilY, Threads(3));
   for (std::size_t p = 0; p < expected.size(); ++p)
   {
-    EXPECT_NEAR(smoothed[p], expected[p], 1e-12) << p;
+    EXPECT_FLOAT_EQ(smoothed[p], static_cast<float>(expected[p])) << p;
   }
   EXPECT_TRUE(HaveSameBits(smoothed, SmoothedDerivative(frame, StencilY, SerialFor)));
 }
@@ -346,7 +346,7 @@ TEST(SensorNoiseMotionSeries, InstrumentWeightIsTheInverseNoiseAndFallsToZeroWhe
   mask[hole] = 0;
   const auto   weight = InstrumentWeight(frames.reference, frames.model, mask, SerialFor);
   const double full = 1.0 / frames.model.NoiseVariance(500.0);
-  EXPECT_NEAR(weight[27 * Width + 50], full, 1e-12); // far away
+  EXPECT_NEAR(weight[27 * Width + 50], full, 1e-7 * full); // far away
   EXPECT_EQ(weight[hole], 0.0);
   for (std::size_t x = 20; x < 50; ++x)
   {

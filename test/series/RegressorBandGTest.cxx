@@ -48,8 +48,8 @@ ColumnsAt(const FrameRegressors & regressors, std::size_t p)
   {
     columns[2 + k] = 1.0 / noise * derivatives[k];
   }
-  columns[FrameColumns] = instruments.x[p] * instruments.weight[p];
-  columns[FrameColumns + 1] = instruments.y[p] * instruments.weight[p];
+  columns[FrameColumns] = double{ instruments.x[p] } * instruments.weight[p];
+  columns[FrameColumns + 1] = double{ instruments.y[p] } * instruments.weight[p];
   columns[FrameColumns + 2] = ofCell;
   columns[FrameColumns + 3] = ofCell * level;
   return columns;

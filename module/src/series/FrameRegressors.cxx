@@ -110,25 +110,27 @@ template <typename TSource>
 BoxedRows(TSource, const FrameGeometry &, std::size_t, std::size_t, std::size_t) -> BoxedRows<TSource>;
 } // namespace
 
-std::vector<double>
+std::vector<float>
 SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelFor & parallelFor)
 {
   const std::size_t width = frame.geometry.width;
   const std::size_t height = frame.geometry.height;
   const std::size_t radius = InSeries.instrumentRadius;
-  auto              smoothed = MakeMap<double>(frame.mean.size(), parallelFor);
+  auto              smoothed = MakeMap<float>(frame.mean.size(), parallelFor);
   ForBoxBands(height, parallelFor, [&](std::size_t first, std::size_t last) {
     BoxedRows once(DerivativeRows(frame, k), frame.geometry, radius, first, last);
     BoxRows   twice(std::move(once), width, height, radius, first, last);
     for (std::size_t y = first; y < last; ++y)
     {
-      std::copy_n(twice.Next(), width, smoothed.data() + y * width);
+      const double * const row = twice.Next();
+      std::transform(
+        row, row + width, smoothed.data() + y * width, [](double value) { return static_cast<float>(value); });
     }
   });
   return smoothed;
 }
 
-std::vector<double>
+std::vector<float>
 InstrumentWeight(const ReferenceFrame &            frame,
                  const InitialNoiseModel &         model,
                  const std::vector<std::uint8_t> & mask,
@@ -165,7 +167,7 @@ InstrumentWeight(const ReferenceFrame &            frame,
   });
   const double side = 2.0 * static_cast<double>(radius) + 1.0;
   const double reachSide = 2.0 * static_cast<double>(reach) + 1.0;
-  auto         weight = MakeMap<double>(mask.size(), parallelFor);
+  auto         weight = MakeMap<float>(mask.size(), parallelFor);
   ForBoxBands(height, parallelFor, [&](std::size_t first, std::size_t last) {
     BoxRows completes(RowsOf(complete, width), width, height, reach, first, last);
     BoxRows noises(noiseRows(), width, height, radius, first, last);
@@ -173,7 +175,7 @@ InstrumentWeight(const ReferenceFrame &            frame,
     {
       const double * const near = completes.Next();
       std::transform(near, near + width, noises.Next(), weight.data() + y * width, [=](double whole, double smooth) {
-        return whole * (side * side / (reachSide * reachSide * smooth));
+        return static_cast<float>(whole * (side * side / (reachSide * reachSide * smooth)));
       });
     }
   });

@@ -29,23 +29,25 @@ inline constexpr std::size_t GradientClasses = 6;
 
 /** Returns the derivative of the mean by stencil \a k, smoothed, for all pixels [DN/pixel for the first derivatives].
  */
-SensorNoise_EXPORT std::vector<double>
+SensorNoise_EXPORT std::vector<float>
 SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelFor & parallelFor);
 
 /** Returns the weights of the instruments: the inverse noise, smoothed, and falling smoothly to 0 where pixels are
  * missing from \a mask. Rough weights, or an edge that is half missing, would add short wavelengths. */
-SensorNoise_EXPORT std::vector<double>
+SensorNoise_EXPORT std::vector<float>
 InstrumentWeight(const ReferenceFrame &            frame,
                  const InitialNoiseModel &         model,
                  const std::vector<std::uint8_t> & mask,
                  const ParallelFor &               parallelFor);
 
-/** Instruments for the shifts along x and y: derivatives of long wavelengths, and their weights (see SolveShifts()). */
+/** Instruments for the shifts along x and y: derivatives of long wavelengths, and their weights (see SolveShifts()).
+ * Single precision is enough: an instrument that is off by a factor of 1 + 2^-24 is as valid, because all sums are made
+ * of the same numbers. */
 struct ShiftInstruments
 {
-  std::vector<double> x;      ///< smoothed derivative along x [DN/pixel]
-  std::vector<double> y;      ///< smoothed derivative along y [DN/pixel]
-  std::vector<double> weight; ///< see InstrumentWeight() [1/DN^2]
+  std::vector<float> x;      ///< smoothed derivative along x [DN/pixel]
+  std::vector<float> y;      ///< smoothed derivative along y [DN/pixel]
+  std::vector<float> weight; ///< see InstrumentWeight() [1/DN^2]
 };
 
 /** Makes the instruments over the pixels of \a mask. */
@@ -61,7 +63,7 @@ MakeShiftInstruments(const ReferenceFrame &            frame,
  * Column 0 is 1 and column 1 the mean minus the centre of the model, for conditioning. The derivatives of the mean
  * follow. The weight of these columns is the inverse noise of the initial model. Then follow two instruments for the
  * shifts, and 1 and the mean again, with weights for the sums of cells. Each pixel has a class, from flat to rough
- * surroundings. Memory: 25 bytes per pixel. */
+ * surroundings. Memory: 13 bytes per pixel. */
 class SensorNoise_EXPORT FrameRegressors
 {
 public:

@@ -128,13 +128,13 @@ public:
   Fill(const FrameRegressors & regressors, std::size_t first, std::size_t last)
   {
     const ShiftInstruments & instruments = regressors.GetInstruments();
-    const double * const     weights = instruments.weight.data() + first;
-    const double * const     xs = instruments.x.data() + first;
-    const double * const     ys = instruments.y.data() + first;
+    const float * const      weights = instruments.weight.data() + first;
+    const float * const      xs = instruments.x.data() + first;
+    const float * const      ys = instruments.y.data() + first;
     for (std::size_t i = 0; i < last - first; ++i)
     {
       const bool   serves = regressors.ClassOf(first + i) != FrameRegressors::Unused;
-      const double weight = serves ? weights[i] : 0.0;
+      const double weight = serves ? double{ weights[i] } : 0.0;
       const double x = serves ? xs[i] * weight : 0.0;
       const double y = serves ? ys[i] * weight : 0.0;
       m_Terms[0][i] = weight;

@@ -143,7 +143,7 @@ RegressorBand::FillWeights()
   const double * const     level = m_Regressors.GetFrame().neighbourMean.data() + m_First;
   const double * const     gx = this->RowOf(2 + StencilX);
   const double * const     gy = this->RowOf(2 + StencilY);
-  const double * const     weight = instruments.weight.data() + m_First;
+  const float * const      weight = instruments.weight.data() + m_First;
   double * const           ofPixel = this->RowOf(Weight);
   double * const           ofCell = this->RowOf(CellWeight);
   // Motion that the derivatives do not explain is noise in the local changes of the illumination.
@@ -154,8 +154,8 @@ RegressorBand::FillWeights()
     ofPixel[i] = 1.0 / noise;
     ofCell[i] = 1.0 / (noise + motionLeft * model.MotionVariance(gx[i], gy[i]));
   }
-  const auto weigh = [&](const std::vector<double> & instrument, double * weighted) {
-    const double * const own = instrument.data() + m_First;
+  const auto weigh = [&](const std::vector<float> & instrument, double * weighted) {
+    const float * const own = instrument.data() + m_First;
     std::transform(own, own + m_Pixels, weight, weighted, std::multiplies<double>());
   };
   weigh(instruments.x, this->RowOf(InstrumentX));
