@@ -87,7 +87,7 @@ MakeGammaEntry(const char * name, double gamma, double top)
 StressRecipeEntry
 MakeCoarseEntry(const char * name, double readNoiseDn)
 {
-  return { { name, "8-bit codes, read noise (hundredths of DN in the name) below the code step" },
+  return { { name, "8-bit codes, read noise (hundredths of DN in the name) below the quantization step" },
            [=](StressRecipe & recipe) {
              recipe.settings.camera = { 3000.0, 0.07, 10.0, readNoiseDn };
              recipe.settings.bitDepth = 8;

@@ -82,7 +82,8 @@ TEST(TemporalStatisticsImageFilter, WrongInputIsRefusedWithTheNumbers)
   EXPECT_SAYS(ErrorOf(StatisticsOf<StackType>(ConstantImage<StackType>({ { 8, 8, 1 } }, 5))), "has 1 frame");
   const auto filter = StatisticsOf<StackType>(ConstantImage<StackType>({ { 8, 8, 3 } }, 300));
   filter->SetBitDepth(8);
-  EXPECT_SAYS(ErrorOf(filter), "the data hold the level 300 DN, but 8 bits with a code step of 1 DN end at 255 DN");
+  EXPECT_SAYS(ErrorOf(filter),
+              "the data hold the level 300 DN, but 8 bits with a quantization step of 1 DN end at 255 DN");
   EXPECT_SAYS(ErrorOf(filter), "the data hold the level 300 DN");
   filter->SetBitDepth(17);
   EXPECT_SAYS(ErrorOf(filter), "the bit depth is 17; expected 1 to 16");

@@ -173,7 +173,7 @@ TEST(SensorNoiseComparison, ThePageSaysWhatEachReportIs)
                                    "changed by more than its errors: 10 standard errors",
                                    "Camera &lt;X&gt;, ISO 400, 0.01 s, 50 frames",
                                    "warnings: few-frames",
-                                   "not judged: there are no errors",
+                                   "not tested: there are no errors",
                                    "not compared: no value (failed)",
                                    ">&lt; 1.25 (upper limit)</text>",
                                    ">not identifiable: at most 120</text>",

@@ -57,7 +57,7 @@ TEST_F(EstimateCompareTool, MosaicsHaveARowPerChannelAndMethodsWithoutErrorsNoVe
   std::filesystem::create_directory(Path("night"));
   std::filesystem::copy(Path("published.json"), Path("night/published.json"));
   ASSERT_EQ(Run("--compare mosaic.json published.json night/published.json --plot p.html"), 0) << m_Message;
-  for (const char * const part : { "1 mosaic R", "4 mosaic B", "5 published<", "6 night/published", "not judged" })
+  for (const char * const part : { "1 mosaic R", "4 mosaic B", "5 published<", "6 night/published", "not tested" })
   {
     EXPECT_TRUE(PageHas(part)) << part;
   }

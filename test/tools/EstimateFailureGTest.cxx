@@ -98,7 +98,7 @@ TEST_F(EstimateFailureTool, UnknownAndMalformedOptionsAreRefused)
   IsRefused(stack + " --bit-depth many", { "--bit-depth", "many" });
   IsRefused(stack + " --clip 100", { "--clip", "holds 1 number;", "expected LOW,HIGH" });
   IsRefused(stack + " --clip 100,50", { "--clip", "100 and 50 DN", "expected low < high" });
-  IsRefused(stack + " --step 0", { "--step", "the code step is 0 DN", "positive number" });
+  IsRefused(stack + " --step 0", { "--step", "the quantization step is 0 DN", "positive number" });
   IsRefused(stack + " --rolling-shutter never", { "--rolling-shutter", "never" });
   IsRefused(stack + " --rolling-shutter 0", { "--rolling-shutter", "0 rows", "positive number" });
   IsRefused(stack + " --threads 0", { "--threads", "0", "1 to 1024" });

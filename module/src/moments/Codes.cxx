@@ -68,7 +68,7 @@ ValidateCodeSettings(const CodeSettings & codes)
   }
   if (codes.quantisationStepDn && !(*codes.quantisationStepDn > 0.0 && *codes.quantisationStepDn <= LargestStepDn))
   {
-    throw std::invalid_argument("the code step is " + Text(*codes.quantisationStepDn) +
+    throw std::invalid_argument("the quantization step is " + Text(*codes.quantisationStepDn) +
                                 " DN; expected a positive number, at most " + Text(LargestStepDn));
   }
 }
@@ -163,7 +163,7 @@ SetBitDepth(std::int32_t highest, double step, const CodeSettings & settings, Co
   if (highest > top)
   {
     throw std::invalid_argument("the data hold the level " + std::to_string(highest) + " DN, but " +
-                                std::to_string(*range.bitDepth) + " bits with a code step of " + Text(step) +
+                                std::to_string(*range.bitDepth) + " bits with a quantization step of " + Text(step) +
                                 " DN end at " + Text(top) + " DN; give a larger bit depth");
   }
   return top;

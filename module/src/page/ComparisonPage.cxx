@@ -386,7 +386,7 @@ ToHtml(const Comparison & comparison)
     body += QuantitySection(comparison, quantity);
   }
   return Page("Noise of image sensors, compared",
-              body + Heading("h2", "How changes are judged") + "<p class=\"soft\">" + Escaped(RuleText(comparison)) +
+              body + Heading("h2", "How changes are tested") + "<p class=\"soft\">" + Escaped(RuleText(comparison)) +
                 "</p>\n<p class=\"soft\">ITKSensorNoise " + Escaped(GetModuleVersion()) + "</p>\n",
               "");
 }

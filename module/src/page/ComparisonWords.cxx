@@ -162,7 +162,7 @@ VerdictOf(const Comparison & comparison)
   }
   const bool hasValues = NumberOf(comparison, [](const Change & change) { return change.difference.has_value(); }) > 0;
   return { Severity::Error,
-           hasValues ? "The differences cannot be judged: of no quantity do two reports have errors."
+           hasValues ? "The differences cannot be tested: no quantity has errors in two reports."
                      : "Nothing can be compared: of no quantity do two reports have a value." };
 }
 
@@ -204,7 +204,7 @@ VerdictText(const Comparison & comparison, const ComparedQuantity & quantity, st
     case ChangeKind::NoValue:
       return WhyNoValue(quantity, comparison, row);
     case ChangeKind::NoErrors:
-      return "not judged: there are no errors" + same;
+      return "not tested: there are no errors" + same;
     case ChangeKind::Within:
       return "within its errors: " + errors + same;
     case ChangeKind::Small:

@@ -119,7 +119,7 @@ Emva1288Rows(const Report & report)
     { "\u03BC_y.dark", "dark signal", Found(report.offset, "DN"), "offset \u03BC" },
     { "\u03C3_d", "dark noise", Found(report.readNoiseElectrons, "e-"), "read noise \u03C3 / g" },
     { "\u03C3_y.dark", "dark noise", Computed(computed.darkNoiseDn, "DN"), "\u03C3 and rounding, added as squares" },
-    { "\u03C3_q", "quantisation noise", Computed(computed.quantisationDn, "DN"), "code step / \u221A12" },
+    { "\u03C3_q", "quantisation noise", Computed(computed.quantisationDn, "DN"), "quantization step / \u221A12" },
     { "\u03BC_e.sat", "saturation capacity", Computed(computed.saturationElectrons, electrons), clip },
     { "\u03BC_e.min",
       "sensitivity threshold",

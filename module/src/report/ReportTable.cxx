@@ -106,7 +106,7 @@ DescribeCodes(const Report & report)
   }
   if (report.quantisationStepDn)
   {
-    text += Format(", code step %g DN", *report.quantisationStepDn);
+    text += Format(", quantization step %g DN", *report.quantisationStepDn);
   }
   if (report.clipLowDn || report.clipHighDn)
   {

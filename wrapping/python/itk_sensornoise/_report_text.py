@@ -104,7 +104,7 @@ def _counted(record: Mapping[str, Any]) -> str:
 def _codes(record: Mapping[str, Any]) -> str:
     text = f", {record['bit_depth']} bits ({record['bit_depth_source']})" if record["bit_depth"] is not None else ""
     step, low, high = (record[name] for name in ("quantisation_step", "clip_low", "clip_high"))
-    text += f", code step {step:g} DN" if step is not None else ""
+    text += f", quantization step {step:g} DN" if step is not None else ""
     if low is not None or high is not None:
         text += f", levels {shortened(low)} to {shortened(high)} DN ({record['clip_source']})"
     return text
