@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "correlation/LagSums.h"
-#include "correlation/TotalCovariance.h"
+#include "correlation/AutocovarianceFit.h"
 #include "helpers/CorrelationTestHelper.h"
 #include "helpers/StackTestHelper.h"
 
@@ -153,7 +153,7 @@ TEST(SensorNoiseLagSums, RecursiveFilterCorrelatesNeighbouringFrames)
   // R = (2, 1), mixed by the subtraction of the mean.
   const auto            found = Measure(mixed, { { 0, 0, 1 } });
   const Eigen::MatrixXd mean = Eigen::MatrixXd::Constant(Frames, 1, 1.0 / std::sqrt(1.0 * Frames));
-  const Eigen::Vector2d expected = TemporalMixing(mean, 1) * Eigen::Vector2d(2.0, 1.0);
+  const Eigen::Vector2d expected = TemporalMixing(mean, 1, 1) * Eigen::Vector2d(2.0, 1.0);
   ExpectFigure(found, 0, expected(1) / expected(0), 0.006);
 }
 

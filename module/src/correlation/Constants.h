@@ -138,6 +138,12 @@ struct CorrelationConstants
    * that keeps three quarters of the previous frame, less than 0.5 % remains after 20 frames. */
   double smallTimeCoefficient{ 0.005 };
   int    mostTimeLags{ 24 };
+  /** Largest misfit of white noise with a tail, over the misfit of white noise alone [1]: recursive filters of first
+   * order have none, of second order 0.07, and means over 4 or 5 frames 0.18. */
+  double largestTailMisfit{ 0.03 };
+  /** Largest ratio of successive autocovariances of a tail [1], of a filter that keeps 95 % of the previous frame:
+   * slower noise is hardly distinguishable from the temporal components. */
+  double largestTailRatio{ 0.95 };
   /** Number of frames after which the first frame, which a recursive filter leaves unfiltered, has no influence. At
    * most one in \a firstFramesOneIn frames is left out for it. Chosen empirically. */
   std::size_t firstFrames{ 8 };

@@ -295,13 +295,11 @@ CorrelationSums::StandardErrorsInBins(const Lags & lags) const
 }
 
 Eigen::VectorXd
-CorrelationSums::Autocovariance(const TileSums &           sums,
-                                const Eigen::MatrixXd &    mixing,
-                                std::optional<std::size_t> bin) const
+CorrelationSums::ProductsOfFrames(const TileSums & sums, std::optional<std::size_t> bin) const
 {
   const auto      sumsOf = [&](std::size_t lag) { return bin ? sums.lags[lag].bins.at(*bin) : sums.lags[lag].Total(); };
-  Eigen::VectorXd found(mixing.rows());
   const Lags      lags = this->TimeLags();
+  Eigen::VectorXd found(static_cast<Eigen::Index>(lags.size()) + 1);
   for (Eigen::Index j = 0; j < found.size(); ++j)
   {
     const PairSums total = sumsOf(j == 0 ? 0 : lags[static_cast<std::size_t>(j) - 1]);
@@ -316,7 +314,7 @@ CorrelationSums::Autocovariance(const TileSums &           sums,
     const PairSums own = this->WithoutUnequalFrames(same, 0);
     found /= 1.0 - Ratio(same.covariance - own.covariance, same.pairs);
   }
-  return mixing.fullPivLu().solve(Eigen::VectorXd(m_Residuals.GetDof() * found));
+  return m_Residuals.GetDof() * found;
 }
 
 namespace

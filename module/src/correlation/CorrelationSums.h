@@ -158,12 +158,10 @@ public:
   /** Returns the standard errors of CovarianceInBins() for all tiles together. */
   Eigen::VectorXd
   StandardErrorsInBins(const Lags & lags) const;
-  /** Returns the temporal autocovariances at the zero lag and at the temporal lags, relative to the typical variance
-   * [1], of all pixels or of the pixels of intensity bin \a bin. \a mixing is the matrix of TemporalMixing(). */
+  /** Returns the sums over time of the products of frames at the zero lag and at the temporal lags, for
+   * AutocovarianceFit, relative to the typical variance [1], of all pixels or of the pixels of intensity bin \a bin. */
   Eigen::VectorXd
-  Autocovariance(const TileSums &           sums,
-                 const Eigen::MatrixXd &    mixing,
-                 std::optional<std::size_t> bin = std::nullopt) const;
+  ProductsOfFrames(const TileSums & sums, std::optional<std::size_t> bin = std::nullopt) const;
 
 private:
   void

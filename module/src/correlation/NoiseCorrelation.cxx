@@ -4,6 +4,7 @@
 
 #include "base/Eigen.h"
 #include "base/Constants.h"
+#include "correlation/AutocovarianceFit.h"
 #include "correlation/Constants.h"
 #include "correlation/CorrelationSums.h"
 #include "correlation/TotalCovariance.h"
@@ -59,7 +60,7 @@ FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
   const CorrelationSums::Lags space = sums.Ring(1, AllRings);
   const CorrelationSums::Lags within = sums.Ring(1, found.reach);
   const CorrelationSums::Lags time = sums.TimeLags();
-  const Eigen::MatrixXd       mixing = TemporalMixing(sums.GetResiduals().GetBasis(), time.size());
+  const AutocovarianceFit     fit(sums.GetResiduals().GetBasis(), time.size());
   const JackknifeEstimate     estimate = Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
     const CommonNoise   common = FindCommonNoise(tiles.shared);
     std::vector<double> figures{ common.rows[0], common.columns[0] };
@@ -79,7 +80,7 @@ FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
     {
       figures.push_back(sums.CoefficientOf(tiles, common, k));
     }
-    const Eigen::VectorXd covariance = sums.Autocovariance(tiles, mixing);
+    const Eigen::VectorXd covariance = fit.Autocovariances(sums.ProductsOfFrames(tiles));
     for (Eigen::Index j = 1; j < covariance.size(); ++j)
     {
       figures.push_back(covariance(j) / covariance(0));

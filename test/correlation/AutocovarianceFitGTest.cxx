@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "correlation/TotalCovariance.h"
+#include "correlation/AutocovarianceFit.h"
 #include "base/Eigen.h"
 #include "simulation/Random.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <gtest/gtest.h>
@@ -60,7 +61,7 @@ TEST(SensorNoiseTemporalMixing, IsTheSumAlongTheDiagonalsOfTheProjectedShift)
   constexpr Eigen::Index lags = 7;
   const Eigen::MatrixXd  basis = BasisWithConstant(17, 3);
   const Eigen::MatrixXd  projector = ProjectorOf(basis);
-  const Eigen::MatrixXd  mixing = TemporalMixing(basis, lags);
+  const Eigen::MatrixXd  mixing = TemporalMixing(basis, lags, lags);
   ASSERT_EQ(mixing.rows(), lags + 1);
   ASSERT_EQ(mixing.cols(), lags + 1);
   for (Eigen::Index k = 0; k <= lags; ++k)
@@ -73,14 +74,14 @@ TEST(SensorNoiseTemporalMixing, IsTheSumAlongTheDiagonalsOfTheProjectedShift)
 TEST(SensorNoiseTemporalMixing, WhiteNoiseMakesTheTracesOfTheProjector)
 {
   const Eigen::MatrixXd basis = BasisWithConstant(20, 4);
-  const Eigen::VectorXd column = TemporalMixing(basis, 6).col(0);
+  const Eigen::VectorXd column = TemporalMixing(basis, 6, 6).col(0);
   EXPECT_NEAR(column(0), 20.0 - 5.0, 1e-12);
   EXPECT_LT((column - DiagonalSums(ProjectorOf(basis), 6)).norm(), 1e-12);
 }
 
 TEST(SensorNoiseTemporalMixing, WithoutSeriesLagsDoNotMix)
 {
-  const Eigen::MatrixXd mixing = TemporalMixing(Eigen::MatrixXd(9, 0), 4);
+  const Eigen::MatrixXd mixing = TemporalMixing(Eigen::MatrixXd(9, 0), 4, 4);
   for (Eigen::Index d = 0; d <= 4; ++d)
   {
     for (Eigen::Index k = 0; k <= 4; ++k)
@@ -97,7 +98,7 @@ TEST(SensorNoiseTemporalMixing, AutocovariancesOfAShortFilterAreRecoveredExactly
   const Eigen::MatrixXd projector = ProjectorOf(basis);
   const Eigen::MatrixXd covariance = 14.0 * BothWays(24, 0) + 8.0 * BothWays(24, 1) + 3.0 * BothWays(24, 2);
   const Eigen::VectorXd found =
-    TemporalMixing(basis, 4).fullPivLu().solve(DiagonalSums(projector * covariance * projector, 4));
+    TemporalMixing(basis, 4, 4).fullPivLu().solve(DiagonalSums(projector * covariance * projector, 4));
   const Eigen::VectorXd expected = (Eigen::VectorXd(5) << 14.0, 8.0, 3.0, 0.0, 0.0).finished();
   EXPECT_LT((found - expected).norm(), 1e-10);
 }
@@ -109,7 +110,7 @@ TEST(SensorNoiseTemporalMixing, AutocovariancesOfARecursiveFilterAreRecoveredFro
   constexpr Eigen::Index lags = 12; // 0.5^13 = 1e-4 of the variance is left beyond
   constexpr Eigen::Index batches = 40;
   const Eigen::MatrixXd  basis = BasisWithConstant(frames, 3);
-  const auto             mixing = TemporalMixing(basis, lags).fullPivLu();
+  const auto             mixing = TemporalMixing(basis, lags, lags).fullPivLu();
   Eigen::MatrixXd        found(4, batches);
   for (Eigen::Index batch = 0; batch < batches; ++batch)
   {
@@ -130,4 +131,48 @@ TEST(SensorNoiseTemporalMixing, AutocovariancesOfARecursiveFilterAreRecoveredFro
     EXPECT_NEAR(mean, std::pow(a, k), 4.5 * error + 1e-3) << k;
     EXPECT_LT(error, 0.01) << k;
   }
+}
+
+namespace
+{
+/** Returns the sums along the diagonals of the projected covariance with these autocovariances. */
+Eigen::VectorXd
+ProjectedSums(const Eigen::MatrixXd & basis, const Eigen::VectorXd & autocovariances, Eigen::Index lags)
+{
+  const Eigen::MatrixXd covariance = Eigen::MatrixXd::NullaryExpr(
+    basis.rows(), basis.rows(), [&](Eigen::Index s, Eigen::Index t) { return autocovariances(std::abs(s - t)); });
+  const Eigen::MatrixXd projector = ProjectorOf(basis);
+  return DiagonalSums(projector * covariance * projector, lags);
+}
+} // namespace
+
+TEST(SensorNoiseAutocovarianceFit, TotalOfARecursiveFilterAndWhiteNoiseIsExactInAShortBurst)
+{
+  constexpr double       q = 0.7;
+  constexpr double       white = 0.5;
+  constexpr Eigen::Index frames = 24;
+  constexpr Eigen::Index lags = 8;
+  const Eigen::MatrixXd  basis = BasisWithConstant(frames, 2);
+  Eigen::VectorXd        autocovariances = Eigen::VectorXd::NullaryExpr(
+    frames, [](Eigen::Index k) { return std::pow(q, static_cast<double>(k)) + (k == 0 ? white : 0.0); });
+  const Eigen::VectorXd sums = ProjectedSums(basis, autocovariances, lags);
+  AutocovarianceFit     fit(basis, lags);
+  const double          truth = (1.0 + q) / (1.0 - q) + white;
+  EXPECT_LT(fit.Total(sums), 0.95 * truth); // the projection has removed slow noise
+  fit.FindTail(sums);
+  ASSERT_TRUE(fit.HasTail());
+  EXPECT_NEAR(fit.Total(sums), truth, 1e-9);
+  EXPECT_LT((fit.Autocovariances(sums) - autocovariances.head(lags + 1)).norm(), 1e-9);
+}
+
+TEST(SensorNoiseAutocovarianceFit, MeansOverFramesHaveNoTail)
+{
+  const Eigen::MatrixXd basis = BasisWithConstant(40, 2);
+  const Eigen::VectorXd autocovariances =
+    Eigen::VectorXd::NullaryExpr(40, [](Eigen::Index k) { return std::max(0.0, 5.0 - static_cast<double>(k)); });
+  const Eigen::VectorXd sums = ProjectedSums(basis, autocovariances, 7);
+  AutocovarianceFit     fit(basis, 7);
+  fit.FindTail(sums);
+  EXPECT_FALSE(fit.HasTail());
+  EXPECT_NEAR(fit.Total(sums), 25.0, 1e-9);
 }
