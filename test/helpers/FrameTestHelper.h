@@ -137,7 +137,7 @@ struct SyntheticFrames
   {
     ShiftInstruments instruments{ SmoothedDerivative(reference, StencilX, parallelFor),
                                   SmoothedDerivative(reference, StencilY, parallelFor),
-                                  std::vector<double>(this->Pixels(), 1e-3) };
+                                  std::vector<float>(this->Pixels(), 1e-3F) };
     return FrameSums(FrameRegressors(reference, model, take, std::move(instruments)), parallelFor);
   }
   FrameSums
