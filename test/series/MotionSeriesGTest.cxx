@@ -221,7 +221,8 @@ TEST(SensorNoiseMotionSeries, CommonNoiseOfInstrumentsAndRegressorsIsSubtracted)
   const Eigen::MatrixX2d expected = rest;
   // The product with a third difference is as large as with a first difference, with the opposite sign.
   gradient.diagonal().array() -= (1.0 - third) * shared * noise.variance / static_cast<double>(Frames);
-  EXPECT_LT((shifts->coefficients * gradient.transpose() - expected).norm(), 1e-9 * expected.norm());
+  // The weights of the smoothed derivative have single precision.
+  EXPECT_LT((shifts->coefficients * gradient.transpose() - expected).norm(), 1e-7 * expected.norm());
 }
 
 namespace

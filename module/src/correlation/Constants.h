@@ -139,8 +139,8 @@ struct CorrelationConstants
   double smallTimeCoefficient{ 0.005 };
   int    mostTimeLags{ 24 };
   /** Largest misfit of white noise with a tail, over the misfit of white noise alone [1]: recursive filters of first
-   * order have none, of second order 0.07, and means over 4 or 5 frames 0.18. */
-  double largestTailMisfit{ 0.03 };
+   * order have 0.00 to 0.05 by the noise of small frames, means over 4 or 5 frames at least 0.18. */
+  double largestTailMisfit{ 0.1 };
   /** Largest ratio of successive autocovariances of a tail [1], of a filter that keeps 95 % of the previous frame:
    * slower noise is hardly distinguishable from the temporal components. */
   double largestTailRatio{ 0.95 };

@@ -3,6 +3,7 @@
 #include "pixels/IlluminationResponses.h"
 
 #include "base/ChiSquare.h"
+#include "base/Constants.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/Constants.h"
 #include "pixels/VarianceLine.h"
@@ -216,15 +217,28 @@ FindLocalOffset(const IlluminationResponses & data, const ParallelFor & parallel
       fits[trial] = FitTiles(tiles, data);
     }
   });
-  std::optional<LocalOffset> best;
+  std::vector<LocalOffset> found;
   for (const std::optional<LocalOffset> & fit : fits)
   {
-    if (fit && (!best || fit->standardError < best->standardError))
+    if (fit && std::isfinite(fit->standardError))
     {
-      best = fit;
+      found.push_back(*fit);
     }
   }
-  return best;
+  std::sort(found.begin(), found.end(), [](const LocalOffset & a, const LocalOffset & b) {
+    return a.standardError < b.standardError;
+  });
+  for (auto fit = found.begin(); fit != found.end(); ++fit)
+  {
+    const bool agrees = std::all_of(fit + 1, found.end(), [&fit](const LocalOffset & other) {
+      return std::abs(fit->offset - other.offset) <= Significance.hint * other.standardError;
+    });
+    if (agrees)
+    {
+      return *fit;
+    }
+  }
+  return std::nullopt;
 }
 
 } // namespace sensornoise

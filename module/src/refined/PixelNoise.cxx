@@ -370,7 +370,7 @@ MeasurePixelNoise(ResidualSquares                          squares,
                                     projected,
                                     scene,
                                     { series->line.gamma, offsetDn, zeroDn },
-                                    series->local.series.cols() > 0 || allowed.lines.isTakenOff };
+                                    series->local.IsLocal() || allowed.lines.isTakenOff };
   const auto            allowForFrames = [&] {
     noise.variance.fromFrames = LineOfFrames(noise.variance, comparison, parallelFor);
     if (comparison.AreUnequal())

@@ -302,12 +302,11 @@ RefinedPasses<TPixel>::EndFrameSums()
   const MemoryNeed  need{ m_Geometry.Pixels(), m_Distinct.Count() };
   const double      left = m_Settings.memoryLimitBytes - need.BesideProjections();
   const std::size_t slabs = PixelProjections::SlabsWithin(left, m_Series->basis.Size(), width);
-  m_Projections.emplace(
-    m_Geometry,
-    FrameSample::Of<TPixel>(m_Geometry, m_Distinct.Count(), m_ParallelFor),
-    m_Series->basis,
-    PixelProjections::Options{ slabs, m_Series->local.series.cols() > 0, m_IsWithoutMerging, width },
-    m_ParallelFor);
+  m_Projections.emplace(m_Geometry,
+                        FrameSample::Of<TPixel>(m_Geometry, m_Distinct.Count(), m_ParallelFor),
+                        m_Series->basis,
+                        PixelProjections::Options{ slabs, m_Series->local.IsLocal(), m_IsWithoutMerging, width },
+                        m_ParallelFor);
   m_Projections->SetLayout(m_Layout);
 }
 
@@ -316,7 +315,7 @@ template <typename TPixel>
 bool
 RefinedPasses<TPixel>::EndProjections()
 {
-  const bool isIlluminationLocal = m_Series->local.series.cols() > 0; // the report needs the coordinates then
+  const bool isIlluminationLocal = m_Series->local.IsLocal(); // the report needs the coordinates then
   if (m_Noise)
   {
     m_Projections->EndIlluminationPass(m_Scene->frame);

@@ -57,7 +57,7 @@ WarnOfScene(Report & report, const RefinedResults & found)
                   percent(found.lines.pixels) + " of the pixels, without what each " + found.lines.NameOfLine() +
                   " of a frame shares");
   }
-  else if (found.series.local.series.cols() > 0)
+  else if (found.series.local.IsLocal())
   {
     const auto count = std::to_string(found.series.local.series.cols());
     if (found.reestimated.isOffsetDrift)
@@ -67,10 +67,11 @@ WarnOfScene(Report & report, const RefinedResults & found)
     }
     else
     {
+      const std::string components = "(" + count + " further temporal component" + (count == "1" ? "" : "s") + ")";
+      const std::string size = "(its flicker differs by " + Percent(found.series.local.unevenness) + " rms)";
       report.Warn(WarningCode::LocalLight,
-                  "the illumination changes differently over the frame (" + count + " further temporal component" +
-                    (count == "1" ? "" : "s") +
-                    "): a rolling shutter, several lamps or bleaching, which gain and intercept allow for");
+                  "the illumination changes differently over the frame " + (count == "0" ? size : components) +
+                    ": a rolling shutter, several lamps or bleaching, which gain and intercept allow for");
     }
   }
   if (found.lines.remainingVariance > 0.0)

@@ -85,7 +85,7 @@ ReestimateComponents(const FrameSums &        sums,
                                    sums.NoiseOfInstruments(variance.line.gain, variance.line.intercept),
                                    reestimated.line.gamma,
                                    reestimated.line.offset);
-  if (series.local.series.cols() > 0)
+  if (series.local.IsLocal())
   {
     const IlluminationResponses illumination{
       sums.GetFrame(), coordinates,     series.basis.NumberOfIlluminationFactors(), variance.line, variance.mask,

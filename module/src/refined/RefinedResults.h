@@ -148,7 +148,7 @@ struct RefinedResults
   bool
   HasLocalIllumination() const
   {
-    return series.local.series.cols() > 0 && !reestimated.isOffsetDrift;
+    return series.local.IsLocal() && !reestimated.isOffsetDrift;
   }
 
 private:

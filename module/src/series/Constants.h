@@ -98,6 +98,9 @@ struct SeriesConstants
    * Chosen empirically. Half: spatially correlated noise is taken for illumination, and gains of smoothed frames are 2
    * % low; twice: the same results. */
   double edgeOfNoise{ 1.25 };
+  /** Least dispersion of the size of the flicker over the cells of a frame that counts [1]: the offset may be wrong by
+   * this fraction of the range of the signal. */
+  double leastUnevenness{ 0.01 };
   /** Standard deviation of the cells of a frame, relative to a typical frame, from which the frame is scaled down [1].
    * It is used in the search for factors that frames have in common. Chosen between 2, for frames of four times the
    * noise variance, and the scatter of frames with local illumination, 0.5 to 1.2 in a real burst. */

@@ -246,6 +246,47 @@ FindFactorsOfUnequalFrames(const Eigen::MatrixXd & whole,
   }
   return found;
 }
+
+/** Measures the dispersion of the size of the global flicker over the cells. The size of a cell, in units of its noise,
+ * is compared with a line in the signal that is common to all cells: an offset that is not known makes no difference.
+ * \a rest is \a whole without flicker and motion, and determines the noise. */
+void
+MeasureUnevenness(const Eigen::MatrixXd & whole,
+                  const Eigen::MatrixXd & rest,
+                  const UsedCells &       used,
+                  const Eigen::VectorXd & gamma,
+                  Eigen::Index            dof,
+                  LocalIllumination &     found)
+{
+  const Eigen::VectorXd flicker = gamma.array() - gamma.mean();
+  const double          energy = flicker.squaredNorm();
+  const Eigen::Index    count = used.Count();
+  if (!(energy > 0.0))
+  {
+    return;
+  }
+  Eigen::VectorXd size = whole.transpose() * flicker / std::sqrt(energy);
+  Eigen::MatrixXd line(count, 2); // the signal, and a change of the level of all pixels
+  double          precision = 0.0;
+  for (Eigen::Index i = 0; i < count; ++i)
+  {
+    const auto   cell = static_cast<std::size_t>(i);
+    const double root = std::sqrt(used.precision[cell]);
+    line.row(i) << root, used.signal[cell] > 0.0 ? root / used.signal[cell] : 0.0;
+    precision += used.precision[cell];
+  }
+  size -= line * line.colPivHouseholderQr().solve(size);
+  std::vector<double> noises(static_cast<std::size_t>(count));
+  for (Eigen::Index i = 0; i < count; ++i)
+  {
+    noises[static_cast<std::size_t>(i)] = rest.col(i).squaredNorm() / static_cast<double>(dof);
+  }
+  const double cells = static_cast<double>(count) - 2.0;
+  const double noise = QuantileOf(noises, 0.5);
+  const double excess = size.squaredNorm() - noise * cells;
+  found.unevenness = std::sqrt(std::max(0.0, excess) / (precision * energy));
+  found.unevennessZ = excess / (noise * std::sqrt(2.0 * cells));
+}
 } // namespace
 
 Eigen::MatrixXd
@@ -320,15 +361,24 @@ FindLocalIllumination(const FrameSums &           sums,
     return none;
   }
   const Eigen::Map<const Eigen::VectorXd> illumination(gamma.data(), frames);
+  Eigen::MatrixXd                         rest = whole.rowwise() - whole.colwise().mean();
+  rest -= basis * (basis.transpose() * rest);
+  LocalIllumination uneven;
+  MeasureUnevenness(whole, rest, used, illumination, dof, uneven);
+  LocalIllumination found;
   if (illumination.cwiseAbs().maxCoeff() > InSeries.equalFrameNoise)
   {
     const Eigen::Map<const Eigen::VectorXd> signal(used.signal.data(), used.Count());
-    return FindFactorsOfUnequalFrames(whole, basis, illumination, signal, most);
+    found = FindFactorsOfUnequalFrames(whole, basis, illumination, signal, most);
   }
-  Eigen::MatrixXd rest = whole.rowwise() - whole.colwise().mean();
-  rest -= basis * (basis.transpose() * rest);
-  ScaleCells(rest, whole);
-  return FindFactors(rest, whole, dof, most);
+  else
+  {
+    ScaleCells(rest, whole);
+    found = FindFactors(rest, whole, dof, most);
+  }
+  found.unevenness = uneven.unevenness;
+  found.unevennessZ = uneven.unevennessZ;
+  return found;
 }
 
 } // namespace sensornoise

@@ -4,7 +4,9 @@
 #define sensornoise_series_LocalIllumination_h
 
 #include "SensorNoiseExport.h"
+#include "base/Constants.h"
 #include "base/Eigen.h"
+#include "series/Constants.h"
 #include "series/FrameSums.h"
 #include "series/MotionSeries.h"
 
@@ -36,6 +38,24 @@ struct LocalIllumination
   /** Ratio to the edge of the largest eigenvalue that is left [1], if the largest allowed number of series was found;
    * 0: fewer were found, or none is left. */
   double beyond{ 0.0 };
+  /** Dispersion over the cells of the size of the global flicker, relative to its mean, beyond noise [1]: where the
+   * excitation light bleaches a spot, or a lamp that illuminates a part of the frame flickers. The series is the
+   * global one, so that it is no further series. */
+  double unevenness{ 0.0 };
+  double unevennessZ{ 0.0 }; ///< its significance, in standard deviations of chi-square [1]
+
+  /** Returns whether the global flicker differs between the cells, by size and significance. */
+  bool
+  IsUneven() const
+  {
+    return unevenness > InSeries.leastUnevenness && unevennessZ > Significance.manyTests;
+  }
+  /** Returns whether the illumination changes differently over the frame. */
+  bool
+  IsLocal() const
+  {
+    return series.cols() > 0 || this->IsUneven();
+  }
 };
 
 /** Finds the temporal series of local changes of the illumination.
