@@ -129,6 +129,26 @@ TextOfLevels(const RefinedResults & found, const GainEstimate & gain)
                    : "Record more frames, include dark and bright areas in the scene, or give dark frames (--dark)");
 }
 
+/** Returns whether most of the variance of the gain is by the error of the temporal correlation. */
+bool
+IsByTemporalCorrelation(const RefinedResults & found, const GainEstimate & gain)
+{
+  const MeasuredNumber & factor = found.correlation.timeFactor;
+  const double           ofFactor = factor.standardError / factor.value * gain.line.gain;
+  return found.correlation.kind == NoiseKind::Temporal &&
+         2.0 * ofFactor * ofFactor > gain.StandardError() * gain.StandardError();
+}
+
+std::string
+TextOfTemporalCorrelation(const GainEstimate & gain)
+{
+  return "the noise is correlated over more frames than the burst shows, as behind noise reduction in time: the gain "
+         "is "
+         "known only to +- " +
+         Rounded(gain.StandardError()) + " of about " + Rounded(gain.scale) +
+         " DN/e-. Switch the noise reduction of the camera off, or record more frames";
+}
+
 std::string
 AdviceOn(Divided divided)
 {
@@ -220,6 +240,11 @@ WarnOfGain(Report & report, const RefinedResults & found, const TestedGain & tes
                   TextOfLitFrames(*FindFewLitFrames(found), found.series.basis.GetBasis().rows()));
       return;
     case GainVerdict::LevelsTooAlike:
+      if (IsByTemporalCorrelation(found, tested.line))
+      {
+        report.Warn(WarningCode::TooLittleToMeasure, TextOfTemporalCorrelation(tested.line));
+        return;
+      }
       report.Warn(WarningCode::IntensityRangeTooSmall, TextOfLevels(found, tested.line));
       return;
     case GainVerdict::FramesDiffer:

@@ -128,7 +128,8 @@ FindFailure(const RefinedResults & found,
   {
     return OffsetFailure::FaintFlicker;
   }
-  if (isLocal && !local)
+  // Slow noise resembles local illumination.
+  if (isLocal && (!local || found.correlation.kind == NoiseKind::Temporal))
   {
     return OffsetFailure::LocalIllumination;
   }
