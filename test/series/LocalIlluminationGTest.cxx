@@ -49,11 +49,12 @@ LocalIllumination
 Find(const SyntheticFrames & frames,
      const Factors &         factors,
      std::size_t             most = Most,
-     const Eigen::MatrixXd & motion = {})
+     const Eigen::MatrixXd & motion = {},
+     double                  offsetDn = Offset)
 {
   const FrameSums           sums = frames.Sums();
   const std::vector<double> gamma(factors.flicker.data(), factors.flicker.data() + Frames);
-  const double              offset = Offset - sums.GetRegressors().GetModel().centreDn;
+  const double              offset = offsetDn - sums.GetRegressors().GetModel().centreDn;
   const FrameEquations      equations = MakeFrameEquations(sums, {}, GradientClasses - 1);
   const MotionSeries        series = SolveMotion(equations, gamma, offset);
   return FindLocalIllumination(
@@ -165,6 +166,34 @@ TEST(SensorNoiseLocalIllumination, ComponentsThatResembleMotionAreNotIlluminatio
   Eigen::MatrixXd motion(Frames, 2);
   motion << factors.left, factors.below;
   EXPECT_EQ(Find(Lit(factors, 0.01), factors, Most, motion).series.cols(), 0);
+}
+
+TEST(SensorNoiseLocalIllumination, OneSeriesOfUnequalSizeIsUneven)
+{
+  // The flicker of 5 % increases by a fifth from the left to the right: 0.2 / sqrt(12) rms.
+  const Factors   factors;
+  SyntheticFrames frames = Lit(factors, 0.0);
+  for (std::size_t i = 0; i < frames.pixels.size(); ++i)
+  {
+    const double      flicker = factors.flicker(static_cast<Eigen::Index>(i / frames.Pixels()));
+    const std::size_t p = i % frames.Pixels();
+    const double      x = static_cast<double>(p % Width) / Width;
+    frames.pixels[i] += 0.2 * flicker * (x - 0.5) * (frames.reference.mean[p] - Offset);
+  }
+  const auto found = Find(frames, factors);
+  EXPECT_EQ(found.series.cols(), 0); // there is no further series
+  EXPECT_TRUE(found.IsLocal());
+  EXPECT_NEAR(found.unevenness, 0.2 / std::sqrt(12.0), 0.015);
+}
+
+TEST(SensorNoiseLocalIllumination, UniformFlickerIsNotUnevenAboutAWrongOffset)
+{
+  const Factors factors;
+  const auto    right = Find(Lit(factors, 0.0), factors);
+  EXPECT_FALSE(right.IsLocal());
+  EXPECT_LT(right.unevenness, 0.01);
+  const auto wrong = Find(Lit(factors, 0.0), factors, Most, {}, Offset - 30.0);
+  EXPECT_FALSE(wrong.IsLocal());
 }
 
 TEST(SensorNoiseLocalIllumination, ShortBurstsAndFewCellsGiveNothing)
