@@ -46,6 +46,12 @@ struct PixelsConstants
   /** Fraction of the frame's pixels in rejected neighbourhoods below which the line is not fitted again without them
    * [1]. Chosen empirically: so few pixels do not change the line. */
   double fewRejected{ 1e-3 };
+  /** Variance of a pixel over its shot noise below which it may be a mean of its neighbours [1]: a mean of two has
+   * half.
+   */
+  double largestQuietVariance{ 0.5 };
+  /** Fraction of such pixels from which they are left out [1]: fewer change the gain by at most 0.15 %. */
+  double leastQuietFraction{ 1e-3 };
   /** A roughness class is rejected if its mean variance exceeds the mean of the flat classes by this fraction [1], or
    * if its fraction of outliers exceeds their fraction by this number [1]. Chosen empirically. */
   double leastClassExcess{ 0.0015 };
