@@ -82,3 +82,28 @@ TEST(SensorNoisePixelsOfVariance, SmoothedEdgesAreNoNonlinearity)
   // 4 x 4 uniform fields: their outlines are 6 lines of 256 pixels, each with at least two columns of edges
   EXPECT_GT(edgesOf(), 6 * 2 * 200);
 }
+
+TEST(SensorNoisePixelsOfVariance, MeansOfNeighboursAreLeftOut)
+{
+  // Every 33rd pixel of the frame is replaced, as by a camera that corrects defective pixels.
+  constexpr std::size_t size = 256;
+  auto                  stack = Simulate<Codes>(StaticCamera(50), size, size);
+  std::size_t           replaced = 0;
+  for (std::size_t p = size + 1; p + size + 1 < size * size; p += 33)
+  {
+    ++replaced;
+    for (std::size_t t = 0; t < 50; ++t)
+    {
+      Codes * const  pixel = stack.pixels.data() + t * size * size + p;
+      const auto     sum = [pixel](std::ptrdiff_t row) { return pixel[row - 1] + pixel[row] + pixel[row + 1]; };
+      constexpr auto below = static_cast<std::ptrdiff_t>(size);
+      *pixel = static_cast<Codes>((sum(-below) + pixel[-1] + pixel[1] + sum(below) + 4) / 8);
+    }
+  }
+  const auto   method = Measure(stack, {});
+  const auto & uses = method.GetPixelUse();
+  EXPECT_GT(
+    static_cast<std::size_t>(std::count(uses.begin(), uses.end(), static_cast<std::uint8_t>(PixelUse::Outlier))),
+    replaced * 8 / 10);
+  ExpectHolds(method.GetReport().gain, 1.0);
+}
