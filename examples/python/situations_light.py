@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Makes illuminations with more independent components than the estimator projects out, and scenes that are not static.
+"""Makes illuminations that change differently from place to place, and scenes that are not static.
 
-They are cells that flash one by one, light-emitting diodes that pulse in bands of a few states, rain, caustics, and
-frames with skipped blocks.
+They are spots that bleach, cells that flash one by one, light-emitting diodes that pulse in bands of a few states, rain,
+caustics, and frames with skipped blocks.
 """
 
 import numpy as np
@@ -76,7 +76,26 @@ def skipped(random, electrons, fraction):
     return burst._replace(frames=frames)
 
 
+def bleached(random, electrons, fraction):
+    """Returns a burst under a spot of excitation light, which bleaches its middle by this fraction. The rate follows the
+    light, so that bright areas lose more than dark ones."""
+    y, x = np.indices(SHAPE)
+    spot = np.exp(-3 * ((y / SHAPE[0] - 0.5) ** 2 + (x / SHAPE[1] - 0.5) ** 2))
+    time = np.linspace(0, 1, FRAMES)[:, None, None]
+    flicker = illumination(random, flicker=0.003)[:, None, None]
+    return changing(random, flicker * np.exp(-fraction * spot * time) * spot * electrons)
+
+
+def uneven(random, electrons, difference):
+    """Returns a burst whose flicker differs by this fraction, relative to its mean, between the left and the right."""
+    x = np.arange(SHAPE[1]) / SHAPE[1] - 0.5
+    flicker = illumination(random, flicker=0.03)[:, None, None] - 1
+    return changing(random, (1 + flicker * (1 + difference * x)) * electrons)
+
+
 KINDS = {
+    "bleached-spot": (bleached, (0.03, 0.1)),
+    "uneven-flicker": (uneven, (0.1, 0.3)),
     "calcium": (calcium, (0.1, 0.3)),
     "led-bands": (bands, (0.003, 0.01)),
     "caustics": (caustics, (0.002, 0.01)),

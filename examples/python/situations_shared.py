@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Makes bursts with spatially correlated noise: filters before and after the read-out, enlarged and demosaiced frames.
+"""Makes bursts with correlated noise: filters before and after the read-out, noise reduction in time, replaced pixels,
+enlarged and demosaiced frames.
 
 A filter whose weights sum to 1 keeps the total covariance over lags. The true values are the values before the filter.
 Enlarged frames have fewer samples than pixels, and do not determine the gain.
@@ -120,7 +121,33 @@ def of_samples(kernel, ratios, aligned=False):
     ]
 
 
+def recursive(random, electrons, weight, count):
+    """Returns `count` frames of noise reduction in time: each is a mean of a new frame, which has this weight, and the
+    frame before. The filter has settled."""
+    settling = 40
+    factors = illumination(random, frames=count + settling)
+    frames = expose(random, electrons, factors, offset=OFFSET[BITS])
+    for t in range(1, len(frames)):
+        frames[t] = weight * frames[t] + (1 - weight) * frames[t - 1]
+    return Burst(digitise(frames[settling:], BITS), offset=OFFSET[BITS], read_noise=READ_NOISE)
+
+
+def replaced(random, electrons, fraction):
+    """Returns frames in which this fraction of the pixels, at random places, has the mean of its eight neighbours, as
+    where a camera corrects defective pixels and pixels of the autofocus."""
+    frames = expose(random, electrons, illumination(random), offset=OFFSET[BITS])
+    places = random.random(SHAPE) < fraction
+    shifts = [(y, x) for y in (-1, 0, 1) for x in (-1, 0, 1) if (y, x) != (0, 0)]
+    means = sum(np.roll(frames, shift, axis=(1, 2)) for shift in shifts) / 8
+    return Burst(digitise(np.where(places, means, frames), BITS), offset=OFFSET[BITS], read_noise=READ_NOISE)
+
+
 SITUATIONS = (
+    *(
+        line(f"recursive/weight-{weight:g}-frames-{count}", recursive, weight, count, expected=MAY_REFUSE)
+        for weight, count in ((0.3, 24), (0.3, 80), (0.6, 24))
+    ),
+    *(line(f"replaced/{100 * fraction:g}%", replaced, fraction) for fraction in (0.005, 0.01, 0.03)),
     *(line(f"filtered/after-read-out-{radius}", filtered, radius, 0.0) for radius in (0.5, 0.8, 1.2)),
     *(line(f"filtered/before-read-out-{radius}", filtered, radius, 1.0) for radius in (0.5, 0.8, 1.2)),
     line("filtered/between-0.8", filtered, 0.8, 0.5),
