@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes illuminations that change differently from place to place, and scenes that are not static.
 
-They are spots that bleach, cells that flash one by one, light-emitting diodes that pulse in bands of a few states, rain,
-caustics, and frames with skipped blocks.
+They are spots that bleach, cells that flash one by one, light-emitting diodes that pulse in bands of a few states,
+rain, caustics, and frames with skipped blocks.
 """
 
 import numpy as np
@@ -77,8 +77,8 @@ def skipped(random, electrons, fraction):
 
 
 def bleached(random, electrons, fraction):
-    """Returns a burst under a spot of excitation light, which bleaches its middle by this fraction. The rate follows the
-    light, so that bright areas lose more than dark ones."""
+    """Returns a burst under a spot of excitation light, which bleaches its middle by this fraction. The rate follows
+    the light, so that bright areas lose more than dark ones."""
     y, x = np.indices(SHAPE)
     spot = np.exp(-3 * ((y / SHAPE[0] - 0.5) ** 2 + (x / SHAPE[1] - 0.5) ** 2))
     time = np.linspace(0, 1, FRAMES)[:, None, None]
