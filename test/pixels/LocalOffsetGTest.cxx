@@ -96,21 +96,21 @@ TEST(SensorNoiseLocalOffset, SourcesWithoutACommonZeroAreReported)
 
 TEST(SensorNoiseLocalOffset, PartitionsWithinWhichTheIlluminationVariesAreNotUsed)
 {
-  // The illumination changes in proportion to the mean of blocks of 8 x 8 pixels. Tiles of this size have one pattern.
-  // In larger tiles bright pixels change more, as if the offset were higher.
+  // The illumination changes in proportion to the mean of blocks of 16 x 16 pixels. Smaller tiles have one pattern.
+  // In larger tiles, bright pixels change more, as if the offset were higher.
   const std::vector<double> mean = WavyScene(Width, Height);
   std::vector<double>       ofBlock(mean.size(), 0.0);
   for (std::size_t p = 0; p < mean.size(); ++p)
   {
-    ofBlock[p / Width / 8 * 8 * Width + p % Width / 8 * 8] += mean[p] / 64.0;
+    ofBlock[p / Width / 16 * 16 * Width + p % Width / 16 * 16] += mean[p] / 256.0;
   }
   const Scene scene([&ofBlock](std::size_t p, double level) {
-    const double rate = ofBlock[p / Width / 8 * 8 * Width + p % Width / 8 * 8] / CentreDn;
+    const double rate = ofBlock[p / Width / 16 * 16 * Width + p % Width / 16 * 16] / CentreDn;
     return Eigen::Vector2d(rate * (level - OffsetDn), 0.0);
   });
   const auto  found = FindLocalOffset(scene.Data());
   ASSERT_TRUE(found);
-  EXPECT_NEAR(found->offset + CentreDn, OffsetDn, 4.0 * found->standardError);
+  EXPECT_NEAR(found->offset + CentreDn, OffsetDn, 15.0); // by larger tiles it is 28 DN too high
 }
 
 TEST(SensorNoiseLocalOffset, DriftingLevelIsOneLineOverTheFrame)

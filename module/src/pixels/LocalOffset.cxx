@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <vector>
 
@@ -197,6 +198,40 @@ SumTiles(const IlluminationResponses &            data,
   }
   return good;
 }
+
+/** Returns the fit of the smallest standard error of those whose lines cross zero at one level, and whose offset agrees
+ * with all of these fits of larger errors, within two errors. Where no partition has such lines, returns the fit of the
+ * smallest error. \a factors is the number of lines of a tile. */
+template <typename TFits>
+std::optional<LocalOffset>
+ChoosePartition(const TFits & fits, std::size_t factors)
+{
+  std::vector<LocalOffset> all;
+  for (const std::optional<LocalOffset> & fit : fits)
+  {
+    if (fit)
+    {
+      all.push_back(*fit);
+    }
+  }
+  std::sort(all.begin(), all.end(), [](const LocalOffset & a, const LocalOffset & b) {
+    return a.standardError < b.standardError;
+  });
+  std::vector<LocalOffset> meeting;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(meeting), [factors](const LocalOffset & fit) {
+    return fit.phi - 1.0 < Significance.oneTest * std::sqrt(2.0 / static_cast<double>(fit.tiles * factors));
+  });
+  const auto agrees = [&meeting](const LocalOffset & fit) {
+    return std::all_of(meeting.begin(), meeting.end(), [&fit](const LocalOffset & other) {
+      return other.standardError <= fit.standardError ||
+             std::abs(fit.offset - other.offset) <= Significance.hint * other.standardError;
+    });
+  };
+  const auto chosen = std::find_if(meeting.begin(), meeting.end(), agrees);
+  return chosen != meeting.end() ? std::optional<LocalOffset>(*chosen)
+         : all.empty()           ? std::nullopt
+                                 : std::optional<LocalOffset>(all.front());
+}
 } // namespace
 
 std::optional<LocalOffset>
@@ -217,28 +252,7 @@ FindLocalOffset(const IlluminationResponses & data, const ParallelFor & parallel
       fits[trial] = FitTiles(tiles, data);
     }
   });
-  std::vector<LocalOffset> found;
-  for (const std::optional<LocalOffset> & fit : fits)
-  {
-    if (fit && std::isfinite(fit->standardError))
-    {
-      found.push_back(*fit);
-    }
-  }
-  std::sort(found.begin(), found.end(), [](const LocalOffset & a, const LocalOffset & b) {
-    return a.standardError < b.standardError;
-  });
-  for (auto fit = found.begin(); fit != found.end(); ++fit)
-  {
-    const bool agrees = std::all_of(fit + 1, found.end(), [&fit](const LocalOffset & other) {
-      return std::abs(fit->offset - other.offset) <= Significance.hint * other.standardError;
-    });
-    if (agrees)
-    {
-      return *fit;
-    }
-  }
-  return std::nullopt;
+  return ChoosePartition(fits, responses.size());
 }
 
 } // namespace sensornoise
