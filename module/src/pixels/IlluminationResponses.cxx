@@ -23,6 +23,8 @@ namespace
 constexpr std::size_t Derivatives = 5;
 constexpr std::size_t Side = 8; // of a tile [pixel]
 
+using Surface = Eigen::Matrix<double, 6, 1>;
+
 /** Division of the frame into bands, each one row of tiles. The variables of a pixel are its derivatives and its
  * responses to the illumination. */
 class Bands
@@ -48,6 +50,15 @@ public:
   TileOf(std::size_t p) const
   {
     return p % m_Frame.geometry.width / Side;
+  }
+  /** Returns the terms of a surface at pixel \a p: 1 and I, and both times the place in the tile. */
+  Surface
+  SurfaceAt(std::size_t p, double centred) const
+  {
+    const auto   part = [](std::size_t at) { return static_cast<double>(at % Side) / Side - 0.5; };
+    const double x = part(p % m_Frame.geometry.width);
+    const double y = part(p / m_Frame.geometry.width);
+    return (Surface() << 1.0, centred, x, y, x * centred, y * centred).finished();
   }
   std::size_t
   Variables() const
@@ -86,56 +97,44 @@ private:
   std::size_t                   m_Factors;
 };
 
-/** Sums over a tile of the weight w times powers of I, the mean minus the centre. */
-struct TileWeights
-{
-  double pixels{ 0.0 };
-  double w{ 0.0 };
-  double wI{ 0.0 };
-  double wII{ 0.0 };
-};
-/** Sums over a tile of w times a variable, and of w I times a variable. */
-struct TileProducts
-{
-  double wZ{ 0.0 };
-  double wIZ{ 0.0 };
-};
-
-/** Returns the products of the derivatives with themselves and with the responses over a band, after the line of each
- * tile was subtracted. */
+/** Returns the products of the derivatives with themselves and with the responses over a band, after the surface of
+ * each tile was subtracted: a line in I whose coefficients vary linearly over the tile, as the illumination may. */
 Eigen::MatrixXd
 ProductsOfBand(const Bands & bands, std::size_t band)
 {
-  const std::size_t         variables = bands.Variables();
-  std::vector<TileWeights>  weights(bands.Tiles());
-  std::vector<TileProducts> products(bands.Tiles() * variables);
+  /** Sums over a tile. */
+  struct TileSums
+  {
+    double          pixels{ 0.0 };
+    Eigen::MatrixXd gram;     // of the terms of the surface
+    Eigen::MatrixXd products; // of these terms and the variables
+  };
+  constexpr Eigen::Index terms = Surface::SizeAtCompileTime;
+  const auto             variables = static_cast<Eigen::Index>(bands.Variables());
+  std::vector<TileSums>  tiles(bands.Tiles(),
+                               { 0.0, Eigen::MatrixXd::Zero(terms, terms), Eigen::MatrixXd::Zero(terms, variables) });
   bands.ForPixels(band, [&](std::size_t p, double w, double centred, const std::vector<double> & z) {
-    TileWeights &  s = weights[bands.TileOf(p)];
-    TileProducts * own = products.data() + bands.TileOf(p) * variables;
+    TileSums &    s = tiles[bands.TileOf(p)];
+    const Surface own = bands.SurfaceAt(p, centred);
     s.pixels += 1.0;
-    s.w += w;
-    s.wI += w * centred;
-    s.wII += w * centred * centred;
-    for (std::size_t k = 0; k < variables; ++k)
-    {
-      own[k].wZ += w * z[k];
-      own[k].wIZ += w * centred * z[k];
-    }
+    s.gram.noalias() += w * own * own.transpose();
+    s.products.noalias() += w * own * Eigen::Map<const Eigen::RowVectorXd>(z.data(), variables);
   });
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(Derivatives, static_cast<Eigen::Index>(variables));
-  bands.ForPixels(band, [&](std::size_t p, double w, double centred, std::vector<double> & z) {
-    const TileWeights &  s = weights[bands.TileOf(p)];
-    const TileProducts * own = products.data() + bands.TileOf(p) * variables;
-    const double         determinant = s.w * s.wII - s.wI * s.wI;
-    if (s.pixels > InPattern.leastLeakagePixels && determinant > 1e-9 * s.w * s.wII)
+  for (TileSums & s : tiles)
+  {
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+    solver.setThreshold(1e-9);
+    const Eigen::VectorXd unit = (s.gram.diagonal().array() + 1e-300).rsqrt();
+    solver.compute(unit.asDiagonal() * s.gram * unit.asDiagonal());
+    s.products = (unit.asDiagonal() * solver.solve(unit.asDiagonal() * s.products)).eval(); // coefficients
+  }
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(Derivatives, variables);
+  bands.ForPixels(band, [&](std::size_t p, double w, double centred, const std::vector<double> & z) {
+    const TileSums & s = tiles[bands.TileOf(p)];
+    if (s.pixels > InPattern.leastLeakagePixels)
     {
-      for (std::size_t k = 0; k < variables; ++k)
-      {
-        const double slope = (s.w * own[k].wIZ - s.wI * own[k].wZ) / determinant;
-        const double level = (s.wII * own[k].wZ - s.wI * own[k].wIZ) / determinant;
-        z[k] -= level + slope * centred;
-      }
-      const Eigen::Map<const Eigen::VectorXd> free(z.data(), static_cast<Eigen::Index>(variables));
+      const Eigen::VectorXd free =
+        Eigen::Map<const Eigen::VectorXd>(z.data(), variables) - s.products.transpose() * bands.SurfaceAt(p, centred);
       result.noalias() += w * free.head<Derivatives>() * free.transpose();
     }
   });

@@ -49,9 +49,9 @@ struct Tiles
 
 /** Returns a map of the responses to each illumination component, without the part that motion leaked into them by
  * chance [DN]. They are 0 outside the mask. The leakage is kappa_k times the derivatives, with kappa common to the
- * frame. It is estimated against lines in the mean that are free in every 8 x 8 tile (Frisch & Waugh 1933), so that
- * local illumination does not bias it. Even derivatives resemble the mean locally, so their leakage would shift the
- * offset. */
+ * frame. It is estimated against lines in the mean that are free in every 8 x 8 tile and whose coefficients vary
+ * linearly over it (Frisch & Waugh 1933), so that local illumination does not bias it. Even derivatives resemble the
+ * mean locally, so their leakage would shift the offset. */
 SensorNoise_EXPORT std::vector<std::vector<double>>
 RemoveMotionLeakage(const IlluminationResponses & data, const ParallelFor & parallelFor);
 

@@ -3,6 +3,7 @@
 #include "pixels/IlluminationResponses.h"
 
 #include "base/ChiSquare.h"
+#include "base/Eigen.h"
 #include "base/Constants.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/Constants.h"
@@ -32,7 +33,30 @@ struct TileSums
   double              g22{ 0.0 };
   std::vector<double> r1;
   std::vector<double> r2;
+  // The same sums with the place in the tile, which PartialOutPlaces() removes from the others.
+  Eigen::Matrix2d              places{ Eigen::Matrix2d::Zero() };       ///< sum w (x, y)(x, y)'
+  Eigen::Matrix2d              placesLevels{ Eigen::Matrix2d::Zero() }; ///< sum w (x, y)(1, I)'
+  std::vector<Eigen::Vector2d> placesResponses;                         ///< sum w (x, y) z
 
+  /** Removes what increases linearly over the tile from the other sums: a gradient of the illumination and a gradient
+   * of the scene look alike. */
+  void
+  PartialOutPlaces()
+  {
+    const Eigen::Matrix2d slopes = places.ldlt().solve(placesLevels);
+    if (!slopes.allFinite())
+    {
+      return;
+    }
+    g11 -= placesLevels.col(0).dot(slopes.col(0));
+    g12 -= placesLevels.col(0).dot(slopes.col(1));
+    g22 -= placesLevels.col(1).dot(slopes.col(1));
+    for (std::size_t j = 0; j < r1.size(); ++j)
+    {
+      r1[j] -= slopes.col(0).dot(placesResponses[j]);
+      r2[j] -= slopes.col(1).dot(placesResponses[j]);
+    }
+  }
   double
   Determinant() const
   {
@@ -148,6 +172,16 @@ FitTiles(const std::vector<TileSums> & tiles, const IlluminationResponses & data
   return result;
 }
 
+/** Returns the place of pixel \a p in its tile, from -1/2 to 1/2 along x and y [1]. */
+Eigen::Vector2d
+PlaceIn(const Tiles & tiles, std::size_t p, std::size_t frameWidth)
+{
+  const auto part = [](std::size_t at, std::size_t size) {
+    return (static_cast<double>(at % size) + 0.5) / static_cast<double>(size) - 0.5;
+  };
+  return { part(p % frameWidth, tiles.width), part(p / frameWidth, tiles.height) };
+}
+
 /** Returns the sums of the tiles that determine a line: those with enough pixels whose levels differ by more than their
  * noise. */
 std::vector<TileSums>
@@ -166,6 +200,7 @@ SumTiles(const IlluminationResponses &            data,
   {
     s.r1.assign(factors, 0.0);
     s.r2.assign(factors, 0.0);
+    s.placesResponses.assign(factors, Eigen::Vector2d::Zero());
   }
   for (std::size_t p = 0; p < data.mask.size(); ++p)
   {
@@ -179,16 +214,21 @@ SumTiles(const IlluminationResponses &            data,
       s.g11 += w;
       s.g12 += w * centred;
       s.g22 += w * (centred * centred - noise / frames);
+      const Eigen::Vector2d place = PlaceIn(tiles, p, width);
+      s.places += w * place * place.transpose();
+      s.placesLevels += w * place * Eigen::RowVector2d(1.0, centred);
       for (std::size_t j = 0; j < factors; ++j)
       {
         s.r1[j] += w * responses[j][p];
         s.r2[j] += w * (centred - data.line.gain / frames) * responses[j][p];
+        s.placesResponses[j] += w * responses[j][p] * place;
       }
     }
   }
   std::vector<TileSums> good;
-  for (const TileSums & s : sums)
+  for (TileSums & s : sums)
   {
+    s.PartialOutPlaces();
     const double determinant = s.Determinant();
     if (s.n > InPattern.leastTilePixels && determinant > InPattern.leastTileContrast * s.g11 * s.n / frames &&
         determinant > 1e-6 * s.g11 * std::abs(s.g22))
