@@ -54,7 +54,7 @@ GROUPS = {
         "BayerPlaneImageFilter",
     ],
     "Simulation": ["SensorNoiseSceneSource", "SensorNoiseStackSource"],
-    "Base class": ["SensorNoiseStackSink"],
+    "Base classes": ["SensorNoiseReportSink", "SensorNoiseStackSink"],
 }
 
 
@@ -124,6 +124,13 @@ def class_docs() -> dict[str, tuple[str, dict[str, str]]]:
     return docs
 
 
+def base_of(name: str) -> str:
+    """Returns the name of the class from which a filter is derived; empty if it is derived from none."""
+    header = (SOURCE / "filters" / f"itk{name}.h").read_text(encoding="utf-8")
+    found = re.search(rf"^class [\w ]*\b{name}\s*: public (\w+)", header, re.MULTILINE)
+    return found[1] if found else ""
+
+
 def filters() -> str:
     """Returns a section for each filter, with its description, parameters and results."""
     docs = class_docs()
@@ -137,6 +144,8 @@ def filters() -> str:
         for name in names:
             text, methods = docs[name]
             parts += [f"### {name}", blocks(text)]
+            if (base := base_of(name)) in docs:
+                parts.append(f"The methods of [{base}](#{base.lower()}) belong to this class, too.")
             if methods:
                 names_of = {}
                 for method, words in methods.items():

@@ -25,7 +25,7 @@
 #include "sensornoise/Report.h"
 #include "sensornoise/NoiseModel.h"
 #include "itkNumericTraits.h"
-#include "itkSensorNoiseStackSink.h"
+#include "itkSensorNoiseReportSink.h"
 #include "itkSensorNoiseResult.h"
 
 #include <cstdint>
@@ -95,6 +95,9 @@ public:
  * The method Published gives the numbers of the chain TemporalStatistics - VibrationMask - FlickerCorrection -
  * TemporalStatistics - NoiseRegression to rounding, and no errors. See sensornoise::PublishedMethod.
  *
+ * The camera settings in the metadata of the input (sensornoise::MetaDataKeys) take precedence over a bit depth and a
+ * highest level that are found from the data. Data that exceed the bit depth are an error.
+ *
  * Both methods make three passes over the stack, in chunks (see SensorNoiseStackSink), and one over the dark frames.
  * The filter is threaded. The result has the same bits for any number of threads and chunks. SetMemoryLimit() describes
  * the memory in addition to one chunk (Published: 40 bytes for each pixel).
@@ -109,13 +112,13 @@ public:
  * \ingroup SensorNoise
  */
 template <typename TStack>
-class ITK_TEMPLATE_EXPORT SensorNoiseEstimator : public SensorNoiseStackSink<TStack>
+class ITK_TEMPLATE_EXPORT SensorNoiseEstimator : public SensorNoiseReportSink<TStack>
 {
 public:
   ITK_DISALLOW_COPY_AND_MOVE(SensorNoiseEstimator);
 
   using Self = SensorNoiseEstimator;
-  using Superclass = SensorNoiseStackSink<TStack>;
+  using Superclass = SensorNoiseReportSink<TStack>;
   using Pointer = SmartPointer<Self>;
   using ConstPointer = SmartPointer<const Self>;
 
@@ -136,16 +139,6 @@ public:
   {
     return "SensorNoiseEstimator";
   }
-
-  void
-  SetNumberOfStreamDivisions(unsigned int number) override
-  {
-    Superclass::SetNumberOfStreamDivisions(number);
-  }
-
-  /** Mask of the size of a frame: pixels of value 0 are left out. Default: no mask. */
-  itkSetInputMacro(Mask, MaskImageType);
-  itkGetInputMacro(Mask, MaskImageType);
 
   /** Stack of dark frames, with the size, exposure, gain and temperature of the frames (Refined only). They give the
    * offset and, if there are two or more, the read noise. They are read in chunks. Dark frames and Offset exclude each
@@ -226,18 +219,6 @@ public:
   itkSetMacro(ShutterAxis, unsigned int);
   itkGetConstMacro(ShutterAxis, unsigned int);
 
-  /** Bit depth of the sensor's digital numbers [bit], 1 to 16. Default 0: found from the data. Data that exceed the bit
-   * depth are an error. The camera settings in the metadata of the input (sensornoise::MetaDataKeys) take precedence
-   * over values found from the data, here and for the highest level. */
-  itkSetMacro(BitDepth, unsigned int);
-  itkGetConstMacro(BitDepth, unsigned int);
-
-  /** Lowest and highest level that the sensor reaches [DN]. Default NaN: found from the data. */
-  itkSetMacro(ClipLow, double);
-  itkGetConstMacro(ClipLow, double);
-  itkSetMacro(ClipHigh, double);
-  itkGetConstMacro(ClipHigh, double);
-
   /** Lowest and highest level of the range in which the variance is fitted [DN] (Refined only). Use it for sensors
    * whose response is linear in a part of the range. The level of a pixel is the mean of its neighbours. Pixels outside
    * the range have the pixel use OutsideRange. Defaults NumericTraits<double>::NonpositiveMin() and max(): all levels.
@@ -260,15 +241,6 @@ public:
     return m_Exposures;
   }
 
-  /** Excess noise factor F of the sensor, 1 or more [1]: the gain is the slope of the variance divided by F. It is
-   * about 2 in an EMCCD. Default 1: no excess noise. Update() throws an ExceptionObject if it is less than 1. */
-  itkSetMacro(ExcessNoiseFactor, double);
-  itkGetConstMacro(ExcessNoiseFactor, double);
-
-  /** Quantization step [DN]. Default 0: found from the data. */
-  itkSetMacro(QuantisationStep, double);
-  itkGetConstMacro(QuantisationStep, double);
-
   /** Largest memory of the estimate in addition to one chunk of a stack that is not in memory [bytes] (Refined only).
    * Default 0: as much as needed, which is 56 bytes for each pixel of a frame, and 4 more for each temporal component
    * of illumination and motion that is found. Large changes of the illumination at 16 bits, and floating-point pixels,
@@ -278,26 +250,7 @@ public:
   itkSetMacro(MemoryLimit, SizeValueType);
   itkGetConstMacro(MemoryLimit, SizeValueType);
 
-  /** Region of the recording from which the stack was cut out: a rectangle of each frame, and the frames from \a first
-   * up to, but not including, \a end. The report's settings record them, so that the measurement can be repeated.
-   * Nothing is cut here, and no number changes. Default: nothing is recorded. Update() throws if the rectangle or the
-   * range does not have the size of the stack. */
-  void
-  SetSourceRegion(SizeValueType x, SizeValueType y, SizeValueType width, SizeValueType height);
-  void
-  SetSourceFrames(SizeValueType first, SizeValueType end);
-  const sensornoise::StackSelection &
-  GetSource() const
-  {
-    return m_Source;
-  }
-
-  /** SHA-256 hash of the frames, or of the dark frames, 64 hexadecimal digits. It identifies the frames of the report,
-   * which records it as its input. The number of files is \a files, and their total size is \a bytes. If both are 0,
-   * the hash is the hash of the pixels (see sensornoise::InputFiles, which defines the bytes). The caller has to make
-   * sure that these bytes are the bytes that are measured. Default: empty, nothing is recorded. */
-  void
-  SetFramesHash(const std::string & sha256, SizeValueType files, SizeValueType bytes);
+  /** SHA-256 hash of the dark frames, as SetFramesHash() records the hash of the frames. */
   void
   SetDarkHash(const std::string & sha256, SizeValueType files, SizeValueType bytes);
 
@@ -570,7 +523,7 @@ private:
   FindOffsets(const SensorNoiseStack & stack);
   /** Returns the hashes that were given, for the inputs that are present. */
   std::optional<sensornoise::InputRecord>
-  GetInputRecord() const;
+  GetInputRecord() const override;
   sensornoise::NoiseModelCheck
   CheckModel(double varianceSlope, double totalIntercept, double readNoiseElectrons, double quantisationStep) const;
   /** Throws std::invalid_argument if the method cannot use what was given. */
@@ -600,22 +553,15 @@ private:
   RollingShutterEnum  m_RollingShutter{ RollingShutterEnum::Auto };
   double              m_SigmaRows{ 50.0 };
   unsigned int        m_ShutterAxis{ 1 };
-  unsigned int        m_BitDepth{ 0 };
-  double              m_ClipLow{ std::numeric_limits<double>::quiet_NaN() };
-  double              m_ClipHigh{ std::numeric_limits<double>::quiet_NaN() };
   double              m_LevelRangeLow{ NumericTraits<double>::NonpositiveMin() };
   double              m_LevelRangeHigh{ NumericTraits<double>::max() };
-  double              m_QuantisationStep{ 0.0 };
   std::vector<double> m_Exposures;
-  double              m_ExcessNoiseFactor{ 1.0 };
   SizeValueType       m_MemoryLimit{ 0 };
   std::string         m_BayerPattern{ "none" };
 
   sensornoise::BayerSource m_BayerSource{ sensornoise::BayerSource::Given }; // source of a pattern that is not auto
 
-  sensornoise::StackSelection m_Source;
-  sensornoise::InputFiles     m_FramesHash;
-  sensornoise::InputFiles     m_DarkHash;
+  sensornoise::InputFiles m_DarkHash;
 
   std::unique_ptr<Estimation> m_Estimation;
 };

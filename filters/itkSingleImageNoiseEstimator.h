@@ -23,10 +23,9 @@
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/Settings.h"
+#include "itkSensorNoiseReportSink.h"
 #include "itkSensorNoiseResult.h"
-#include "itkSensorNoiseStackSink.h"
 
-#include <limits>
 #include <memory>
 #include <ostream>
 #include <string>
@@ -48,6 +47,8 @@ namespace itk
  * `texture-dominates` says where that was noticed. See sensornoise::SingleImageMethod for the method and its reference.
  * For a burst of a static scene use SensorNoiseEstimator.
  *
+ * Clip levels that are not given are found from the first frame.
+ *
  * The filter reads the stack once, in chunks (see SensorNoiseStackSink), and is threaded. The result has the same bits
  * for any number of threads and chunks. Memory, in addition to one chunk: 8 bytes for each pixel of a frame if there
  * are several frames.
@@ -56,17 +57,16 @@ namespace itk
  * \ingroup SensorNoise
  */
 template <typename TStack>
-class ITK_TEMPLATE_EXPORT SingleImageNoiseEstimator : public SensorNoiseStackSink<TStack>
+class ITK_TEMPLATE_EXPORT SingleImageNoiseEstimator : public SensorNoiseReportSink<TStack>
 {
 public:
   ITK_DISALLOW_COPY_AND_MOVE(SingleImageNoiseEstimator);
 
   using Self = SingleImageNoiseEstimator;
-  using Superclass = SensorNoiseStackSink<TStack>;
+  using Superclass = SensorNoiseReportSink<TStack>;
   using Pointer = SmartPointer<Self>;
   using ConstPointer = SmartPointer<const Self>;
 
-  using typename Superclass::MaskImageType;
   using typename Superclass::PixelType;
   using ResultType = std::variant<sensornoise::Report, sensornoise::ChannelReports>;
   using ResultObjectType = SensorNoiseResult<ResultType>;
@@ -81,58 +81,11 @@ public:
     return "SingleImageNoiseEstimator";
   }
 
-  void
-  SetNumberOfStreamDivisions(unsigned int number) override
-  {
-    Superclass::SetNumberOfStreamDivisions(number);
-  }
-
-  /** Mask of the pixels: pixels of value 0 are left out. Default: all pixels are used. */
-  itkSetInputMacro(Mask, MaskImageType);
-  itkGetInputMacro(Mask, MaskImageType);
-
   /** Colour filters of the sensor from the upper left pixel on: "RGGB", "GRBG", "GBRG" or "BGGR", whose planes are
    * measured each by itself; "none": a monochrome sensor; "auto" (default): the pattern of the metadata, or the one
    * that the levels of the first frame show. Other names are an error in Update(). */
   itkSetStringMacro(BayerPattern);
   itkGetStringMacro(BayerPattern);
-
-  /** Bits of the sensor's digital numbers, 1 to 16. Default 0: found. */
-  itkSetMacro(BitDepth, unsigned int);
-  itkGetConstMacro(BitDepth, unsigned int);
-
-  /** Lowest and highest level that the sensor attains [DN]. Default NaN: found from the first frame. */
-  itkSetMacro(ClipLow, double);
-  itkGetConstMacro(ClipLow, double);
-  itkSetMacro(ClipHigh, double);
-  itkGetConstMacro(ClipHigh, double);
-
-  /** Quantization step [DN]. Default 0: found. */
-  itkSetMacro(QuantisationStep, double);
-  itkGetConstMacro(QuantisationStep, double);
-
-  /** Excess noise factor F of the sensor, 1 or more [1]: the gain is the slope of the variance divided by F. Default 1.
-   */
-  itkSetMacro(ExcessNoiseFactor, double);
-  itkGetConstMacro(ExcessNoiseFactor, double);
-
-  /** Region and frames of the recording from which the stack was cut out, as in SensorNoiseEstimator: the
-   * settings of the report have them, and no number changes. Default: nothing is recorded. Update() throws if they do
-   * not have the size of the stack. */
-  void
-  SetSourceRegion(SizeValueType x, SizeValueType y, SizeValueType width, SizeValueType height);
-  void
-  SetSourceFrames(SizeValueType first, SizeValueType end);
-  const sensornoise::StackSelection &
-  GetSource() const
-  {
-    return m_Source;
-  }
-
-  /** SHA-256 hash of the frames, 64 hexadecimal digits, which the report has as its input, with the number and the
-   * total size [bytes] of their files; both 0: it is the hash of the pixels. Default: empty, nothing is recorded. */
-  void
-  SetFramesHash(const std::string & sha256, SizeValueType files, SizeValueType bytes);
 
   /** Returns the result, as a pipeline output or as a variant. Valid after Update(). */
   ResultObjectType *
@@ -177,8 +130,6 @@ protected:
   {
     return ResultObjectType::New().GetPointer();
   }
-  void
-  VerifyInputInformation() const override;
 
   unsigned int
   NumberOfPasses() const override
@@ -203,16 +154,7 @@ private:
   void
   StartMeasurement(const PixelType * firstFrame);
 
-  std::string  m_BayerPattern{ "auto" };
-  unsigned int m_BitDepth{ 0 };
-  double       m_ClipLow{ std::numeric_limits<double>::quiet_NaN() };
-  double       m_ClipHigh{ std::numeric_limits<double>::quiet_NaN() };
-  double       m_QuantisationStep{ 0.0 };
-  double       m_ExcessNoiseFactor{ 1.0 };
-
-  sensornoise::StackSelection m_Source;
-  sensornoise::InputFiles     m_FramesHash;
-
+  std::string                  m_BayerPattern{ "auto" };
   std::unique_ptr<Measurement> m_Measurement;
 };
 

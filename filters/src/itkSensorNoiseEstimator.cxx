@@ -38,7 +38,6 @@ namespace itk
 template <typename TStack>
 SensorNoiseEstimator<TStack>::SensorNoiseEstimator()
 {
-  this->AddOptionalInputName("Mask", 1);
   this->AddOptionalInputName("Dark", 2);
   constexpr DataObjectPointerArraySizeType outputs = ChannelReportsOutput + 1;
   this->SetNumberOfRequiredOutputs(outputs);
@@ -164,15 +163,7 @@ void
 SensorNoiseEstimator<TStack>::StartEstimation(bool withoutMerging)
 {
   const auto       size = this->GetFrameRegion().GetSize();
-  SensorNoiseStack stack{ { size[0], size[1], m_ShutterAxis }, this->GetNumberOfFrames(), {}, {}, {} };
-  if (const MaskImageType * mask = this->GetMask())
-  {
-    auto * whole = const_cast<MaskImageType *>(mask);
-    whole->SetRequestedRegionToLargestPossibleRegion();
-    whole->Update();
-    RequirePixels(mask, "the mask");
-    stack.mask.assign(mask->GetBufferPointer(), mask->GetBufferPointer() + stack.frame.Pixels());
-  }
+  SensorNoiseStack stack{ { size[0], size[1], m_ShutterAxis }, this->GetNumberOfFrames(), this->ReadMask(), {}, {} };
   stack.mosaic = this->FindMosaic();
   stack.offsets = this->FindOffsets(stack);
   using Work = SensorNoiseEstimation<PixelType>;

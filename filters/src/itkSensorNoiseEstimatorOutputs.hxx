@@ -97,7 +97,7 @@ SensorNoiseEstimator<TStack>::FillOutputs()
     image->Allocate();
     return image->GetBufferPointer();
   };
-  auto report = m_Estimation->GetReport(m_Source, this->GetCamera());
+  auto report = m_Estimation->GetReport(this->GetSource(), this->GetCamera());
   std::visit([this](auto & any) { any.input = this->GetInputRecord(); }, report);
   if (auto * const channels = std::get_if<sensornoise::ChannelReports>(&report))
   {

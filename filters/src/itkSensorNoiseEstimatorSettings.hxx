@@ -95,25 +95,6 @@ SensorNoiseEstimator<TStack>::SetBayerPattern(const std::string & name)
 
 template <typename TStack>
 void
-SensorNoiseEstimator<TStack>::SetSourceRegion(SizeValueType x,
-                                              SizeValueType y,
-                                              SizeValueType width,
-                                              SizeValueType height)
-{
-  m_Source.roi = { x, y, width, height };
-  this->Modified();
-}
-
-template <typename TStack>
-void
-SensorNoiseEstimator<TStack>::SetSourceFrames(SizeValueType first, SizeValueType end)
-{
-  m_Source.frames = { first, end };
-  this->Modified();
-}
-
-template <typename TStack>
-void
 SensorNoiseEstimator<TStack>::SetExposures(const std::vector<double> & exposures)
 {
   WithItkErrors(this, [&] { sensornoise::ValidateExposures(exposures); });
@@ -122,14 +103,6 @@ SensorNoiseEstimator<TStack>::SetExposures(const std::vector<double> & exposures
     m_Exposures = exposures;
     this->Modified();
   }
-}
-
-template <typename TStack>
-void
-SensorNoiseEstimator<TStack>::SetFramesHash(const std::string & sha256, SizeValueType files, SizeValueType bytes)
-{
-  m_FramesHash = WithItkErrors(this, [&] { return sensornoise::InputFilesOf(sha256, files, bytes); });
-  this->Modified();
 }
 
 template <typename TStack>
@@ -144,14 +117,10 @@ template <typename TStack>
 std::optional<sensornoise::InputRecord>
 SensorNoiseEstimator<TStack>::GetInputRecord() const
 {
-  if (m_FramesHash.sha256.empty())
+  std::optional<sensornoise::InputRecord> record = Superclass::GetInputRecord();
+  if (record && this->GetDark() != nullptr && !m_DarkHash.sha256.empty())
   {
-    return std::nullopt;
-  }
-  sensornoise::InputRecord record{ m_FramesHash, std::nullopt };
-  if (this->GetDark() != nullptr && !m_DarkHash.sha256.empty())
-  {
-    record.dark = m_DarkHash;
+    record->dark = m_DarkHash;
   }
   return record;
 }
@@ -160,10 +129,8 @@ template <typename TStack>
 void
 SensorNoiseEstimator<TStack>::VerifyInputInformation() const
 {
-  const auto region = this->GetInput()->GetLargestPossibleRegion();
-  WithItkErrors(this, [&] {
-    sensornoise::RequireSelection(m_Source, { region.GetSize(0), region.GetSize(1) }, region.GetSize(2));
-  });
+  Superclass::VerifyInputInformation();
+  const auto   region = this->GetInput()->GetLargestPossibleRegion();
   const double pixels = static_cast<double>(region.GetSize(0)) * static_cast<double>(region.GetSize(1));
   const double bytesPerPixel = m_Method == MethodEnum::Refined ? 56.0 : 40.0; // plus 8 per temporal component
   WithItkErrors(this, [&] {
@@ -171,12 +138,6 @@ SensorNoiseEstimator<TStack>::VerifyInputInformation() const
                                "the estimate of frames of " + std::to_string(region.GetSize(0)) + " x " +
                                  std::to_string(region.GetSize(1)) + " pixels");
   });
-  const MaskImageType * mask = this->GetMask();
-  if (mask != nullptr && mask->GetLargestPossibleRegion() != this->GetFrameRegion())
-  {
-    itkExceptionMacro("the mask has the region " << mask->GetLargestPossibleRegion() << "but the frames have "
-                                                 << this->GetFrameRegion());
-  }
   WithItkErrors(this, [&] {
     this->RequireUsedSettings();
     if (m_Method == MethodEnum::Refined)
@@ -262,7 +223,7 @@ SensorNoiseEstimator<TStack>::MakePublishedSettings() const
   settings.rollingShutter = m_RollingShutter;
   settings.sigmaRows = m_SigmaRows;
   settings.shutterAxis = m_ShutterAxis;
-  settings.excessNoiseFactor = m_ExcessNoiseFactor;
+  settings.excessNoiseFactor = this->GetExcessNoiseFactor();
   settings.codes = this->MakeCodeSettings();
   return settings;
 }
@@ -279,10 +240,12 @@ sensornoise::CodeSettings
 SensorNoiseEstimator<TStack>::MakeCodeSettings() const
 {
   const sensornoise::CameraSettings camera = this->GetCamera();
-  return sensornoise::MakeCodeSettings(m_BitDepth > 0 ? m_BitDepth : camera.bitDepth,
-                                       m_ClipLow,
-                                       std::isnan(m_ClipHigh) ? camera.whiteLevelDn : m_ClipHigh,
-                                       m_QuantisationStep);
+  const unsigned int                bitDepth = this->GetBitDepth();
+  const double                      clipHigh = this->GetClipHigh();
+  return sensornoise::MakeCodeSettings(bitDepth > 0 ? bitDepth : camera.bitDepth,
+                                       this->GetClipLow(),
+                                       std::isnan(clipHigh) ? camera.whiteLevelDn : clipHigh,
+                                       this->GetQuantisationStep());
 }
 
 template <typename TStack>
@@ -297,7 +260,7 @@ SensorNoiseEstimator<TStack>::MakeRefinedSettings() const
     settings.levelRangeDn = sensornoise::LevelRange{ m_LevelRangeLow, m_LevelRangeHigh };
   }
   settings.exposures = m_Exposures;
-  settings.excessNoiseFactor = m_ExcessNoiseFactor;
+  settings.excessNoiseFactor = this->GetExcessNoiseFactor();
   if (m_MemoryLimit > 0)
   {
     settings.memoryLimitBytes = static_cast<double>(m_MemoryLimit);
@@ -319,26 +282,11 @@ SensorNoiseEstimator<TStack>::PrintSelf(std::ostream & os, Indent indent) const
   os << indent << "RollingShutter: " << sensornoise::NameOf(m_RollingShutter) << std::endl;
   os << indent << "SigmaRows: " << m_SigmaRows << std::endl;
   os << indent << "ShutterAxis: " << m_ShutterAxis << std::endl;
-  os << indent << "BitDepth: " << m_BitDepth << std::endl;
-  os << indent << "ClipLow: " << m_ClipLow << std::endl;
-  os << indent << "ClipHigh: " << m_ClipHigh << std::endl;
   os << indent << "LevelRangeLow: " << m_LevelRangeLow << std::endl;
   os << indent << "LevelRangeHigh: " << m_LevelRangeHigh << std::endl;
   os << indent << "Exposures: " << m_Exposures.size() << std::endl;
-  os << indent << "ExcessNoiseFactor: " << m_ExcessNoiseFactor << std::endl;
-  os << indent << "QuantisationStep: " << m_QuantisationStep << std::endl;
   os << indent << "MemoryLimit: " << m_MemoryLimit << std::endl;
   os << indent << "BayerPattern: " << m_BayerPattern << std::endl;
-  if (const auto & roi = m_Source.roi)
-  {
-    os << indent << "SourceRegion: " << (*roi)[0] << ", " << (*roi)[1] << ", " << (*roi)[2] << ", " << (*roi)[3]
-       << std::endl;
-  }
-  if (const auto & frames = m_Source.frames)
-  {
-    os << indent << "SourceFrames: " << frames->first << ", " << frames->second << std::endl;
-  }
-  os << indent << "FramesHash: " << m_FramesHash.sha256 << std::endl;
   os << indent << "DarkHash: " << m_DarkHash.sha256 << std::endl;
 }
 

@@ -17,7 +17,6 @@
  *=========================================================================*/
 #include "itkSingleImageNoiseEstimator.h"
 
-#include "itkSensorNoiseErrors.h"
 #include "itkSensorNoiseMetaData.h"
 #include "sensornoise/ReportText.h"
 #include "sensornoise/SingleImageMethod.h"
@@ -48,7 +47,6 @@ struct SingleImageNoiseEstimator<TStack>::Measurement
 template <typename TStack>
 SingleImageNoiseEstimator<TStack>::SingleImageNoiseEstimator()
 {
-  this->AddOptionalInputName("Mask", 1);
   this->SetNumberOfRequiredOutputs(1);
   this->ProcessObject::SetNthOutput(0, this->MakeOutput(0));
 }
@@ -58,62 +56,11 @@ SingleImageNoiseEstimator<TStack>::~SingleImageNoiseEstimator() = default;
 
 template <typename TStack>
 void
-SingleImageNoiseEstimator<TStack>::SetSourceRegion(SizeValueType x,
-                                                   SizeValueType y,
-                                                   SizeValueType width,
-                                                   SizeValueType height)
-{
-  m_Source.roi = { x, y, width, height };
-  this->Modified();
-}
-
-template <typename TStack>
-void
-SingleImageNoiseEstimator<TStack>::SetSourceFrames(SizeValueType first, SizeValueType end)
-{
-  m_Source.frames = { first, end };
-  this->Modified();
-}
-
-template <typename TStack>
-void
-SingleImageNoiseEstimator<TStack>::SetFramesHash(const std::string & sha256, SizeValueType files, SizeValueType bytes)
-{
-  m_FramesHash = WithItkErrors(this, [&] { return sensornoise::InputFilesOf(sha256, files, bytes); });
-  this->Modified();
-}
-
-template <typename TStack>
-void
-SingleImageNoiseEstimator<TStack>::VerifyInputInformation() const
-{
-  const auto region = this->GetInput()->GetLargestPossibleRegion();
-  WithItkErrors(this, [&] {
-    sensornoise::RequireSelection(m_Source, { region.GetSize(0), region.GetSize(1) }, region.GetSize(2));
-  });
-  const MaskImageType * mask = this->GetMask();
-  if (mask != nullptr && mask->GetLargestPossibleRegion() != this->GetFrameRegion())
-  {
-    itkExceptionMacro("the mask has the region " << mask->GetLargestPossibleRegion() << "but the frames have "
-                                                 << this->GetFrameRegion());
-  }
-}
-
-template <typename TStack>
-void
 SingleImageNoiseEstimator<TStack>::StartPasses()
 {
   m_Measurement = std::make_unique<Measurement>();
   m_Measurement->camera = sensornoise::CameraSettingsOf(this->GetInput()->GetMetaDataDictionary());
-  if (const MaskImageType * mask = this->GetMask())
-  {
-    auto * whole = const_cast<MaskImageType *>(mask);
-    whole->SetRequestedRegionToLargestPossibleRegion();
-    whole->Update();
-    RequirePixels(mask, "the mask");
-    m_Measurement->mask.assign(mask->GetBufferPointer(),
-                               mask->GetBufferPointer() + this->GetFrameRegion().GetNumberOfPixels());
-  }
+  m_Measurement->mask = this->ReadMask();
 }
 
 template <typename TStack>
@@ -137,8 +84,9 @@ SingleImageNoiseEstimator<TStack>::StartMeasurement(const PixelType * firstFrame
   }
   sensornoise::SingleImageSettings settings;
   settings.bayerPattern = m_Measurement->pattern;
-  settings.excessNoiseFactor = m_ExcessNoiseFactor;
-  settings.codes = sensornoise::MakeCodeSettings(m_BitDepth, m_ClipLow, m_ClipHigh, m_QuantisationStep);
+  settings.excessNoiseFactor = this->GetExcessNoiseFactor();
+  settings.codes = sensornoise::MakeCodeSettings(
+    this->GetBitDepth(), this->GetClipLow(), this->GetClipHigh(), this->GetQuantisationStep());
   m_Measurement->method.emplace(
     settings, frame, this->GetNumberOfFrames(), m_Measurement->mask, this->GetParallelFor());
 }
@@ -161,28 +109,23 @@ template <typename TStack>
 void
 SingleImageNoiseEstimator<TStack>::EndPass(unsigned int)
 {
-  std::vector<sensornoise::Report>        reports = m_Measurement->method->GetReports();
-  std::optional<sensornoise::InputRecord> input;
-  if (!m_FramesHash.sha256.empty())
-  {
-    input = sensornoise::InputRecord{ m_FramesHash, std::nullopt };
-  }
+  std::vector<sensornoise::Report> reports = m_Measurement->method->GetReports();
   for (sensornoise::Report & report : reports)
   {
     report.camera = m_Measurement->camera;
-    sensornoise::NoteSelection(report, m_Source);
+    sensornoise::NoteSelection(report, this->GetSource());
   }
   if (m_Measurement->pattern)
   {
     std::array<sensornoise::Report, 4> channels;
     std::move(reports.begin(), reports.end(), channels.begin());
     auto result = sensornoise::MakeChannelReports(*m_Measurement->pattern, m_Measurement->source, std::move(channels));
-    result.input = input;
+    result.input = this->GetInputRecord();
     this->GetResultOutput()->Set(std::move(result));
   }
   else
   {
-    reports.front().input = input;
+    reports.front().input = this->GetInputRecord();
     this->GetResultOutput()->Set(std::move(reports.front()));
   }
   m_Measurement.reset();
@@ -215,12 +158,6 @@ SingleImageNoiseEstimator<TStack>::PrintSelf(std::ostream & os, Indent indent) c
 {
   Superclass::PrintSelf(os, indent);
   os << indent << "BayerPattern: " << m_BayerPattern << std::endl;
-  os << indent << "BitDepth: " << m_BitDepth << std::endl;
-  os << indent << "ClipLow: " << m_ClipLow << std::endl;
-  os << indent << "ClipHigh: " << m_ClipHigh << std::endl;
-  os << indent << "QuantisationStep: " << m_QuantisationStep << std::endl;
-  os << indent << "ExcessNoiseFactor: " << m_ExcessNoiseFactor << std::endl;
-  os << indent << "FramesHash: " << m_FramesHash.sha256 << std::endl;
 }
 
 #define SensorNoise_INSTANTIATE(TPixel) template class SingleImageNoiseEstimator<Image<TPixel, 3>>
