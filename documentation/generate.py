@@ -54,7 +54,7 @@ GROUPS = {
         "BayerPlaneImageFilter",
     ],
     "Simulation": ["SensorNoiseSceneSource", "SensorNoiseStackSource"],
-    "Base classes": ["SensorNoiseReportSink", "SensorNoiseStackSink"],
+    "Base classes": ["SensorNoiseReportReader", "SensorNoiseReportSink", "SensorNoiseStackSink"],
 }
 
 

@@ -20,8 +20,8 @@
 
 #include "SensorNoiseExport.h"
 #include "itkImage.h"
-#include "itkObject.h"
 #include "itkObjectFactory.h"
+#include "itkSensorNoiseReportReader.h"
 #include "sensornoise/NoiseExport.h"
 
 #include <limits>
@@ -40,13 +40,13 @@ namespace itk
  *
  * \ingroup SensorNoise
  */
-class SensorNoise_EXPORT NoiseModelExporter : public Object
+class SensorNoise_EXPORT NoiseModelExporter : public SensorNoiseReportReader
 {
 public:
   ITK_DISALLOW_COPY_AND_MOVE(NoiseModelExporter);
 
   using Self = NoiseModelExporter;
-  using Superclass = Object;
+  using Superclass = SensorNoiseReportReader;
   using Pointer = SmartPointer<Self>;
   using ConstPointer = SmartPointer<const Self>;
 
@@ -58,29 +58,9 @@ public:
     return "NoiseModelExporter";
   }
 
-  /** Sets a number of the report, for example "/gain/value". Values that are null are left out. */
-  void
-  SetNumber(const std::string & pointer, double number);
-
-  /** Sets a text of the report, for example "/gain/status". */
-  void
-  SetText(const std::string & pointer, const std::string & text);
-
   /** Ends a report, and begins the next one. The \a name is the name of the report in messages. */
   void
   AddReport(const std::string & name);
-
-  /** Black level [DN]. Default: NaN, the level in the report. */
-  itkSetMacro(BlackLevel, double);
-  itkGetConstMacro(BlackLevel, double);
-
-  /** White level [DN]. Default: NaN, the level in the report. */
-  itkSetMacro(WhiteLevel, double);
-  itkGetConstMacro(WhiteLevel, double);
-
-  /** Analogue gain of the burst [1], above 0, for the format libcamera. Default: 1. */
-  itkSetMacro(AnalogueGain, double);
-  itkGetConstMacro(AnalogueGain, double);
 
   /** ISO speed above which the gain is digital, for the format android. Default: NaN, none is. */
   itkSetMacro(MaxAnalogueIso, double);
@@ -146,14 +126,10 @@ private:
   sensornoise::NoiseExport
   MakeExport(const std::string & format) const;
 
-  sensornoise::StoredReport              m_Report; // the values since the last report
   std::vector<sensornoise::StoredReport> m_Reports;
   sensornoise::NoiseMaps                 m_Maps;
   sensornoise::NoiseExport               m_Export;
   std::string                            m_DngFile;
-  double                                 m_BlackLevel{ std::numeric_limits<double>::quiet_NaN() };
-  double                                 m_WhiteLevel{ std::numeric_limits<double>::quiet_NaN() };
-  double                                 m_AnalogueGain{ 1.0 };
   double                                 m_MaxAnalogueIso{ std::numeric_limits<double>::quiet_NaN() };
 };
 

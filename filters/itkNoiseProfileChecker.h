@@ -19,11 +19,10 @@
 #define itkNoiseProfileChecker_h
 
 #include "SensorNoiseExport.h"
-#include "itkObject.h"
 #include "itkObjectFactory.h"
+#include "itkSensorNoiseReportReader.h"
 #include "sensornoise/NoiseExport.h"
 
-#include <limits>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -38,17 +37,17 @@ namespace itk
  * ends the report, and SetProfileValues() the profile. SetProfileFile() names a profile of any other format: a DNG file
  * with the tag NoiseProfile, YAML, CAREamics' npz, XML, a macro, or a FITS header. Check() then compares both for each
  * channel of the report. If a band does not fit, the sentence of the check names the known mistakes with which the
- * profile would fit.
+ * profile would fit. Levels that were not set come from the report, or from the DNG file with the profile.
  *
  * \ingroup SensorNoise
  */
-class SensorNoise_EXPORT NoiseProfileChecker : public Object
+class SensorNoise_EXPORT NoiseProfileChecker : public SensorNoiseReportReader
 {
 public:
   ITK_DISALLOW_COPY_AND_MOVE(NoiseProfileChecker);
 
   using Self = NoiseProfileChecker;
-  using Superclass = Object;
+  using Superclass = SensorNoiseReportReader;
   using Pointer = SmartPointer<Self>;
   using ConstPointer = SmartPointer<const Self>;
 
@@ -59,14 +58,6 @@ public:
   {
     return "NoiseProfileChecker";
   }
-
-  /** Sets a number of the report or the profile, for example "/gain/value". Values that are null are left out. */
-  void
-  SetNumber(const std::string & pointer, double number);
-
-  /** Sets a text of the report or the profile, for example "/gain/status". */
-  void
-  SetText(const std::string & pointer, const std::string & text);
 
   /** Ends the values of the report of the frames. The \a name is the name of the report in messages. */
   void
@@ -79,18 +70,6 @@ public:
   /** Sets the name of a file with a profile that is not JSON. */
   void
   SetProfileFile(const std::string & name);
-
-  /** Black level of the frames [DN]. Default: NaN, the level in the report, or in the DNG file with the profile. */
-  itkSetMacro(BlackLevel, double);
-  itkGetConstMacro(BlackLevel, double);
-
-  /** White level of the frames [DN]. Default: NaN, the level in the report, or in the DNG file with the profile. */
-  itkSetMacro(WhiteLevel, double);
-  itkGetConstMacro(WhiteLevel, double);
-
-  /** Analogue gain of the frames [1], above 0, for a profile of libcamera. Default: 1. */
-  itkSetMacro(AnalogueGain, double);
-  itkGetConstMacro(AnalogueGain, double);
 
   /** Compares the frames with the profile. Throws an ExceptionObject with a sentence if the profile cannot be read, is
    * none, or does not determine the variance, or if the report is none. */
@@ -152,14 +131,10 @@ private:
   std::vector<Result>
   MakeResults() const;
 
-  sensornoise::StoredReport m_Values; // since the last call that ended them
   sensornoise::StoredReport m_Report;
   sensornoise::StoredReport m_Profile;
   std::string               m_ProfileFile; // "": m_Profile has the values
   std::vector<Result>       m_Results;
-  double                    m_BlackLevel{ std::numeric_limits<double>::quiet_NaN() };
-  double                    m_WhiteLevel{ std::numeric_limits<double>::quiet_NaN() };
-  double                    m_AnalogueGain{ 1.0 };
 };
 
 } // namespace itk

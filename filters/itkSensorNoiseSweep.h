@@ -19,8 +19,8 @@
 #define itkSensorNoiseSweep_h
 
 #include "SensorNoiseExport.h"
-#include "itkObject.h"
 #include "itkObjectFactory.h"
+#include "itkSensorNoiseReportReader.h"
 #include "sensornoise/NoiseExport.h"
 
 #include <limits>
@@ -41,13 +41,13 @@ namespace itk
  *
  * \ingroup SensorNoise
  */
-class SensorNoise_EXPORT SensorNoiseSweep : public Object
+class SensorNoise_EXPORT SensorNoiseSweep : public SensorNoiseReportReader
 {
 public:
   ITK_DISALLOW_COPY_AND_MOVE(SensorNoiseSweep);
 
   using Self = SensorNoiseSweep;
-  using Superclass = Object;
+  using Superclass = SensorNoiseReportReader;
   using Pointer = SmartPointer<Self>;
   using ConstPointer = SmartPointer<const Self>;
 
@@ -58,14 +58,6 @@ public:
   {
     return "SensorNoiseSweep";
   }
-
-  /** Sets a number of the report, for example "/gain/value". Values that are null are left out. */
-  void
-  SetNumber(const std::string & pointer, double number);
-
-  /** Sets a text of the report, for example "/gain/status". */
-  void
-  SetText(const std::string & pointer, const std::string & text);
 
   /** Ends the report of a setting, and begins the next one. Settings are above 0 and in ascending order. */
   void
@@ -105,21 +97,9 @@ public:
     return m_SummaryAsHtml;
   }
 
-  /** Black level [DN]. Default: NaN, the level in the reports. */
-  itkSetMacro(BlackLevel, double);
-  itkGetConstMacro(BlackLevel, double);
-
-  /** White level [DN]. Default: NaN, the level in the reports. */
-  itkSetMacro(WhiteLevel, double);
-  itkGetConstMacro(WhiteLevel, double);
-
   /** The only channel of a mosaic that is exported: "R", "G1", "G2" or "B". Default: empty, all. */
   itkSetMacro(Channel, std::string);
   itkGetConstReferenceMacro(Channel, std::string);
-
-  /** Analogue gain of the bursts [1], above 0, for the format libcamera. Default: 1. */
-  itkSetMacro(AnalogueGain, double);
-  itkGetConstMacro(AnalogueGain, double);
 
   /** ISO speed above which the gain is digital, for the format android. Default: NaN, none is. */
   itkSetMacro(MaxAnalogueIso, double);
@@ -179,18 +159,14 @@ private:
   sensornoise::NoiseExport
   MakeExport(const std::string & format, double setting) const;
 
-  sensornoise::StoredReport m_Report; // the values since the last report
-  std::vector<Entry>        m_Entries;
-  std::string               m_SettingKind{ "iso" };
-  std::string               m_SummaryAsJson;
-  std::string               m_SummaryAsText;
-  std::string               m_SummaryAsHtml;
-  sensornoise::NoiseExport  m_Export;
-  double                    m_BlackLevel{ std::numeric_limits<double>::quiet_NaN() };
-  double                    m_WhiteLevel{ std::numeric_limits<double>::quiet_NaN() };
-  std::string               m_Channel;
-  double                    m_AnalogueGain{ 1.0 };
-  double                    m_MaxAnalogueIso{ std::numeric_limits<double>::quiet_NaN() };
+  std::vector<Entry>       m_Entries;
+  std::string              m_SettingKind{ "iso" };
+  std::string              m_SummaryAsJson;
+  std::string              m_SummaryAsText;
+  std::string              m_SummaryAsHtml;
+  sensornoise::NoiseExport m_Export;
+  std::string              m_Channel;
+  double                   m_MaxAnalogueIso{ std::numeric_limits<double>::quiet_NaN() };
 };
 
 } // namespace itk

@@ -19,10 +19,8 @@
 
 #include "itkSensorNoiseErrors.h"
 
-#include <cmath>
 #include <fstream>
 #include <iterator>
-#include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -32,13 +30,6 @@ namespace itk
 {
 namespace
 {
-/** A setting; none where it is NaN. */
-std::optional<double>
-SettingOf(double number)
-{
-  return std::isnan(number) ? std::nullopt : std::optional<double>(number);
-}
-
 std::string
 BytesOfDng(const std::string & name)
 {
@@ -53,23 +44,9 @@ BytesOfDng(const std::string & name)
 } // namespace
 
 void
-NoiseModelExporter::SetNumber(const std::string & pointer, double number)
-{
-  m_Report.numbers[pointer] = number;
-}
-
-void
-NoiseModelExporter::SetText(const std::string & pointer, const std::string & text)
-{
-  m_Report.texts[pointer] = text;
-}
-
-void
 NoiseModelExporter::AddReport(const std::string & name)
 {
-  m_Report.name = name;
-  m_Reports.push_back(m_Report);
-  m_Report = {};
+  m_Reports.push_back(this->EndReport(name));
   this->Modified();
 }
 
@@ -92,11 +69,8 @@ NoiseModelExporter::SetMaps(const Image<double, 2> * offset, const Image<double,
 sensornoise::NoiseExport
 NoiseModelExporter::MakeExport(const std::string & format) const
 {
-  sensornoise::ExportSettings settings;
-  settings.blackLevelDn = SettingOf(m_BlackLevel);
-  settings.whiteLevelDn = SettingOf(m_WhiteLevel);
-  settings.analogueGain = m_AnalogueGain;
-  settings.maxAnalogueIso = SettingOf(m_MaxAnalogueIso);
+  sensornoise::ExportSettings settings = this->MakeExportSettings();
+  settings.maxAnalogueIso = IfKnown(m_MaxAnalogueIso);
   std::vector<sensornoise::CameraNoise> noise;
   for (const sensornoise::StoredReport & report : m_Reports)
   {
@@ -132,9 +106,6 @@ NoiseModelExporter::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);
   os << indent << "Reports: " << m_Reports.size() << '\n';
-  os << indent << "BlackLevel: " << m_BlackLevel << '\n';
-  os << indent << "WhiteLevel: " << m_WhiteLevel << '\n';
-  os << indent << "AnalogueGain: " << m_AnalogueGain << '\n';
   os << indent << "MaxAnalogueIso: " << m_MaxAnalogueIso << '\n';
   os << indent << "DngFile: " << m_DngFile << '\n';
   os << indent << "Maps: " << m_Maps.width << " x " << m_Maps.height << '\n';

@@ -21,47 +21,24 @@
 #include "itkSensorNoiseErrors.h"
 #include "itkSensorNoiseProfileFile.h"
 
-#include <cmath>
-#include <optional>
-#include <utility>
+#include <ostream>
+#include <string>
+#include <vector>
 
 namespace itk
 {
-namespace
-{
-/** Returns a level; none where it is NaN. */
-std::optional<double>
-LevelOf(double number)
-{
-  return std::isnan(number) ? std::nullopt : std::optional<double>(number);
-}
-} // namespace
-
-void
-NoiseProfileChecker::SetNumber(const std::string & pointer, double number)
-{
-  m_Values.numbers[pointer] = number;
-}
-
-void
-NoiseProfileChecker::SetText(const std::string & pointer, const std::string & text)
-{
-  m_Values.texts[pointer] = text;
-}
 
 void
 NoiseProfileChecker::SetReport(const std::string & name)
 {
-  m_Values.name = name;
-  m_Report = std::exchange(m_Values, {});
+  m_Report = this->EndReport(name);
   this->Modified();
 }
 
 void
 NoiseProfileChecker::SetProfileValues(const std::string & name)
 {
-  m_Values.name = name;
-  m_Profile = std::exchange(m_Values, {});
+  m_Profile = this->EndReport(name);
   m_ProfileFile.clear();
   this->Modified();
 }
@@ -79,11 +56,7 @@ NoiseProfileChecker::MakeResults() const
   const sensornoise::NoiseProfile profile =
     m_ProfileFile.empty() ? sensornoise::ReadNoiseProfile(m_Profile)
                           : sensornoise::ReadNoiseProfile(m_ProfileFile, sensornoise::ReadProfileBytes(m_ProfileFile));
-  sensornoise::ExportSettings settings;
-  settings.blackLevelDn = LevelOf(m_BlackLevel);
-  settings.whiteLevelDn = LevelOf(m_WhiteLevel);
-  settings.analogueGain = m_AnalogueGain;
-  sensornoise::CameraNoise noise = sensornoise::ReadCameraNoise(m_Report, settings);
+  sensornoise::CameraNoise noise = sensornoise::ReadCameraNoise(m_Report, this->MakeExportSettings());
   sensornoise::FillProfileLevels(profile, noise);
   std::vector<Result> results;
   for (const auto & [channel, check, reason] : sensornoise::CheckStoredFrames(profile, m_Report, noise))
@@ -109,9 +82,6 @@ NoiseProfileChecker::PrintSelf(std::ostream & os, Indent indent) const
   Superclass::PrintSelf(os, indent);
   os << indent << "Report: " << m_Report.name << '\n';
   os << indent << "Profile: " << (m_ProfileFile.empty() ? m_Profile.name : m_ProfileFile) << '\n';
-  os << indent << "BlackLevel: " << m_BlackLevel << '\n';
-  os << indent << "WhiteLevel: " << m_WhiteLevel << '\n';
-  os << indent << "AnalogueGain: " << m_AnalogueGain << '\n';
   os << indent << "Channels: " << m_Results.size() << '\n';
 }
 

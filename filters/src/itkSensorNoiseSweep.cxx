@@ -22,21 +22,11 @@
 #include "sweep/SettingName.h"
 #include "sweep/SweepSummary.h"
 
-#include <cmath>
-#include <optional>
-#include <utility>
 
 namespace itk
 {
 namespace
 {
-/** Returns a setting; none where it is NaN. */
-std::optional<double>
-IfKnown(double number)
-{
-  return std::isnan(number) ? std::nullopt : std::optional<double>(number);
-}
-
 /** Returns the noise of the measured settings. */
 template <typename TEntries>
 sensornoise::MeasuredRange
@@ -61,22 +51,9 @@ RangeOfEntries(const TEntries & entries, const std::string & kind, const sensorn
 } // namespace
 
 void
-SensorNoiseSweep::SetNumber(const std::string & pointer, double number)
-{
-  m_Report.numbers[pointer] = number;
-}
-
-void
-SensorNoiseSweep::SetText(const std::string & pointer, const std::string & text)
-{
-  m_Report.texts[pointer] = text;
-}
-
-void
 SensorNoiseSweep::AddReport(const std::string & name, double setting)
 {
-  m_Report.name = name;
-  m_Entries.push_back({ name, setting, "", std::exchange(m_Report, {}) });
+  m_Entries.push_back({ name, setting, "", this->EndReport(name) });
   this->Modified();
 }
 
@@ -110,11 +87,8 @@ SensorNoiseSweep::Summarise()
 sensornoise::NoiseExport
 SensorNoiseSweep::MakeExport(const std::string & format, double setting) const
 {
-  sensornoise::ExportSettings settings;
-  settings.blackLevelDn = IfKnown(m_BlackLevel);
-  settings.whiteLevelDn = IfKnown(m_WhiteLevel);
+  sensornoise::ExportSettings settings = this->MakeExportSettings();
   settings.channel = m_Channel;
-  settings.analogueGain = m_AnalogueGain;
   settings.maxAnalogueIso = IfKnown(m_MaxAnalogueIso);
   sensornoise::MeasuredRange range = RangeOfEntries(m_Entries, m_SettingKind, settings);
   const auto found = sensornoise::SummariseSweep(RangeOfEntries(m_Entries, m_SettingKind, {})).conversionSwitch;
@@ -156,10 +130,7 @@ SensorNoiseSweep::PrintSelf(std::ostream & os, Indent indent) const
   Superclass::PrintSelf(os, indent);
   os << indent << "Settings: " << m_Entries.size() << '\n';
   os << indent << "SettingKind: " << m_SettingKind << '\n';
-  os << indent << "BlackLevel: " << m_BlackLevel << '\n';
-  os << indent << "WhiteLevel: " << m_WhiteLevel << '\n';
   os << indent << "Channel: " << m_Channel << '\n';
-  os << indent << "AnalogueGain: " << m_AnalogueGain << '\n';
   os << indent << "MaxAnalogueIso: " << m_MaxAnalogueIso << '\n';
   os << indent << "Files: " << m_Export.files.size() << '\n';
 }
