@@ -54,7 +54,12 @@ GROUPS = {
         "BayerPlaneImageFilter",
     ],
     "Simulation": ["SensorNoiseSceneSource", "SensorNoiseStackSource"],
-    "Base classes": ["SensorNoiseReportReader", "SensorNoiseReportSink", "SensorNoiseStackSink"],
+    "Base classes": [
+        "SensorNoiseReportReader",
+        "SensorNoiseReportSink",
+        "SensorNoiseStabiliser",
+        "SensorNoiseStackSink",
+    ],
 }
 
 

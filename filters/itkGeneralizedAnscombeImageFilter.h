@@ -20,13 +20,10 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/FrameGeometry.h"
-#include "sensornoise/Report.h"
 #include "itkImage.h"
-#include "itkImageToImageFilter.h"
-#include "itkSensorNoiseResult.h"
+#include "itkSensorNoiseStabiliser.h"
 
 #include <atomic>
-#include <limits>
 #include <ostream>
 
 namespace itk
@@ -55,16 +52,16 @@ namespace itk
  * \ingroup SensorNoise
  */
 template <typename TInputImage, typename TOutputImage = Image<float, TInputImage::ImageDimension>>
-class ITK_TEMPLATE_EXPORT GeneralizedAnscombeImageFilter : public ImageToImageFilter<TInputImage, TOutputImage>
+class ITK_TEMPLATE_EXPORT GeneralizedAnscombeImageFilter : public SensorNoiseStabiliser<TInputImage, TOutputImage>
 {
 public:
   ITK_DISALLOW_COPY_AND_MOVE(GeneralizedAnscombeImageFilter);
 
   using Self = GeneralizedAnscombeImageFilter;
-  using Superclass = ImageToImageFilter<TInputImage, TOutputImage>;
+  using Superclass = SensorNoiseStabiliser<TInputImage, TOutputImage>;
   using Pointer = SmartPointer<Self>;
   using ConstPointer = SmartPointer<const Self>;
-  using RegionType = typename TOutputImage::RegionType;
+  using typename Superclass::RegionType;
 
   itkNewMacro(Self);
 
@@ -73,21 +70,6 @@ public:
   {
     return "GeneralizedAnscombeImageFilter";
   }
-
-  /** Noise model, from a report: `variance_slope` a [DN/e-], above 0, and `total_intercept` b [DN^2], positive or
-   * negative. Both must be set, here or by SetReport(). */
-  itkSetMacro(VarianceSlope, double);
-  itkGetConstMacro(VarianceSlope, double);
-  itkSetMacro(TotalIntercept, double);
-  itkGetConstMacro(TotalIntercept, double);
-
-  /** Sets the slope and the intercept from a report, as SensorNoiseEstimator::GetReport() or GetReportOutput() return
-   * it. Throws an ExceptionObject if one of them has no value or the slope is not above 0. Other quantities of the
-   * report are not used. */
-  void
-  SetReport(const sensornoise::Report & report);
-  void
-  SetReport(const SensorNoiseResult<sensornoise::Report> * report);
 
   /** Returns the number of pixels whose argument of the root was negative and whose output is 0. It counts all regions
    * that the last Update() computed; a region that was computed several times is counted each time. A large number
@@ -98,19 +80,14 @@ public:
     return m_NumberOfNegativeArguments;
   }
 
-  /** Resets the pipeline if an input cannot be updated. ITK would otherwise assume that the failed update is still in
-   * progress, and the next Update() would return without an error and without a result. */
+  /** Begins to count anew. \see SensorNoiseStabiliser::UpdateOutputInformation */
   void
   UpdateOutputInformation() override;
-  void
-  UpdateOutputData(DataObject * output) override;
 
 protected:
-  GeneralizedAnscombeImageFilter();
+  GeneralizedAnscombeImageFilter() = default;
   ~GeneralizedAnscombeImageFilter() override = default;
 
-  void
-  VerifyPreconditions() const override;
   void
   BeforeThreadedGenerateData() override;
   void
@@ -119,8 +96,6 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
-  double                     m_VarianceSlope{ 0.0 };
-  double                     m_TotalIntercept{ std::numeric_limits<double>::quiet_NaN() };
   std::atomic<SizeValueType> m_NumberOfNegativeArguments{ 0 };
   bool                       m_IsNewUpdate{ true };
 };

@@ -18,50 +18,11 @@
 #ifndef itkGeneralizedAnscombeImageFilter_hxx
 #define itkGeneralizedAnscombeImageFilter_hxx
 
-#include "itkSensorNoiseErrors.h"
-#include "sensornoise/NoiseModel.h"
-#include "itkImageScanlineIterator.h"
-
 #include <cstddef>
 #include <ostream>
 
 namespace itk
 {
-
-template <typename TInputImage, typename TOutputImage>
-GeneralizedAnscombeImageFilter<TInputImage, TOutputImage>::GeneralizedAnscombeImageFilter()
-{
-  this->DynamicMultiThreadingOn();
-}
-
-template <typename TInputImage, typename TOutputImage>
-void
-GeneralizedAnscombeImageFilter<TInputImage, TOutputImage>::SetReport(const sensornoise::Report & report)
-{
-  const sensornoise::NoiseModel model = WithItkErrors(this, [&report] { return sensornoise::NoiseModelOf(report); });
-  this->SetVarianceSlope(model.varianceSlopeDn);
-  this->SetTotalIntercept(model.totalInterceptDn2);
-}
-
-template <typename TInputImage, typename TOutputImage>
-void
-GeneralizedAnscombeImageFilter<TInputImage, TOutputImage>::SetReport(
-  const SensorNoiseResult<sensornoise::Report> * report)
-{
-  if (report == nullptr)
-  {
-    itkExceptionMacro("the report is null; expected that of a SensorNoiseEstimator");
-  }
-  this->SetReport(report->Get());
-}
-
-template <typename TInputImage, typename TOutputImage>
-void
-GeneralizedAnscombeImageFilter<TInputImage, TOutputImage>::VerifyPreconditions() const
-{
-  Superclass::VerifyPreconditions();
-  WithItkErrors(this, [this] { sensornoise::NoiseModel{ m_VarianceSlope, m_TotalIntercept }.Validate(); });
-}
 
 template <typename TInputImage, typename TOutputImage>
 void
@@ -75,19 +36,10 @@ template <typename TInputImage, typename TOutputImage>
 void
 GeneralizedAnscombeImageFilter<TInputImage, TOutputImage>::DynamicThreadedGenerateData(const RegionType & region)
 {
-  const sensornoise::GeneralizedAnscombe transform({ m_VarianceSlope, m_TotalIntercept });
-  const TInputImage * const              input = this->GetInput();
-  TOutputImage * const                   output = this->GetOutput();
-  const auto                             size = static_cast<std::size_t>(region.GetSize(0));
-  std::size_t                            counted = 0;
-  for (ImageScanlineConstIterator<TOutputImage> line(output, region); !line.IsAtEnd(); line.NextLine())
-  {
-    const auto start = line.GetIndex();
-    counted += transform.Stabilise(input->GetBufferPointer() + input->ComputeOffset(start),
-                                   size,
-                                   output->GetBufferPointer() + output->ComputeOffset(start));
-  }
-  m_NumberOfNegativeArguments += counted;
+  m_NumberOfNegativeArguments +=
+    this->TransformRows(region, [](const auto & transform, const auto * input, std::size_t size, auto * output) {
+      return transform.Stabilise(input, size, output);
+    });
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -95,14 +47,7 @@ void
 GeneralizedAnscombeImageFilter<TInputImage, TOutputImage>::UpdateOutputInformation()
 {
   m_IsNewUpdate = true;
-  ResetAfterError(this, [this] { Superclass::UpdateOutputInformation(); });
-}
-
-template <typename TInputImage, typename TOutputImage>
-void
-GeneralizedAnscombeImageFilter<TInputImage, TOutputImage>::UpdateOutputData(DataObject * output)
-{
-  ResetAfterError(this, [this, output] { Superclass::UpdateOutputData(output); });
+  Superclass::UpdateOutputInformation();
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -110,8 +55,6 @@ void
 GeneralizedAnscombeImageFilter<TInputImage, TOutputImage>::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);
-  os << indent << "VarianceSlope: " << m_VarianceSlope << std::endl;
-  os << indent << "TotalIntercept: " << m_TotalIntercept << std::endl;
   os << indent << "NumberOfNegativeArguments: " << m_NumberOfNegativeArguments << std::endl;
 }
 

@@ -20,14 +20,11 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/FrameGeometry.h"
-#include "sensornoise/Report.h"
 #include "sensornoise/NoiseModel.h"
 #include "itkImage.h"
-#include "itkImageToImageFilter.h"
-#include "itkSensorNoiseResult.h"
+#include "itkSensorNoiseStabiliser.h"
 
 #include <atomic>
-#include <limits>
 #include <ostream>
 #include <string>
 
@@ -59,16 +56,17 @@ namespace itk
  * \ingroup SensorNoise
  */
 template <typename TInputImage, typename TOutputImage = TInputImage>
-class ITK_TEMPLATE_EXPORT InverseGeneralizedAnscombeImageFilter : public ImageToImageFilter<TInputImage, TOutputImage>
+class ITK_TEMPLATE_EXPORT InverseGeneralizedAnscombeImageFilter
+  : public SensorNoiseStabiliser<TInputImage, TOutputImage>
 {
 public:
   ITK_DISALLOW_COPY_AND_MOVE(InverseGeneralizedAnscombeImageFilter);
 
   using Self = InverseGeneralizedAnscombeImageFilter;
-  using Superclass = ImageToImageFilter<TInputImage, TOutputImage>;
+  using Superclass = SensorNoiseStabiliser<TInputImage, TOutputImage>;
   using Pointer = SmartPointer<Self>;
   using ConstPointer = SmartPointer<const Self>;
-  using RegionType = typename TOutputImage::RegionType;
+  using typename Superclass::RegionType;
   using InverseEnum = sensornoise::AnscombeInverse;
 
   itkNewMacro(Self);
@@ -78,21 +76,6 @@ public:
   {
     return "InverseGeneralizedAnscombeImageFilter";
   }
-
-  /** Noise model, from a report: `variance_slope` a [DN/e-], above 0, and `total_intercept` b [DN^2], positive or
-   * negative. Both must be set, here or by SetReport(). */
-  itkSetMacro(VarianceSlope, double);
-  itkGetConstMacro(VarianceSlope, double);
-  itkSetMacro(TotalIntercept, double);
-  itkGetConstMacro(TotalIntercept, double);
-
-  /** Sets the slope and the intercept from a report, as SensorNoiseEstimator::GetReport() or GetReportOutput() return
-   * it. Throws an ExceptionObject if one of them has no value or the slope is not above 0. Other quantities of the
-   * report are not used. */
-  void
-  SetReport(const sensornoise::Report & report);
-  void
-  SetReport(const SensorNoiseResult<sensornoise::Report> * report);
 
   /** Inverse that is applied: ExactUnbiased (default), Algebraic or Asymptotic. */
   void
@@ -112,19 +95,10 @@ public:
     return sensornoise::NameOf(m_Inverse);
   }
 
-  /** Resets the pipeline if an input cannot be updated. ITK would otherwise assume that the failed update is still in
-   * progress, and the next Update() would return without an error and without a result. */
-  void
-  UpdateOutputInformation() override;
-  void
-  UpdateOutputData(DataObject * output) override;
-
 protected:
-  InverseGeneralizedAnscombeImageFilter();
+  InverseGeneralizedAnscombeImageFilter() = default;
   ~InverseGeneralizedAnscombeImageFilter() override = default;
 
-  void
-  VerifyPreconditions() const override;
   void
   BeforeThreadedGenerateData() override;
   void
@@ -135,8 +109,6 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
-  double                     m_VarianceSlope{ 0.0 };
-  double                     m_TotalIntercept{ std::numeric_limits<double>::quiet_NaN() };
   InverseEnum                m_Inverse{ InverseEnum::ExactUnbiased };
   std::atomic<SizeValueType> m_NumberOfNotNumbers{ 0 };
 };

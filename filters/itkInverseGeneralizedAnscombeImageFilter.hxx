@@ -19,8 +19,6 @@
 #define itkInverseGeneralizedAnscombeImageFilter_hxx
 
 #include "itkSensorNoiseErrors.h"
-#include "sensornoise/NoiseModel.h"
-#include "itkImageScanlineIterator.h"
 
 #include <cstddef>
 #include <ostream>
@@ -28,33 +26,6 @@
 
 namespace itk
 {
-
-template <typename TInputImage, typename TOutputImage>
-InverseGeneralizedAnscombeImageFilter<TInputImage, TOutputImage>::InverseGeneralizedAnscombeImageFilter()
-{
-  this->DynamicMultiThreadingOn();
-}
-
-template <typename TInputImage, typename TOutputImage>
-void
-InverseGeneralizedAnscombeImageFilter<TInputImage, TOutputImage>::SetReport(const sensornoise::Report & report)
-{
-  const sensornoise::NoiseModel model = WithItkErrors(this, [&report] { return sensornoise::NoiseModelOf(report); });
-  this->SetVarianceSlope(model.varianceSlopeDn);
-  this->SetTotalIntercept(model.totalInterceptDn2);
-}
-
-template <typename TInputImage, typename TOutputImage>
-void
-InverseGeneralizedAnscombeImageFilter<TInputImage, TOutputImage>::SetReport(
-  const SensorNoiseResult<sensornoise::Report> * report)
-{
-  if (report == nullptr)
-  {
-    itkExceptionMacro("the report is null; expected that of a SensorNoiseEstimator");
-  }
-  this->SetReport(report->Get());
-}
 
 template <typename TInputImage, typename TOutputImage>
 void
@@ -76,14 +47,6 @@ InverseGeneralizedAnscombeImageFilter<TInputImage, TOutputImage>::SetInverse(con
 
 template <typename TInputImage, typename TOutputImage>
 void
-InverseGeneralizedAnscombeImageFilter<TInputImage, TOutputImage>::VerifyPreconditions() const
-{
-  Superclass::VerifyPreconditions();
-  WithItkErrors(this, [this] { sensornoise::NoiseModel{ m_VarianceSlope, m_TotalIntercept }.Validate(); });
-}
-
-template <typename TInputImage, typename TOutputImage>
-void
 InverseGeneralizedAnscombeImageFilter<TInputImage, TOutputImage>::BeforeThreadedGenerateData()
 {
   m_NumberOfNotNumbers = 0;
@@ -93,20 +56,10 @@ template <typename TInputImage, typename TOutputImage>
 void
 InverseGeneralizedAnscombeImageFilter<TInputImage, TOutputImage>::DynamicThreadedGenerateData(const RegionType & region)
 {
-  const sensornoise::GeneralizedAnscombe transform({ m_VarianceSlope, m_TotalIntercept });
-  const TInputImage * const              input = this->GetInput();
-  TOutputImage * const                   output = this->GetOutput();
-  const auto                             size = static_cast<std::size_t>(region.GetSize(0));
-  std::size_t                            counted = 0;
-  for (ImageScanlineConstIterator<TOutputImage> line(output, region); !line.IsAtEnd(); line.NextLine())
-  {
-    const auto start = line.GetIndex();
-    counted += transform.Invert(input->GetBufferPointer() + input->ComputeOffset(start),
-                                size,
-                                output->GetBufferPointer() + output->ComputeOffset(start),
-                                m_Inverse);
-  }
-  m_NumberOfNotNumbers += counted;
+  m_NumberOfNotNumbers +=
+    this->TransformRows(region, [this](const auto & transform, const auto * input, std::size_t size, auto * output) {
+      return transform.Invert(input, size, output, m_Inverse);
+    });
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -123,25 +76,9 @@ InverseGeneralizedAnscombeImageFilter<TInputImage, TOutputImage>::AfterThreadedG
 
 template <typename TInputImage, typename TOutputImage>
 void
-InverseGeneralizedAnscombeImageFilter<TInputImage, TOutputImage>::UpdateOutputInformation()
-{
-  ResetAfterError(this, [this] { Superclass::UpdateOutputInformation(); });
-}
-
-template <typename TInputImage, typename TOutputImage>
-void
-InverseGeneralizedAnscombeImageFilter<TInputImage, TOutputImage>::UpdateOutputData(DataObject * output)
-{
-  ResetAfterError(this, [this, output] { Superclass::UpdateOutputData(output); });
-}
-
-template <typename TInputImage, typename TOutputImage>
-void
 InverseGeneralizedAnscombeImageFilter<TInputImage, TOutputImage>::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);
-  os << indent << "VarianceSlope: " << m_VarianceSlope << std::endl;
-  os << indent << "TotalIntercept: " << m_TotalIntercept << std::endl;
   os << indent << "Inverse: " << sensornoise::NameOf(m_Inverse) << std::endl;
 }
 
