@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers as text: the shortest that reads back, and a given number of decimals or digits.
+// Numbers as text: the shortest that reads back, and a given number of decimals or digits; text as numbers.
 #include "base/NumberText.h"
 
 #include <cmath>
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <limits>
+#include <optional>
 
+using sensornoise::FiniteNumber;
 using sensornoise::FixedText;
 using sensornoise::GeneralText;
 using sensornoise::ShortestText;
@@ -38,4 +40,15 @@ TEST(NumberText, HasTheDigitsThatWereAsked)
   EXPECT_EQ(FixedText(1.0, 99), "1.00000000000000000000"); // 20 at most
   EXPECT_EQ(GeneralText(1234567.0, 3), "1.23e+06");
   EXPECT_EQ(GeneralText(0.25, 3), "0.25");
+}
+
+TEST(NumberText, IsReadWithAPointToItsEnd)
+{
+  EXPECT_EQ(FiniteNumber("1.5"), 1.5);
+  EXPECT_EQ(FiniteNumber(" +2e3"), 2000.0);
+  EXPECT_EQ(FiniteNumber("1e-400"), 0.0);
+  for (const char * const other : { "", " ", "1,5", "1.5 ", "1e", "0x10", "1e400", "inf", "nan" })
+  {
+    EXPECT_EQ(FiniteNumber(other), std::nullopt) << other;
+  }
 }

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <locale>
+#include <sstream>
 #include <string>
 
 namespace sensornoise
@@ -77,5 +80,19 @@ GeneralText(double number, int digits)
 }
 
 #endif
+
+std::optional<double>
+FiniteNumber(const std::string & text)
+{
+  // not strtod(), which uses the decimal comma of some locales
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  double number = 0;
+  if (!(stream >> number) || !std::isfinite(number) || stream.peek() != std::istringstream::traits_type::eof())
+  {
+    return std::nullopt;
+  }
+  return number;
+}
 
 } // namespace sensornoise

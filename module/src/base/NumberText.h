@@ -5,6 +5,7 @@
 
 #include "SensorNoiseExport.h"
 
+#include <optional>
 #include <string>
 
 namespace sensornoise
@@ -21,6 +22,11 @@ FixedText(double number, int decimals);
 /** Returns a finite number to \a digits digits, 1 to 17, with an exponent where it is large or small. */
 SensorNoise_EXPORT std::string
 GeneralText(double number, int digits);
+
+/** Returns the number of a text, with a point in every locale; null for other texts, infinity and NaN. Blanks may stand
+ * before the number, and nothing behind it. */
+SensorNoise_EXPORT std::optional<double>
+FiniteNumber(const std::string & text);
 
 } // namespace sensornoise
 

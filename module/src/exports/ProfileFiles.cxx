@@ -5,6 +5,7 @@
 #include "exports/NpzReader.h"
 #include "exports/ProfileValues.h"
 
+#include "base/NumberText.h"
 #include "base/Text.h"
 #include "files/TextHeader.h"
 

@@ -3,6 +3,7 @@
 #include "exports/ProfileValues.h"
 
 #include "exports/NoiseProfile.h"
+#include "base/NumberText.h"
 #include "base/Text.h"
 #include "files/TextHeader.h"
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/FitsHeader.h"
 
+#include "base/NumberText.h"
 #include "sensornoise/FrameFile.h"
 #include "files/FrameSizes.h"
 #include "files/TextHeader.h"
@@ -10,8 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <locale>
-#include <sstream>
 
 namespace sensornoise
 {
@@ -158,10 +157,8 @@ FitsHeader::Number(const std::string & key) const
     return std::nullopt;
   }
   std::replace(text.begin(), text.end(), 'D', 'E'); // the exponent in Fortran
-  std::istringstream stream(text);
-  stream.imbue(std::locale::classic());
-  double number = 0.0;
-  if (!(stream >> number) || !stream.eof() || !std::isfinite(number))
+  const std::optional<double> number = FiniteNumber(text);
+  if (!number)
   {
     throw FileError(name, "damaged: its keyword " + key + " is \"" + text + "\"; expected a number");
   }

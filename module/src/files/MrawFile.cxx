@@ -3,6 +3,7 @@
 #include "files/FrameFormats.h"
 
 #include "base/LowerCase.h"
+#include "base/NumberText.h"
 #include "files/DataFile.h"
 #include "files/FrameReader.h"
 #include "files/FrameSizes.h"
@@ -12,7 +13,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
-#include <locale>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -277,10 +277,8 @@ ExposureOf(const PhotronFields & fields)
   {
     return unknown;
   }
-  std::istringstream stream(text.substr(2));
-  double             number = 0.0;
-  stream.imbue(std::locale::classic());
-  return (stream >> number) && stream.eof() && number > 0.0 ? 1.0 / number : unknown;
+  const std::optional<double> number = FiniteNumber(text.substr(2));
+  return number && *number > 0.0 ? 1.0 / *number : unknown;
 }
 
 SampleFormat

@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/TextHeader.h"
 
+#include "base/NumberText.h"
 #include "sensornoise/FrameFile.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <locale>
-#include <sstream>
 
 namespace sensornoise
 {
@@ -122,20 +120,6 @@ WholeNumber(const std::string & text)
     return std::nullopt;
   }
   return std::strtoull(text.c_str(), nullptr, 10);
-}
-
-std::optional<double>
-FiniteNumber(const std::string & text)
-{
-  // not strtod(), which uses the decimal comma of some locales
-  std::istringstream stream(text);
-  stream.imbue(std::locale::classic());
-  double number = 0;
-  if (!(stream >> number) || !std::isfinite(number) || stream.peek() != std::istringstream::traits_type::eof())
-  {
-    return std::nullopt;
-  }
-  return number;
 }
 
 std::vector<double>

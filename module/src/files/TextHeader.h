@@ -74,10 +74,6 @@ WordsOf(const std::string & text);
 std::optional<std::uint64_t>
 WholeNumber(const std::string & text);
 
-/** Returns the number of a text, with a decimal point in any locale; none for other texts, infinity and NaN. */
-std::optional<double>
-FiniteNumber(const std::string & text);
-
 /** Returns the finite numbers of a text, which spaces and tabs separate; empty if a word is no finite number. */
 std::vector<double>
 NumbersOf(const std::string & text);

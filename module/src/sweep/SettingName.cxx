@@ -3,25 +3,21 @@
 #include "sweep/SettingName.h"
 
 #include "base/LowerCase.h"
+#include "base/NumberText.h"
 
 #include <cmath>
-#include <locale>
+#include <limits>
 #include <regex>
-#include <sstream>
 
 namespace sensornoise
 {
 namespace
 {
-/** Returns the number that digits with a point are. */
+/** Returns the number that digits with a point are; NaN if it is too large for a double. */
 double
 NumberOfDigits(const std::string & digits)
 {
-  std::istringstream stream(digits);
-  stream.imbue(std::locale::classic());
-  double number = 0.0;
-  stream >> number;
-  return number;
+  return FiniteNumber(digits).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 /** Returns the seconds of a unit of time: "us", "ms" or "s". */
