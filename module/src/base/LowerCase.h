@@ -4,18 +4,17 @@
 #define sensornoise_base_LowerCase_h
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 
 namespace sensornoise
 {
 
-/** Returns \a text with its ASCII letters in lower case. */
+/** Returns \a text with its ASCII letters in lower case, in every locale. */
 inline std::string
 LowerCase(std::string text)
 {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char letter) {
-    return static_cast<char>(std::tolower(letter));
+  std::transform(text.begin(), text.end(), text.begin(), [](char letter) {
+    return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
   });
   return text;
 }

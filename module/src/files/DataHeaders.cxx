@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/DataHeaders.h"
 
+#include "base/LowerCase.h"
 #include "sensornoise/FrameFile.h"
 #include "files/TextHeader.h"
 
@@ -219,7 +220,7 @@ constexpr std::array<const char *, 32> NrrdFields{ "content",
 std::string
 FieldNamed(const std::string & key)
 {
-  const std::string name = InSmallLetters(key);
+  const std::string name = LowerCase(key);
   for (const char * const field : NrrdFields)
   {
     std::string joined = field;

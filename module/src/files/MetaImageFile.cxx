@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/FrameFormats.h"
 
+#include "base/LowerCase.h"
 #include "files/DataFile.h"
 #include "files/DataHeaders.h"
 #include "files/FrameSizes.h"
@@ -260,7 +261,7 @@ DataFilesOfMetaImage(FileBytes & bytes, const std::string & name)
   const MetaImageHeader    header = ReadMetaImageHeader(name, bytes);
   const std::string        dataFile = header.Field("ElementDataFile");
   std::vector<std::string> paths;
-  if (dataFile.rfind("LIST", 0) != 0 && InSmallLetters(dataFile) != "local")
+  if (dataFile.rfind("LIST", 0) != 0 && LowerCase(dataFile) != "local")
   {
     paths.push_back(PathOfDataFile(name, dataFile));
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/FrameFormats.h"
 
+#include "base/LowerCase.h"
 #include "base/NumberText.h"
 #include "files/DataFile.h"
 #include "files/DataHeaders.h"
@@ -53,7 +54,7 @@ SetPixelOfNrrd(FrameFile & file, const NrrdHeader & header)
     { { "longlong", "long long", "long long int", "signed long long", "int64", "int64_t" }, "long long" },
     { { "ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t" }, "unsigned long long" }
   };
-  const std::string type = WithoutBlanks(InSmallLetters(header.Field("type")));
+  const std::string type = WithoutBlanks(LowerCase(header.Field("type")));
   for (const KnownType & known : types)
   {
     if (IsOneOf(type, known.names))
@@ -100,7 +101,7 @@ SizesOfNrrd(const std::string & file, const NrrdHeader & header)
 void
 CheckKinds(const std::string & file, const NrrdHeader & header, const std::vector<std::uint64_t> & sizes)
 {
-  const std::vector<std::string> kinds = WordsOf(InSmallLetters(header.Field("kinds")));
+  const std::vector<std::string> kinds = WordsOf(LowerCase(header.Field("kinds")));
   if (!kinds.empty() && kinds.size() != sizes.size())
   {
     throw FileError(file,
@@ -181,13 +182,13 @@ PlacesOfNrrd(const FrameFile & file, const NrrdHeader & header)
 bool
 IsGzip(const FrameFile & file, const NrrdHeader & header)
 {
-  const std::string encoding = WithoutBlanks(InSmallLetters(header.Field("encoding")));
+  const std::string encoding = WithoutBlanks(LowerCase(header.Field("encoding")));
   const bool        isGzip = encoding == "gzip" || encoding == "gz";
   if (!isGzip && encoding != "raw")
   {
     throw FileError(file.name, "encoding is " + (encoding.empty() ? "missing" : encoding) + "; expected raw or gzip");
   }
-  const std::string endian = WithoutBlanks(InSmallLetters(header.Field("endian")));
+  const std::string endian = WithoutBlanks(LowerCase(header.Field("endian")));
   if ((SizeOf(file.pixel) > 1 || !endian.empty()) && endian != "little" && endian != "big")
   {
     throw FileError(file.name, "endian is " + (endian.empty() ? "missing" : endian) + "; expected little or big");
@@ -209,8 +210,8 @@ IsGzip(const FrameFile & file, const NrrdHeader & header)
 std::optional<double>
 NumberOrNaN(const std::string & word)
 {
-  return WithoutBlanks(InSmallLetters(word)) == "nan" ? std::numeric_limits<double>::quiet_NaN()
-                                                      : FiniteNumber(WithoutBlanks(word));
+  return WithoutBlanks(LowerCase(word)) == "nan" ? std::numeric_limits<double>::quiet_NaN()
+                                                 : FiniteNumber(WithoutBlanks(word));
 }
 
 /** Returns the numbers of "(1,0,0)". Throws FileError unless there are \a count. */
@@ -248,7 +249,7 @@ VectorsIn(const std::string & file, const std::string & text, std::size_t count)
   std::vector<std::vector<double>> vectors;
   for (std::size_t at = text.find_first_not_of(" \t"); at != std::string::npos;)
   {
-    const bool        isNone = InSmallLetters(text.substr(at, 4)) == "none";
+    const bool        isNone = LowerCase(text.substr(at, 4)) == "none";
     const std::size_t close = isNone ? at + 3 : std::min(text.find(')', at), text.size() - 1);
     vectors.push_back(isNone ? std::vector<double>() : VectorIn(file, text.substr(at, close + 1 - at), count));
     at = text.find_first_not_of(" \t", close + 1);
@@ -277,7 +278,7 @@ SignsOfSpace(const std::string & file, const NrrdHeader & header)
     }
     return std::vector<double>(static_cast<std::size_t>(*axes), 1.0);
   }
-  const std::string space = WithoutBlanks(InSmallLetters(header.Field("space")));
+  const std::string space = WithoutBlanks(LowerCase(header.Field("space")));
   if (space.empty())
   {
     return {};
@@ -369,7 +370,7 @@ InspectNrrd(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeI
   {
     coding.compression = InflateContainer::Gzip;
   }
-  coding.sample = WholeSample(file, WithoutBlanks(InSmallLetters(header.Field("endian"))) == "big");
+  coding.sample = WholeSample(file, WithoutBlanks(LowerCase(header.Field("endian"))) == "big");
   SetDataFrames(file, PlacesOfNrrd(file, header), coding, beforeInflating);
 }
 

@@ -5,7 +5,6 @@
 #include "base/NumberText.h"
 #include "sensornoise/FrameFile.h"
 
-#include <algorithm>
 #include <cstdlib>
 
 namespace sensornoise
@@ -76,15 +75,6 @@ WithoutBlanks(const std::string & text)
 {
   const std::size_t first = text.find_first_not_of(Blanks);
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(Blanks) - first + 1);
-}
-
-std::string
-InSmallLetters(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return text;
 }
 
 std::string

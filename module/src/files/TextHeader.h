@@ -58,10 +58,6 @@ private:
 std::string
 WithoutBlanks(const std::string & text);
 
-/** Returns \a text with ASCII letters in lower case. */
-std::string
-InSmallLetters(std::string text);
-
 /** Returns the first 100 printable ASCII characters of \a text, without spaces around them. */
 std::string
 PrintableText(const std::string & text);
