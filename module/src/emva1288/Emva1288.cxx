@@ -5,10 +5,7 @@
 #include "base/Text.h"
 #include "emva1288/Constants.h"
 #include "emva1288/DarkLevels.h"
-#include "emva1288/GainFits.h"
-#include "emva1288/Linearity.h"
-#include "emva1288/NonUniformity.h"
-#include "emva1288/Sensitivity.h"
+#include "emva1288/EvaluationSteps.h"
 #include "emva1288/TransferCurve.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "emva1288/NonUniformity.h"
+#include "emva1288/EvaluationSteps.h"
 
 #include "emva1288/DarkLevels.h"
 #include "emva1288/Propagation.h"
