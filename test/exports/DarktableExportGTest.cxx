@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "exports/DarktableExport.h"
-#include "exports/DarktableProfile.h"
+#include "exports/Darktable.h"
 #include "exports/ProfileValues.h"
 #include "helpers/ProfileTestHelper.h"
 

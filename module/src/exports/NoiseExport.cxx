@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/NoiseExport.h"
 
-#include "exports/BinaryExports.h"
-#include "exports/DarktableExport.h"
+#include "exports/ExportFormats.h"
+#include "exports/Darktable.h"
 #include "exports/FittedExports.h"
-#include "exports/LineExports.h"
-#include "exports/SensorExports.h"
 #include "report/JsonWriter.h"
 
 #include <algorithm>

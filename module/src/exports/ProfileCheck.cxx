@@ -3,7 +3,7 @@
 #include "exports/ProfileCheck.h"
 
 #include "base/Text.h"
-#include "exports/DarktableExport.h"
+#include "exports/Darktable.h"
 #include "exports/ExportInput.h"
 #include "exports/ProfileVariance.h"
 #include "stabilise/CheckText.h"

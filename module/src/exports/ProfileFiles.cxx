@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "exports/LineExports.h"
+#include "exports/ExportFormats.h"
 #include "exports/NoiseProfile.h"
 #include "exports/NpzReader.h"
 #include "exports/ProfileValues.h"

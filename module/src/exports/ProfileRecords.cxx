@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "exports/DarktableProfile.h"
+#include "exports/Darktable.h"
 #include "exports/ExportInput.h"
 #include "exports/NoiseProfile.h"
 #include "exports/ProfileValues.h"

@@ -3,7 +3,7 @@
 #include "exports/ProfileVariance.h"
 
 #include "base/Text.h"
-#include "exports/DarktableProfile.h"
+#include "exports/Darktable.h"
 #include "exports/ExportInput.h"
 
 #include <algorithm>

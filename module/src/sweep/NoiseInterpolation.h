@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/NoiseExport.h"
 #include "sweep/NumberInterpolation.h"
+#include "sweep/SettingName.h"
 
 #include <optional>
 #include <string>

@@ -4,10 +4,12 @@
 
 #include "base/LowerCase.h"
 #include "base/NumberText.h"
+#include "base/Text.h"
 
 #include <cmath>
 #include <limits>
 #include <regex>
+#include <stdexcept>
 
 namespace sensornoise
 {
@@ -27,6 +29,33 @@ SecondsOf(const std::string & unit)
   return unit == "us" ? 1e-6 : unit == "ms" ? 1e-3 : 1.0;
 }
 } // namespace
+
+const char *
+NameOf(SettingKind kind)
+{
+  return kind == SettingKind::Iso ? "iso" : kind == SettingKind::Gain ? "gain" : "exposure";
+}
+
+SettingKind
+SettingKindOf(const std::string & name)
+{
+  for (const SettingKind kind : { SettingKind::Iso, SettingKind::Gain, SettingKind::Exposure })
+  {
+    if (name == NameOf(kind))
+    {
+      return kind;
+    }
+  }
+  throw std::invalid_argument("the settings are \"" + name + "\"; expected \"iso\", \"gain\" or \"exposure\"");
+}
+
+std::string
+SettingText(SettingKind kind, double setting)
+{
+  return kind == SettingKind::Iso    ? "ISO " + Text(setting)
+         : kind == SettingKind::Gain ? "gain " + Text(setting)
+                                     : "exposure " + Text(setting) + " s";
+}
 
 double
 GainOfDecibels(double decibels)

@@ -4,13 +4,33 @@
 #define sensornoise_sweep_SettingName_h
 
 #include "SensorNoiseExport.h"
-#include "sweep/SettingNoise.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
 namespace sensornoise
 {
+
+/** Quantity in which the settings of a sweep differ. */
+enum class SettingKind : std::uint8_t
+{
+  Iso,     ///< ISO speeds
+  Gain,    ///< gains of the amplifier as factors
+  Exposure ///< exposure times [s] at one gain
+};
+
+/** Returns "iso", "gain" or "exposure". */
+SensorNoise_EXPORT const char *
+NameOf(SettingKind kind);
+
+/** Returns the kind with this name. Throws std::invalid_argument for any other name. */
+SensorNoise_EXPORT SettingKind
+SettingKindOf(const std::string & name);
+
+/** Returns "ISO 800", "gain 2" or "exposure 0.01 s". */
+SensorNoise_EXPORT std::string
+SettingText(SettingKind kind, double setting);
 
 /** A setting that a name or a table gives. */
 struct NamedSetting

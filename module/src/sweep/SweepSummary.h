@@ -7,6 +7,7 @@
 #include "sweep/CommonGain.h"
 #include "sweep/GainLine.h"
 #include "sweep/NoiseInterpolation.h"
+#include "sweep/SettingName.h"
 #include "sweep/SettingNoise.h"
 
 #include <optional>

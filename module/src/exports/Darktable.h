@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#ifndef sensornoise_exports_DarktableExport_h
-#define sensornoise_exports_DarktableExport_h
+#ifndef sensornoise_exports_Darktable_h
+#define sensornoise_exports_Darktable_h
 
+#include "exports/NoiseProfile.h"
 #include "sensornoise/NoiseExport.h"
 
 #include <vector>
 
 namespace sensornoise
 {
+
+class ProfileValues;
 
 /** Variance that darktable's noise profiles hold, over the variance of the pixels of the mosaic [1]. */
 struct DarktableFactor
@@ -37,6 +40,17 @@ inline constexpr DarktableFactor darktableMono{ 0.25, 0.0 };
  * same, or their channels differ. */
 NoiseExport
 ExportDarktable(const std::vector<CameraNoise> & settings);
+
+/** Reads the presets of all cameras from darktable's noiseprofiles.json. Throws ExportError if a preset has no ISO
+ * speed, or no numbers of green, which darktable takes for all channels. */
+NoiseProfile
+ReadDarktablePresets(const ProfileValues & values);
+
+/** Returns the scale and the offset of NoiseProfile that darktable takes for a burst: the numbers of green over
+ * darktable's factor, on a line between the ISO speeds next to the burst's. Throws ExportError if the burst has no ISO
+ * speed, or the file no presets of its camera around this speed. A file of one camera is taken for all names. */
+ProfileChannel
+DarktableChannelAt(const NoiseProfile & profile, const CameraNoise & burst);
 
 } // namespace sensornoise
 
