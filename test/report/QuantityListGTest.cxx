@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/ReportText.h"
 #include "report/Quantities.h"
-#include "report/ReportTable.h"
+#include "report/TextSigns.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

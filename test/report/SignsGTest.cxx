@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/ReportTable.h"
+#include "report/TextSigns.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/ReportText.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "helpers/EstimateToolTestHelper.h"
 #include "base/Text.h"
-#include "report/ReportTable.h"
+#include "report/TextSigns.h"
 #include "sensornoise/ReportText.h"
 
 #include <cmath>

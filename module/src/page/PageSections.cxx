@@ -6,7 +6,7 @@
 #include "page/HtmlText.h"
 #include "page/SvgPanel.h"
 #include "report/ReportJson.h"
-#include "report/ReportTable.h"
+#include "report/TextSigns.h"
 #include "sensornoise/ReportText.h"
 #include "sensornoise/Version.h"
 

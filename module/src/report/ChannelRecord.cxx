@@ -6,6 +6,7 @@
 #include "report/JsonWriter.h"
 #include "report/ReportJson.h"
 #include "report/ReportTable.h"
+#include "report/TextSigns.h"
 #include "sensornoise/Version.h"
 
 #include <algorithm>

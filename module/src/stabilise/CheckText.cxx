@@ -4,7 +4,7 @@
 
 #include "base/Text.h"
 #include "report/JsonWriter.h"
-#include "report/ReportTable.h"
+#include "report/TextSigns.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "base/LowerCase.h"
 #include "base/Text.h"
-#include "report/ReportTable.h"
+#include "report/TextSigns.h"
 #include "sweep/Constants.h"
 
 #include <algorithm>
