@@ -6,9 +6,7 @@
 #include "base/Constants.h"
 #include "base/Eigen.h"
 #include "pixels/CodeNoise.h"
-#include "pixels/Constants.h"
 #include "pixels/GainByParts.h"
-#include "refined/Constants.h"
 #include "refined/GainEstimate.h"
 #include "report/Quantities.h"
 #include "sensornoise/Settings.h"
@@ -16,138 +14,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 namespace sensornoise
 {
-
-namespace
-{
-/** Returns why the variance is not that of a sensor of one gain; Identified: no reason was found. */
-GainVerdict
-FindContradiction(const RefinedResults & found, const GainEstimate & gain)
-{
-  if (found.frameNoise.HasSeveralGroups())
-  {
-    return GainVerdict::FramesDiffer;
-  }
-  if (found.lines.remainingVariance > 0.0 && CorrectionByCorrelation(found, gain) > InRefined.largestCorrection)
-  {
-    return GainVerdict::IlluminationIsLeft;
-  }
-  if (gain.nonlinearity > InRefined.largestNonlinearity)
-  {
-    return GainVerdict::NotAffine;
-  }
-  if (gain.isWide && gain.IsNonlinear() &&
-      gain.above + gain.below > 2.0 * InCommon.largestRelativeError * gain.line.gain)
-  {
-    return GainVerdict::GainDependsOnOffset;
-  }
-  return gain.line.gain > 0.0 ? GainVerdict::Identified : GainVerdict::NotRising;
-}
-
-bool
-AreTooFew(const std::vector<std::uint8_t> & pixelUse, double usable)
-{
-  const auto used = std::count(pixelUse.begin(), pixelUse.end(), static_cast<std::uint8_t>(PixelUse::Used));
-  return static_cast<double>(used) < InRefined.leastUsedFraction * usable;
-}
-} // namespace
-
-GainVerdict
-TestGain(const RefinedResults & found, const GainEstimate & gain)
-{
-  // If all levels are alike, parts of them differ by fixed-pattern noise, and not by a non-linear response.
-  const double error = gain.isWide ? std::sqrt(gain.covariance(0, 0)) : gain.StandardError();
-  const bool   areTooFew = AreTooFew(found.variance.pixelUse, found.scene.usable);
-  const bool   isTooLittle = error > InCommon.largestRelativeError * gain.scale || areTooFew;
-  if (isTooLittle && !found.frameNoise.HasSeveralGroups() && !(gain.nonlinearity > InRefined.largestNonlinearity))
-  {
-    return areTooFew                 ? GainVerdict::TooFewPixels
-           : FindFewLitFrames(found) ? GainVerdict::FewLitFrames
-                                     : GainVerdict::LevelsTooAlike;
-  }
-  return FindContradiction(found, gain);
-}
-
-EstimateStatus
-StatusBy(GainVerdict verdict)
-{
-  switch (verdict)
-  {
-    case GainVerdict::Identified:
-      return EstimateStatus::Identified;
-    case GainVerdict::TooFewPixels:
-    case GainVerdict::FewLitFrames:
-    case GainVerdict::LevelsTooAlike:
-      return EstimateStatus::NotIdentifiable;
-    case GainVerdict::FramesDiffer:
-    case GainVerdict::IlluminationIsLeft:
-    case GainVerdict::NotAffine:
-    case GainVerdict::GainDependsOnOffset:
-    case GainVerdict::NotRising:
-    case GainVerdict::LineIllumination:
-    case GainVerdict::NoiseNotLinear:
-      break;
-  }
-  return EstimateStatus::Failed;
-}
-
-double
-CorrectionByCorrelation(const RefinedResults & found, const GainEstimate & gain)
-{
-  const double correction = gain.line.gain / std::max(1e-9, found.variance.line.gain);
-  return std::max(correction, 1.0 / std::max(1e-9, correction));
-}
-
-std::optional<Interval>
-GainBounds(const RefinedResults & found, const GainEstimate & gain)
-{
-  const auto & known = found.settings.offset;
-  const double signal = known ? gain.line.pivotDn - known->valueDn : 0.0;
-  if (!known || known->variance || !(signal > 0.0))
-  {
-    return std::nullopt;
-  }
-  const Eigen::Vector2d pivot(gain.line.pivotDn, 1.0);
-  const double          atPivot = gain.line.intercept + gain.line.gain * gain.line.pivotDn;
-  const double          error = 2.0 * std::sqrt(std::max(0.0, pivot.dot(gain.covariance * pivot)));
-  const double          lowest = std::min(gain.line.At(found.scene.model.darkestDn), atPivot);
-  return Interval{ std::max(0.0, atPivot - lowest - error) / signal, (atPivot + error) / signal };
-}
-
-std::optional<LitFrames>
-FindFewLitFrames(const RefinedResults & found)
-{
-  const Eigen::MatrixXd & basis = found.series.basis.GetBasis();
-  const Eigen::Index      frames = basis.rows();
-  const Eigen::VectorXd   illumination =
-    (1.0 + Eigen::Map<const Eigen::VectorXd>(found.series.line.gamma.data(), frames).array()).max(0.0);
-  const double          all = illumination.sum();
-  const Eigen::VectorXd kept = (1.0 - 1.0 / static_cast<double>(frames)) - basis.cwiseAbs2().rowwise().sum().array();
-  const double          left = illumination.dot(kept) / all * static_cast<double>(frames) / std::max(1e-9, kept.sum());
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(frames));
-  std::iota(order.begin(), order.end(), Eigen::Index{ 0 });
-  std::stable_sort(
-    order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return illumination(a) > illumination(b); });
-  std::size_t count = 0;
-  double      carried = 0.0;
-  while (count < order.size() && carried < InPixels.fractionOfFewFrames * all)
-  {
-    carried += illumination(order[count++]);
-  }
-  if (left > 1.0 - InPixels.largestFeedback || 4 * count > order.size())
-  {
-    return std::nullopt;
-  }
-  order.resize(count);
-  std::sort(order.begin(), order.end());
-  return LitFrames{ order, carried / all, std::max(0.0, left) };
-}
 
 namespace
 {
