@@ -4,6 +4,7 @@
 #define sensornoise_refined_RefinedEstimate_h
 
 #include "SensorNoiseExport.h"
+#include "refined/FlickerSeries.h"
 #include "refined/MotionEstimate.h"
 #include "refined/OffsetEstimate.h"
 #include "refined/RefinedResults.h"
