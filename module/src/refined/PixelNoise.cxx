@@ -6,8 +6,8 @@
 #include "correlation/NoiseResiduals.h"
 #include "correlation/RemainingSceneChange.h"
 #include "moments/DarkMaps.h"
-#include "pixels/RoughnessClasses.h"
 #include "refined/Constants.h"
+#include "refined/FrameComparison.h"
 #include "refined/FramePhotonTransfer.h"
 #include "report/StackReport.h"
 #include "sensornoise/Report.h"
@@ -98,116 +98,6 @@ LeaveOutEdges(const ReferenceFrame &      frame,
 
 namespace
 {
-/** Data by which the noise of the frames of the sample is compared. */
-struct FrameComparison
-{
-  const NoiseResiduals &   residuals;
-  const ProjectedSquares & squares;
-  const StaticScene &      scene;
-  TileLevels               levels;
-  bool                     isIlluminationLocal{ false }; ///< the illumination changes differently between tiles
-
-  /** Returns whether the noise variance differs between frames by as much as counts. */
-  bool
-  AreUnequal() const
-  {
-    return scene.changesStrongly || squares.HasUnequalNoise();
-  }
-};
-
-/** Returns the photon transfer of the frames. It is not determined if the frames are about equal, or if the
- * illumination changes differently between tiles. */
-VarianceCurve
-LineOfFrames(const StaticVariance & variance, const FrameComparison & by, const ParallelFor & parallelFor)
-{
-  if (!by.AreUnequal() || by.isIlluminationLocal)
-  {
-    return {};
-  }
-  const std::vector<std::uint8_t> used = MaskOfUsed(variance.pixelUse);
-  const auto                      count = static_cast<double>(std::count(used.begin(), used.end(), std::uint8_t{ 1 }));
-  if (!(count > InRefined.leastUsedFraction * static_cast<double>(by.scene.valid)))
-  {
-    return {};
-  }
-  return FitFramePhotonTransfer({ by.residuals, used, parallelFor }, by.levels, variance.line);
-}
-
-/** A line and the standard error of its slope. */
-struct SlopeOfLine
-{
-  const VarianceLine & line;
-  double               error;
-};
-
-/** Returns the lines of the frames and of the pixels, as far as they are determined. The line with the more precise
- * slope is first. */
-std::vector<SlopeOfLine>
-LinesByError(const StaticVariance & variance)
-{
-  const VarianceCurve & frames = variance.fromFrames;
-  const auto   errorOf = [](const VarianceLine & line) { return std::sqrt(std::max(0.0, line.covariance(0, 0))); };
-  const double ofPattern = variance.pattern.LargestFraction() * variance.line.gain;
-  const double ofPixels = std::hypot(errorOf(variance.line), ofPattern);
-  const double chi2 = frames.ReducedChi2() / variance.varianceInflation;
-  const double ofFrames =
-    errorOf(frames.line) * std::sqrt(BeyondChance(chi2, static_cast<double>(frames.bins.size()) - 2.0));
-  if (!frames.line.isDetermined)
-  {
-    return { { variance.line, ofPixels } };
-  }
-  return ofFrames < ofPixels ? std::vector<SlopeOfLine>{ { frames.line, ofFrames }, { variance.line, ofPixels } }
-                             : std::vector<SlopeOfLine>{ { variance.line, ofPixels }, { frames.line, ofFrames } };
-}
-
-/** Returns the line of frames or pixels with the more precise slope. */
-const VarianceLine &
-BetterLine(const StaticVariance & variance)
-{
-  return LinesByError(variance).front().line;
-}
-
-/** Returns whether the scene moves so little that no motion remains in the residuals. */
-bool
-MovesLittle(const FrameComparison & by)
-{
-  return std::max(by.scene.model.vibrationXPixels2, by.scene.model.vibrationYPixels2) <
-         InRefined.strongVibration * InRefined.strongVibration;
-}
-
-/** Finds the frames whose noise differs from the noise of the others. If frames of two gains have two levels, the line
- * of the frames fits them all; the line of the pixels then contradicts it. */
-FrameNoise
-CompareFrames(const StaticVariance &  variance,
-              const FrameComparison & by,
-              double                  varianceInflation,
-              const ParallelFor &     parallelFor)
-{
-  // Remaining motion of a frame is not noise, and levels of tiles are not known under local illumination.
-  const double least =
-    std::max(MovesLittle(by) ? 0.0 : InRefined.leastUnlikeUnderMotion,
-             by.isIlluminationLocal ? InRefined.leastUnlikeUnderLocalIllumination : InRefined.leastUnlikeNoise);
-  const std::vector<std::uint8_t> used = MaskOfUsed(variance.pixelUse);
-  const FrameEnergies             flat(by.residuals, MaskOfFlatClasses(by.squares, used, parallelFor), parallelFor);
-  const double                    chance = std::sqrt(2.0 * varianceInflation / std::max(1.0, flat.Pixels().sum()));
-  FrameNoise                      noise;
-  for (const auto & [line, error] : LinesByError(variance))
-  {
-    noise = GroupFramesByNoise(NoiseOfFrames(flat, by.levels, line, error), chance, least);
-    for (int round = 0; round < InRefined.roundsOfFrameNoise && noise.groups.size() > 1; ++round)
-    {
-      const Eigen::VectorXd known = noise.OfFrames(flat.Frames());
-      noise = GroupFramesByNoise(NoiseOfFrames(flat, by.levels, line, error, known), chance, least);
-    }
-    noise.areFramesEqual = !by.AreUnequal();
-    if (noise.HasSeveralGroups())
-    {
-      break;
-    }
-  }
-  return noise;
-}
-
 /** Finds causes of correlation other than filters: local motion, and parts of frames that \a repeat. It does not search
  * for local motion if the whole scene moves, as the remaining motion of frames has the slopes of the scene, too. */
 void

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "refined/FrameComparison.h"
+
+#include "correlation/FrameEnergies.h"
+#include "pixels/RoughnessClasses.h"
+#include "refined/Constants.h"
+#include "report/StackReport.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** A line and the standard error of its slope. */
+struct SlopeOfLine
+{
+  const VarianceLine & line;
+  double               error;
+};
+
+/** Returns the lines of the frames and of the pixels, as far as they are determined. The line with the more precise
+ * slope is first. */
+std::vector<SlopeOfLine>
+LinesByError(const StaticVariance & variance)
+{
+  const VarianceCurve & frames = variance.fromFrames;
+  const auto   errorOf = [](const VarianceLine & line) { return std::sqrt(std::max(0.0, line.covariance(0, 0))); };
+  const double ofPattern = variance.pattern.LargestFraction() * variance.line.gain;
+  const double ofPixels = std::hypot(errorOf(variance.line), ofPattern);
+  const double chi2 = frames.ReducedChi2() / variance.varianceInflation;
+  const double ofFrames =
+    errorOf(frames.line) * std::sqrt(BeyondChance(chi2, static_cast<double>(frames.bins.size()) - 2.0));
+  if (!frames.line.isDetermined)
+  {
+    return { { variance.line, ofPixels } };
+  }
+  return ofFrames < ofPixels ? std::vector<SlopeOfLine>{ { frames.line, ofFrames }, { variance.line, ofPixels } }
+                             : std::vector<SlopeOfLine>{ { variance.line, ofPixels }, { frames.line, ofFrames } };
+}
+} // namespace
+
+VarianceCurve
+LineOfFrames(const StaticVariance & variance, const FrameComparison & by, const ParallelFor & parallelFor)
+{
+  if (!by.AreUnequal() || by.isIlluminationLocal)
+  {
+    return {};
+  }
+  const std::vector<std::uint8_t> used = MaskOfUsed(variance.pixelUse);
+  const auto                      count = static_cast<double>(std::count(used.begin(), used.end(), std::uint8_t{ 1 }));
+  if (!(count > InRefined.leastUsedFraction * static_cast<double>(by.scene.valid)))
+  {
+    return {};
+  }
+  return FitFramePhotonTransfer({ by.residuals, used, parallelFor }, by.levels, variance.line);
+}
+
+const VarianceLine &
+BetterLine(const StaticVariance & variance)
+{
+  return LinesByError(variance).front().line;
+}
+
+bool
+MovesLittle(const FrameComparison & by)
+{
+  return std::max(by.scene.model.vibrationXPixels2, by.scene.model.vibrationYPixels2) <
+         InRefined.strongVibration * InRefined.strongVibration;
+}
+
+FrameNoise
+CompareFrames(const StaticVariance &  variance,
+              const FrameComparison & by,
+              double                  varianceInflation,
+              const ParallelFor &     parallelFor)
+{
+  // Remaining motion of a frame is not noise, and levels of tiles are not known under local illumination.
+  const double least =
+    std::max(MovesLittle(by) ? 0.0 : InRefined.leastUnlikeUnderMotion,
+             by.isIlluminationLocal ? InRefined.leastUnlikeUnderLocalIllumination : InRefined.leastUnlikeNoise);
+  const std::vector<std::uint8_t> used = MaskOfUsed(variance.pixelUse);
+  const FrameEnergies             flat(by.residuals, MaskOfFlatClasses(by.squares, used, parallelFor), parallelFor);
+  const double                    chance = std::sqrt(2.0 * varianceInflation / std::max(1.0, flat.Pixels().sum()));
+  FrameNoise                      noise;
+  for (const auto & [line, error] : LinesByError(variance))
+  {
+    noise = GroupFramesByNoise(NoiseOfFrames(flat, by.levels, line, error), chance, least);
+    for (int round = 0; round < InRefined.roundsOfFrameNoise && noise.groups.size() > 1; ++round)
+    {
+      const Eigen::VectorXd known = noise.OfFrames(flat.Frames());
+      noise = GroupFramesByNoise(NoiseOfFrames(flat, by.levels, line, error, known), chance, least);
+    }
+    noise.areFramesEqual = !by.AreUnequal();
+    if (noise.HasSeveralGroups())
+    {
+      break;
+    }
+  }
+  return noise;
+}
+
+} // namespace sensornoise
