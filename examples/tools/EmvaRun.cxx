@@ -4,6 +4,7 @@
 
 #include "sensornoise/Emva1288.h"
 #include "tools/EmvaFrames.h"
+#include "tools/EmvaList.h"
 #include "tools/EmvaSources.h"
 #include "tools/EstimateOptions.h"
 #include "tools/ExposureList.h"

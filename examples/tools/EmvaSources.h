@@ -32,24 +32,6 @@ struct EmvaSourceList
   std::size_t             height{ 0 };   ///< rows that the list says [pixel]; 0: it says none
 };
 
-/** Returns whether a file is a list of exposures and no image, by the ending of its name: .csv, .tsv or .txt. */
-bool
-IsEmvaList(const std::string & file);
-
-/** Reads a list of exposures: a descriptor of the package emva1288, or a table.
- *
- * A descriptor has lines "n BITS WIDTH HEIGHT", "b EXPOSURE PHOTONS" and "d EXPOSURE", each of the latter two followed
- * by lines "i FILE". Exposures are in nanoseconds and become seconds. A table has a line of names and one line for each
- * series; columns are separated by commas or tabs. The columns are `exposure` (or `exposure_s`, `exposure_ms`,
- * `exposure_us`, `exposure_ns`: then it becomes seconds) and `files` (names, stacks or patterns, with semicolons), and
- * optionally `photons` and `kind` ("flat" or "dark"). Without a kind, a series is dark if its photons are 0, or,
- * without photons, if its exposure is 0. Names are relative to the folder of the list; backslashes in a descriptor are
- * slashes.
- *
- * Throws std::runtime_error, which names the line, for a list that is none, and for a pattern without files. */
-EmvaSourceList
-ReadEmvaList(const std::string & file, bool areRaw);
-
 /** Groups the frames of \a files by their exposures, of which there is one for each frame; frames of
  * exposure 0 are dark. The exposures are in the order of the frames. */
 EmvaSourceList

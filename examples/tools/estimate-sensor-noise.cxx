@@ -9,7 +9,7 @@
 #include "tools/CompanionFiles.h"
 #include "tools/ComparedFiles.h"
 #include "tools/EmvaRun.h"
-#include "tools/EmvaSources.h"
+#include "tools/EmvaList.h"
 #include "tools/EstimateOptions.h"
 #include "tools/FilesHash.h"
 #include "tools/ExposureList.h"
