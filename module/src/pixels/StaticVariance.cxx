@@ -265,13 +265,14 @@ RejectQuietPixels(const FittedLine & drawn, StaticVariance & found, const Parall
   const double darkestDn = QuantileOf(std::move(levels), InCommon.darkestQuantile); // no pixel has more signal than
                                                                                     // its level above this one
   const auto isQuiet = [&](std::size_t p) {
-    const double shotDn2 = drawn.line.gain * (data.neighbourMean[p] - darkestDn);
+    const double level = std::min(data.mean[p], data.neighbourMean[p]); // beside an edge, neighbours may be brighter
+    const double shotDn2 = drawn.line.gain * (level - darkestDn);
     const double variance = data.variance[p];
     if (data.mask[p] == 0 || !(variance < InPixels.largestQuietVariance * shotDn2))
     {
       return false;
     }
-    const double dof = drawn.line.EffectiveDof(data.dof[p], drawn.line.At(data.neighbourMean[p]));
+    const double dof = drawn.line.EffectiveDof(data.dof[p], drawn.line.At(level));
     return dof > 0.0 && NormalQuantile(ChiSquareCdf(dof * variance / shotDn2, dof)) < -Significance.severalTests;
   };
   std::vector<std::uint8_t> quiet(data.pixels);
