@@ -36,6 +36,9 @@ namespace itk
 /** \class SensorNoiseReportSink
  * \brief Base class of the filters that make a report of a stack: its mask, its digital numbers, and where it is from.
  *
+ * The properties of the digital numbers are found from the data unless they are given. The report records the region,
+ * the frames and the hash of the source, so that the measurement can be repeated.
+ *
  * \tparam TStack itk::Image of 3 dimensions: x, y, time.
  * \ingroup SensorNoise
  */
