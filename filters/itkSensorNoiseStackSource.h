@@ -412,9 +412,10 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
-  /** Sets an interpolation of one of the flaws by its name. */
+  /** Sets \a member to the value that \a parse makes of a name. Throws an ExceptionObject if there is no such name. */
+  template <typename TValue, typename TParse>
   void
-  SetInterpolation(sensornoise::Interpolation & interpolation, const std::string & name);
+  SetParsed(TValue & member, TParse parse);
 
   sensornoise::SimulationSettings
   MakeSettings() const;

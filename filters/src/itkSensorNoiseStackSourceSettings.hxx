@@ -62,61 +62,46 @@ SensorNoiseStackSource<TOutputStack>::SetConditions(int number)
 }
 
 template <typename TOutputStack>
+template <typename TValue, typename TParse>
+void
+SensorNoiseStackSource<TOutputStack>::SetParsed(TValue & member, TParse parse)
+{
+  const TValue value = WithItkErrors<std::invalid_argument>(this, parse, ImpossibleSimulation);
+  if (member != value)
+  {
+    member = value;
+    this->Modified();
+  }
+}
+
+template <typename TOutputStack>
 void
 SensorNoiseStackSource<TOutputStack>::SetResponseShape(const std::string & name)
 {
-  const sensornoise::ResponseShape shape = WithItkErrors<std::invalid_argument>(
-    this, [&name] { return sensornoise::ResponseShapeOf(name); }, ImpossibleSimulation);
-  if (m_Flaws.response.shape != shape)
-  {
-    m_Flaws.response.shape = shape;
-    this->Modified();
-  }
+  this->SetParsed(m_Flaws.response.shape, [&name] { return sensornoise::ResponseShapeOf(name); });
 }
 
 template <typename TOutputStack>
 void
 SensorNoiseStackSource<TOutputStack>::SetBayerPattern(const std::string & name)
 {
-  std::optional<sensornoise::BayerPattern> pattern;
-  if (name != "none")
-  {
-    pattern = WithItkErrors<std::invalid_argument>(
-      this, [&name] { return sensornoise::BayerPatternOf(name); }, ImpossibleSimulation);
-  }
-  if (m_Flaws.filters.pattern != pattern)
-  {
-    m_Flaws.filters.pattern = pattern;
-    this->Modified();
-  }
-}
-
-template <typename TOutputStack>
-void
-SensorNoiseStackSource<TOutputStack>::SetInterpolation(sensornoise::Interpolation & interpolation,
-                                                       const std::string &          name)
-{
-  const sensornoise::Interpolation wanted = WithItkErrors<std::invalid_argument>(
-    this, [&name] { return sensornoise::InterpolationOf(name); }, ImpossibleSimulation);
-  if (interpolation != wanted)
-  {
-    interpolation = wanted;
-    this->Modified();
-  }
+  using Pattern = std::optional<sensornoise::BayerPattern>;
+  this->SetParsed(m_Flaws.filters.pattern,
+                  [&name] { return name == "none" ? Pattern() : Pattern(sensornoise::BayerPatternOf(name)); });
 }
 
 template <typename TOutputStack>
 void
 SensorNoiseStackSource<TOutputStack>::SetBinningInterpolation(const std::string & name)
 {
-  this->SetInterpolation(m_Flaws.binning.interpolation, name);
+  this->SetParsed(m_Flaws.binning.interpolation, [&name] { return sensornoise::InterpolationOf(name); });
 }
 
 template <typename TOutputStack>
 void
 SensorNoiseStackSource<TOutputStack>::SetResamplingInterpolation(const std::string & name)
 {
-  this->SetInterpolation(m_Flaws.resampling.interpolation, name);
+  this->SetParsed(m_Flaws.resampling.interpolation, [&name] { return sensornoise::InterpolationOf(name); });
 }
 
 template <typename TOutputStack>

@@ -183,7 +183,7 @@ TEST(SensorNoiseLocalIllumination, OneSeriesOfUnequalSizeIsUneven)
   const auto found = Find(frames, factors);
   EXPECT_EQ(found.series.cols(), 0); // there is no further series
   EXPECT_TRUE(found.IsLocal());
-  EXPECT_NEAR(found.unevenness, 0.2 / std::sqrt(12.0), 0.015);
+  EXPECT_NEAR(found.unevenness.size, 0.2 / std::sqrt(12.0), 0.015);
 }
 
 TEST(SensorNoiseLocalIllumination, UniformFlickerIsNotUnevenAboutAWrongOffset)
@@ -191,7 +191,7 @@ TEST(SensorNoiseLocalIllumination, UniformFlickerIsNotUnevenAboutAWrongOffset)
   const Factors factors;
   const auto    right = Find(Lit(factors, 0.0), factors);
   EXPECT_FALSE(right.IsLocal());
-  EXPECT_LT(right.unevenness, 0.01);
+  EXPECT_LT(right.unevenness.size, 0.01);
   const auto wrong = Find(Lit(factors, 0.0), factors, Most, {}, Offset - 30.0);
   EXPECT_FALSE(wrong.IsLocal());
 }

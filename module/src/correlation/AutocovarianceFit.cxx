@@ -41,6 +41,25 @@ LongestTail()
 {
   return static_cast<std::size_t>(std::ceil(std::log(1e-3) / std::log(InCorrelation.largestTailRatio)));
 }
+
+/** Returns the sums of the autocovariances q^k of the lags k from \a first on; q is \a ratio. */
+Eigen::VectorXd
+SumsOfTail(const Eigen::MatrixXd & mixing, double ratio, Eigen::Index first)
+{
+  const Eigen::Index    lags = mixing.cols() - first;
+  const Eigen::VectorXd powers =
+    Eigen::VectorXd::NullaryExpr(lags, [=](Eigen::Index k) { return std::pow(ratio, static_cast<double>(first + k)); });
+  return mixing.rightCols(lags) * powers;
+}
+
+/** Returns the sums of white noise, and of q^k, k = 1, 2, ..., as columns. */
+Eigen::MatrixXd
+ColumnsOf(const Eigen::MatrixXd & mixing, double ratio)
+{
+  Eigen::MatrixXd columns(mixing.rows(), 2);
+  columns << mixing.col(0), SumsOfTail(mixing, ratio, 1);
+  return columns;
+}
 } // namespace
 
 Eigen::MatrixXd
@@ -66,37 +85,16 @@ TemporalMixing(const Eigen::MatrixXd & basis, std::size_t lags, std::size_t furt
 AutocovarianceFit::AutocovarianceFit(const Eigen::MatrixXd & basis, std::size_t lags)
   : m_Basis(basis)
   , m_Mixing(TemporalMixing(basis, lags, lags))
-  , m_Lags(lags)
-{}
-
-Eigen::VectorXd
-AutocovarianceFit::SumsOfTail(double ratio, std::size_t first) const
 {
-  const Eigen::Index    lags = std::max<Eigen::Index>(0, m_Mixing.cols() - static_cast<Eigen::Index>(first));
-  const Eigen::VectorXd powers = Eigen::VectorXd::NullaryExpr(
-    lags, [=](Eigen::Index k) { return std::pow(ratio, static_cast<double>(first) + static_cast<double>(k)); });
-  return m_Mixing.rightCols(lags) * powers;
-}
-
-Eigen::MatrixXd
-AutocovarianceFit::ColumnsOf(double ratio) const
-{
-  Eigen::MatrixXd columns(m_Mixing.rows(), 2);
-  columns << m_Mixing.col(0), this->SumsOfTail(ratio, 1);
-  return columns;
-}
-
-double
-AutocovarianceFit::AmplitudeOf(const Eigen::VectorXd & sums) const
-{
-  return this->HasTail() ? this->ColumnsOf(m_Ratio).colPivHouseholderQr().solve(sums)(1) : 0.0;
+  this->Solve();
 }
 
 void
 AutocovarianceFit::FindTail(const Eigen::VectorXd & sums)
 {
   const auto frames = static_cast<std::size_t>(m_Basis.rows());
-  m_Mixing = TemporalMixing(m_Basis, m_Lags, std::max(m_Lags, std::min(frames - 1, m_Lags + LongestTail())));
+  const auto lags = static_cast<std::size_t>(m_Mixing.rows()) - 1;
+  m_Mixing = TemporalMixing(m_Basis, lags, std::max(lags, std::min(frames - 1, lags + LongestTail())));
   const Eigen::VectorXd white = m_Mixing.col(0);
   const double          ofWhite = (sums - white * (white.dot(sums) / white.squaredNorm())).squaredNorm();
   double                best = 0.0;
@@ -104,7 +102,7 @@ AutocovarianceFit::FindTail(const Eigen::VectorXd & sums)
   const auto            search = [&](double low, double high, double step) {
     for (double ratio = std::max(step, low); ratio < std::min(high, InCorrelation.largestTailRatio); ratio += step)
     {
-      const Eigen::MatrixXd columns = this->ColumnsOf(ratio);
+      const Eigen::MatrixXd columns = ColumnsOf(m_Mixing, ratio);
       const Eigen::VectorXd terms = columns.colPivHouseholderQr().solve(sums);
       const double          misfit = (sums - columns * terms).squaredNorm();
       if (terms(1) > 0.0 && misfit < least)
@@ -114,29 +112,29 @@ AutocovarianceFit::FindTail(const Eigen::VectorXd & sums)
       }
     }
   };
-  const double coarse = 0.02;
+  constexpr double coarse = 0.02;
   search(coarse, 1.0, coarse);
   search(best - coarse, best + coarse, coarse / 20.0);
   m_Ratio = least < InCorrelation.largestTailMisfit * InCorrelation.largestTailMisfit * ofWhite ? best : 0.0;
+  this->Solve();
 }
 
-Eigen::VectorXd
-AutocovarianceFit::Autocovariances(const Eigen::VectorXd & sums) const
+/** Sets the matrices of the results, which are linear in the sums. */
+void
+AutocovarianceFit::Solve()
 {
-  Eigen::VectorXd left = sums;
+  const Eigen::Index size = m_Mixing.rows();
+  m_Autocovariances = m_Mixing.leftCols(size).fullPivLu().inverse();
+  m_Total = 2.0 * m_Autocovariances.colwise().sum() - m_Autocovariances.row(0);
   if (this->HasTail())
   {
-    left -= this->AmplitudeOf(sums) * this->SumsOfTail(m_Ratio, m_Lags + 1);
+    // The tail is A q^k, and the amplitude A is linear in the sums, too.
+    const Eigen::MatrixXd    identity = Eigen::MatrixXd::Identity(size, size);
+    const Eigen::RowVectorXd amplitude = ColumnsOf(m_Mixing, m_Ratio).colPivHouseholderQr().solve(identity).row(1);
+    m_Autocovariances *= identity - SumsOfTail(m_Mixing, m_Ratio, size) * amplitude;
+    const double beyond = std::pow(m_Ratio, static_cast<double>(size)) / (1.0 - m_Ratio);
+    m_Total = 2.0 * (m_Autocovariances.colwise().sum() + beyond * amplitude) - m_Autocovariances.row(0);
   }
-  return m_Mixing.leftCols(m_Mixing.rows()).fullPivLu().solve(left);
-}
-
-double
-AutocovarianceFit::Total(const Eigen::VectorXd & sums) const
-{
-  const Eigen::VectorXd own = this->Autocovariances(sums);
-  const double          beyond = std::pow(m_Ratio, static_cast<double>(m_Lags) + 1.0) / (1.0 - m_Ratio);
-  return 2.0 * (own.sum() + this->AmplitudeOf(sums) * beyond) - own(0);
 }
 
 } // namespace sensornoise

@@ -48,26 +48,26 @@ public:
   }
   /** Returns R_0 ... R_K. */
   Eigen::VectorXd
-  Autocovariances(const Eigen::VectorXd & sums) const;
+  Autocovariances(const Eigen::VectorXd & sums) const
+  {
+    return m_Autocovariances * sums;
+  }
   /** Returns R_0 + 2 (R_1 + R_2 + ...), with the tail. */
   double
-  Total(const Eigen::VectorXd & sums) const;
+  Total(const Eigen::VectorXd & sums) const
+  {
+    return m_Total * sums;
+  }
 
 private:
-  /** Returns the sums of the autocovariances q^k of the lags k from \a first on; q is \a ratio. */
-  Eigen::VectorXd
-  SumsOfTail(double ratio, std::size_t first) const;
-  /** Returns the sums of white noise, and of q^k, k = 1, 2, ..., as columns. */
-  Eigen::MatrixXd
-  ColumnsOf(double ratio) const;
-  /** Returns the amplitude A of the tail; 0 if there is none. */
-  double
-  AmplitudeOf(const Eigen::VectorXd & sums) const;
+  void
+  Solve();
 
-  Eigen::MatrixXd m_Basis;
-  Eigen::MatrixXd m_Mixing; // columns from lag 0 on
-  std::size_t     m_Lags;
-  double          m_Ratio{ 0.0 };
+  Eigen::MatrixXd    m_Basis;
+  Eigen::MatrixXd    m_Mixing; // columns from lag 0 on
+  double             m_Ratio{ 0.0 };
+  Eigen::MatrixXd    m_Autocovariances; // what the sums are multiplied by
+  Eigen::RowVectorXd m_Total;
 };
 
 } // namespace sensornoise

@@ -107,7 +107,7 @@ struct SensorNoise_EXPORT NoiseCorrelation
   std::array<WeightedShape, NumberOfShapes> timeShapes;
   /** Sum of the covariances over all temporal lags, relative to the variance, of all pixels [1]. */
   MeasuredNumber timeFactor{ 1.0, 0.0 };
-  /** Largest total covariance of the temporal lags that are not summed, relative to the variance [1]. */
+  /** Standard error of timeFactor by the temporal lags that are not summed [1]. */
   double beyondTimeLags{ 0.0 };
   /** Largest total covariance of the lags beyond reach, relative to the variance [1]. */
   double beyondReach{ 0.0 };

@@ -29,9 +29,10 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found);
 SensorNoise_EXPORT bool
 IsCorrelatedInTime(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients);
 
-/** Sums the noise covariance over temporal lags, until the last two are small, fits the dependence on the signal, and
- * sets the noise class to Temporal. More lags than needed increase the error: after the projection of a short burst,
- * distant lags are hardly distinguishable. */
+/** Sums the noise covariance over temporal lags, until the last two are small, and continues it beyond them where it
+ * decreases as behind a recursive filter. Fits the dependence on the signal, and sets the noise class to Temporal. More
+ * lags than needed increase the error: after the projection of a short burst, distant lags are hardly distinguishable.
+ */
 SensorNoise_EXPORT void
 SumOverTime(CorrelationSums & sums, NoiseCorrelation & found);
 

@@ -37,8 +37,8 @@ MeasureResponsivity(const TransferCurve & curve, EmvaReport & report);
 void
 MeasureDark(const DarkLevels & dark, EmvaReport & report);
 
-/** Sets saturation capacity, sensitivity threshold (26), dynamic range (28) and largest signal-to-noise ratio (55), all
- * of which need report.gain. In photons they need report.quantumEfficiency. Where no frames are saturated, the
+/** Sets saturation capacity, sensitivity threshold (26), dynamic range (28) and largest signal-to-noise ratio (55).
+ * They need report.gain. In photons they need report.quantumEfficiency. Where no frames are saturated, the
  * saturation has a lower bound and no value. */
 void
 MeasureRange(const TransferCurve & curve, const DarkLevels & dark, EmvaReport & report);

@@ -55,10 +55,8 @@ public:
   Surface
   SurfaceAt(std::size_t p, double centred) const
   {
-    const auto   part = [](std::size_t at) { return static_cast<double>(at % Side) / Side - 0.5; };
-    const double x = part(p % m_Frame.geometry.width);
-    const double y = part(p / m_Frame.geometry.width);
-    return (Surface() << 1.0, centred, x, y, x * centred, y * centred).finished();
+    const Eigen::Vector2d place = sensornoise::Tiles{ Side, Side, this->Tiles() }.PlaceOf(p, m_Frame.geometry.width);
+    return (Surface() << 1.0, centred, place, centred * place).finished();
   }
   std::size_t
   Variables() const

@@ -4,6 +4,7 @@
 #define sensornoise_pixels_IlluminationResponses_h
 
 #include "SensorNoiseExport.h"
+#include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
 
 #include <cstddef>
@@ -44,6 +45,15 @@ struct Tiles
   Of(std::size_t p, std::size_t frameWidth) const
   {
     return p / frameWidth / height * across + p % frameWidth / width;
+  }
+  /** Returns the place of pixel \a p in its tile, from -1/2 to 1/2 along x and y [1]. */
+  Eigen::Vector2d
+  PlaceOf(std::size_t p, std::size_t frameWidth) const
+  {
+    const auto part = [](std::size_t at, std::size_t size) {
+      return (static_cast<double>(at % size) + 0.5) / static_cast<double>(size) - 0.5;
+    };
+    return { part(p % frameWidth, width), part(p / frameWidth, height) };
   }
 };
 

@@ -14,8 +14,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -23,8 +23,9 @@ namespace sensornoise
 
 namespace
 {
-/** Sums over a tile: the Gram matrix of 1 and I, the mean minus the centre, corrected for the noise of the means, and
- * for each response z the sums r1 = sum w z and r2 = sum w I z. */
+/** Sums over a tile, without what increases linearly over it: a gradient of the illumination and a gradient of the
+ * scene look alike. They are the Gram matrix of 1 and I, the mean minus the centre, corrected for the noise of the
+ * means, and for each response z the sums r1 = sum w z and r2 = sum w I z. */
 struct TileSums
 {
   double              n{ 0.0 };
@@ -33,30 +34,7 @@ struct TileSums
   double              g22{ 0.0 };
   std::vector<double> r1;
   std::vector<double> r2;
-  // The same sums with the place in the tile, which PartialOutPlaces() removes from the others.
-  Eigen::Matrix2d              places{ Eigen::Matrix2d::Zero() };       ///< sum w (x, y)(x, y)'
-  Eigen::Matrix2d              placesLevels{ Eigen::Matrix2d::Zero() }; ///< sum w (x, y)(1, I)'
-  std::vector<Eigen::Vector2d> placesResponses;                         ///< sum w (x, y) z
 
-  /** Removes what increases linearly over the tile from the other sums: a gradient of the illumination and a gradient
-   * of the scene look alike. */
-  void
-  PartialOutPlaces()
-  {
-    const Eigen::Matrix2d slopes = places.ldlt().solve(placesLevels);
-    if (!slopes.allFinite())
-    {
-      return;
-    }
-    g11 -= placesLevels.col(0).dot(slopes.col(0));
-    g12 -= placesLevels.col(0).dot(slopes.col(1));
-    g22 -= placesLevels.col(1).dot(slopes.col(1));
-    for (std::size_t j = 0; j < r1.size(); ++j)
-    {
-      r1[j] -= slopes.col(0).dot(placesResponses[j]);
-      r2[j] -= slopes.col(1).dot(placesResponses[j]);
-    }
-  }
   double
   Determinant() const
   {
@@ -172,15 +150,30 @@ FitTiles(const std::vector<TileSums> & tiles, const IlluminationResponses & data
   return result;
 }
 
-/** Returns the place of pixel \a p in its tile, from -1/2 to 1/2 along x and y [1]. */
-Eigen::Vector2d
-PlaceIn(const Tiles & tiles, std::size_t p, std::size_t frameWidth)
+/** Sums over a tile of the products of 1, I and the place (x, y), and of these terms with each response. */
+struct TileMoments
 {
-  const auto part = [](std::size_t at, std::size_t size) {
-    return (static_cast<double>(at % size) + 0.5) / static_cast<double>(size) - 0.5;
-  };
-  return { part(p % frameWidth, tiles.width), part(p / frameWidth, tiles.height) };
-}
+  double                       n{ 0.0 };
+  Eigen::Matrix4d              gram{ Eigen::Matrix4d::Zero() };
+  std::vector<Eigen::Vector4d> products;
+
+  /** Returns the sums of 1 and I after the regression of both on the place (Frisch & Waugh 1933). */
+  TileSums
+  WithoutPlace() const
+  {
+    const Eigen::Matrix2d slopes = gram.bottomRightCorner<2, 2>().ldlt().solve(gram.bottomLeftCorner<2, 2>());
+    const Eigen::Matrix2d taken = slopes.allFinite() ? slopes : Eigen::Matrix2d(Eigen::Matrix2d::Zero());
+    const Eigen::Matrix2d left = gram.topLeftCorner<2, 2>() - gram.topRightCorner<2, 2>() * taken;
+    TileSums              sums{ n, left(0, 0), left(0, 1), left(1, 1), {}, {} };
+    for (const Eigen::Vector4d & product : products)
+    {
+      const Eigen::Vector2d own = product.head<2>() - taken.transpose() * product.tail<2>();
+      sums.r1.push_back(own(0));
+      sums.r2.push_back(own(1));
+    }
+    return sums;
+  }
+};
 
 /** Returns the sums of the tiles that determine a line: those with enough pixels whose levels differ by more than their
  * noise. */
@@ -190,46 +183,39 @@ SumTiles(const IlluminationResponses &            data,
          std::size_t                              tileHeight,
          std::size_t                              tileWidth)
 {
-  const ReferenceFrame & frame = data.frame;
-  const std::size_t      width = frame.geometry.width;
-  const std::size_t      factors = responses.size();
-  const auto             frames = static_cast<double>(frame.frames);
-  const Tiles            tiles{ tileHeight, tileWidth, (width + tileWidth - 1) / tileWidth };
-  std::vector<TileSums>  sums(tiles.across * ((frame.geometry.height + tileHeight - 1) / tileHeight));
-  for (TileSums & s : sums)
+  const ReferenceFrame &   frame = data.frame;
+  const std::size_t        width = frame.geometry.width;
+  const std::size_t        factors = responses.size();
+  const auto               frames = static_cast<double>(frame.frames);
+  const Tiles              tiles{ tileHeight, tileWidth, (width + tileWidth - 1) / tileWidth };
+  std::vector<TileMoments> moments(tiles.across * ((frame.geometry.height + tileHeight - 1) / tileHeight));
+  for (TileMoments & own : moments)
   {
-    s.r1.assign(factors, 0.0);
-    s.r2.assign(factors, 0.0);
-    s.placesResponses.assign(factors, Eigen::Vector2d::Zero());
+    own.products.assign(factors, Eigen::Vector4d::Zero());
   }
   for (std::size_t p = 0; p < data.mask.size(); ++p)
   {
     if (data.mask[p] != 0)
     {
-      const double noise = data.line.At(frame.neighbourMean[p]);
-      const double w = 1.0 / noise;
-      const double centred = frame.mean[p] - data.centreDn;
-      TileSums &   s = sums[tiles.Of(p, width)];
-      s.n += 1.0;
-      s.g11 += w;
-      s.g12 += w * centred;
-      s.g22 += w * (centred * centred - noise / frames);
-      const Eigen::Vector2d place = PlaceIn(tiles, p, width);
-      s.places += w * place * place.transpose();
-      s.placesLevels += w * place * Eigen::RowVector2d(1.0, centred);
+      const double          w = 1.0 / data.line.At(frame.neighbourMean[p]);
+      const double          centred = frame.mean[p] - data.centreDn;
+      const Eigen::Vector4d terms = (Eigen::Vector4d() << 1.0, centred, tiles.PlaceOf(p, width)).finished();
+      TileMoments &         own = moments[tiles.Of(p, width)];
+      own.n += 1.0;
+      own.gram += w * terms * terms.transpose();
+      own.gram(1, 1) -= 1.0 / frames; // the noise of the mean
       for (std::size_t j = 0; j < factors; ++j)
       {
-        s.r1[j] += w * responses[j][p];
-        s.r2[j] += w * (centred - data.line.gain / frames) * responses[j][p];
-        s.placesResponses[j] += w * responses[j][p] * place;
+        own.products[j] += w * responses[j][p] * terms;
+        own.products[j](1) -= w * data.line.gain / frames * responses[j][p];
       }
     }
   }
   std::vector<TileSums> good;
-  for (TileSums & s : sums)
+  for (const TileMoments & own : moments)
   {
-    s.PartialOutPlaces();
-    const double determinant = s.Determinant();
+    const TileSums s = own.WithoutPlace();
+    const double   determinant = s.Determinant();
     if (s.n > InPattern.leastTilePixels && determinant > InPattern.leastTileContrast * s.g11 * s.n / frames &&
         determinant > 1e-6 * s.g11 * std::abs(s.g22))
     {
@@ -241,36 +227,29 @@ SumTiles(const IlluminationResponses &            data,
 
 /** Returns the fit of the smallest standard error of those whose lines cross zero at one level, and whose offset agrees
  * with all of these fits of larger errors, within two errors. Where no partition has such lines, returns the fit of the
- * smallest error. \a factors is the number of lines of a tile. */
-template <typename TFits>
+ * smallest error; null: there is no fit. \a factors is the number of lines of a tile. */
 std::optional<LocalOffset>
-ChoosePartition(const TFits & fits, std::size_t factors)
+ChoosePartition(std::vector<LocalOffset> fits, std::size_t factors)
 {
-  std::vector<LocalOffset> all;
-  for (const std::optional<LocalOffset> & fit : fits)
-  {
-    if (fit)
-    {
-      all.push_back(*fit);
-    }
-  }
-  std::sort(all.begin(), all.end(), [](const LocalOffset & a, const LocalOffset & b) {
+  std::sort(fits.begin(), fits.end(), [](const LocalOffset & a, const LocalOffset & b) {
     return a.standardError < b.standardError;
   });
-  std::vector<LocalOffset> meeting;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(meeting), [factors](const LocalOffset & fit) {
+  const auto meet = [factors](const LocalOffset & fit) {
     return fit.phi - 1.0 < Significance.oneTest * std::sqrt(2.0 / static_cast<double>(fit.tiles * factors));
-  });
-  const auto agrees = [&meeting](const LocalOffset & fit) {
-    return std::all_of(meeting.begin(), meeting.end(), [&fit](const LocalOffset & other) {
-      return other.standardError <= fit.standardError ||
-             std::abs(fit.offset - other.offset) <= Significance.hint * other.standardError;
-    });
   };
-  const auto chosen = std::find_if(meeting.begin(), meeting.end(), agrees);
-  return chosen != meeting.end() ? std::optional<LocalOffset>(*chosen)
-         : all.empty()           ? std::nullopt
-                                 : std::optional<LocalOffset>(all.front());
+  const auto disagree = [](const LocalOffset & fit, const LocalOffset & other) {
+    return std::abs(fit.offset - other.offset) > Significance.hint * other.standardError;
+  };
+  for (auto fit = fits.begin(); fit != fits.end(); ++fit)
+  {
+    if (meet(*fit) && std::none_of(fit + 1, fits.end(), [&](const LocalOffset & other) {
+          return meet(other) && disagree(*fit, other);
+        }))
+    {
+      return *fit;
+    }
+  }
+  return fits.empty() ? std::nullopt : std::optional<LocalOffset>(fits.front());
 }
 } // namespace
 
@@ -292,7 +271,15 @@ FindLocalOffset(const IlluminationResponses & data, const ParallelFor & parallel
       fits[trial] = FitTiles(tiles, data);
     }
   });
-  return ChoosePartition(fits, responses.size());
+  std::vector<LocalOffset> found;
+  for (const std::optional<LocalOffset> & fit : fits)
+  {
+    if (fit)
+    {
+      found.push_back(*fit);
+    }
+  }
+  return ChoosePartition(std::move(found), responses.size());
 }
 
 } // namespace sensornoise

@@ -172,6 +172,16 @@ TestClasses(const ProjectedVariance &         projected,
             const std::vector<std::uint8_t> & mask,
             const ParallelFor &               parallelFor);
 
+/** Marks the pixels of \a mask whose variance is less than the variance of their shot noise alone, by more than chance.
+ * They are no measurements: cameras replace defective pixels, and pixels of the autofocus, by the mean of their
+ * neighbours. What these pixels share with their neighbours would count twice in the sums over lags. Empty if there
+ * are too few to matter. Estimator.md, 3.5. */
+SensorNoise_EXPORT std::vector<std::uint8_t>
+FindQuietPixels(const ProjectedVariance &         projected,
+                const VarianceLine &              line,
+                const std::vector<std::uint8_t> & mask,
+                const ParallelFor &               parallelFor);
+
 /** Marks the pixels of neighbourhoods that do not fit the rejection model. A neighbourhood is rejected if the mean
  * variance of its 15 x 15 pixels exceeds the model by 5 standard deviations and 4 %, or if it holds 15 % outliers.
  * Single noisy pixels are not marked; the fit trims them. Estimator.md, 3.5. */

@@ -4,6 +4,7 @@
 
 #include "base/Simd.h"
 #include "base/BoxSum.h"
+#include "base/ChiSquare.h"
 #include "base/Constants.h"
 #include "base/ParallelWork.h"
 #include "base/Quantiles.h"
@@ -18,6 +19,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -281,6 +283,39 @@ RejectNeighbourhoods(const ProjectedVariance &         projected,
     });
   });
   return rejected;
+}
+
+std::vector<std::uint8_t>
+FindQuietPixels(const ProjectedVariance &         projected,
+                const VarianceLine &              line,
+                const std::vector<std::uint8_t> & mask,
+                const ParallelFor &               parallelFor)
+{
+  const VarianceData  data = projected.GetData(mask);
+  std::vector<double> levels = data.SampleLevels();
+  if (levels.empty())
+  {
+    return {};
+  }
+  // No pixel has more signal than its level above the darkest one.
+  const double darkestDn = QuantileOf(std::move(levels), InCommon.darkestQuantile);
+  const auto   isQuiet = [&](std::size_t p) {
+    const double level = std::min(data.mean[p], data.neighbourMean[p]); // beside an edge, neighbours may be brighter
+    const double shotDn2 = line.gain * (level - darkestDn);
+    const double variance = data.variance[p];
+    if (data.mask[p] == 0 || !(variance < InPixels.largestQuietVariance * shotDn2))
+    {
+      return false;
+    }
+    const double dof = line.EffectiveDof(data.dof[p], line.At(level));
+    return dof > 0.0 && NormalQuantile(ChiSquareCdf(dof * variance / shotDn2, dof)) < -Significance.severalTests;
+  };
+  std::vector<std::uint8_t> quiet(data.pixels);
+  ForPixels(data.pixels, parallelFor, [&](std::size_t p) { quiet[p] = isQuiet(p) ? 1 : 0; });
+  const auto number = std::count(quiet.begin(), quiet.end(), std::uint8_t{ 1 });
+  const auto used = std::count_if(mask.begin(), mask.end(), [](std::uint8_t own) { return own != 0; });
+  const bool areFew = static_cast<double>(number) < InPixels.leastQuietFraction * static_cast<double>(used);
+  return areFew ? std::vector<std::uint8_t>() : quiet;
 }
 
 } // namespace sensornoise

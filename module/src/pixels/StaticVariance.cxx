@@ -4,9 +4,6 @@
 
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Report.h"
-#include "base/ChiSquare.h"
-#include "base/Constants.h"
-#include "base/Quantiles.h"
 #include "pixels/Constants.h"
 #include "pixels/RoughnessClasses.h"
 #include "pixels/GainByParts.h"
@@ -244,52 +241,6 @@ struct SelectedLine
   std::optional<GainByParts> dividedBy; ///< parts by whose ratios the variance was divided; null: it was not
 };
 
-/** Leaves out pixels whose variance is less than that of their shot noise alone, by more than chance. They are no
- * measurements: cameras replace defective pixels, and pixels of the autofocus, by the mean of their neighbours. Noise
- * that these pixels share with their neighbours would count twice in the sums over lags. Returns whether there are so
- * many that the line is to be fitted again. */
-bool
-RejectQuietPixels(const FittedLine & drawn, StaticVariance & found, const ParallelFor & parallelFor)
-{
-  const ProjectedVariance projected = drawn.OfLine();
-  const VarianceData      data = projected.GetData(found.mask);
-  std::vector<double>     levels;
-  for (const std::size_t p : SamplePixels(found.mask))
-  {
-    levels.push_back(data.neighbourMean[p]);
-  }
-  if (levels.empty())
-  {
-    return false;
-  }
-  const double darkestDn = QuantileOf(std::move(levels), InCommon.darkestQuantile); // no pixel has more signal than
-                                                                                    // its level above this one
-  const auto isQuiet = [&](std::size_t p) {
-    const double level = std::min(data.mean[p], data.neighbourMean[p]); // beside an edge, neighbours may be brighter
-    const double shotDn2 = drawn.line.gain * (level - darkestDn);
-    const double variance = data.variance[p];
-    if (data.mask[p] == 0 || !(variance < InPixels.largestQuietVariance * shotDn2))
-    {
-      return false;
-    }
-    const double dof = drawn.line.EffectiveDof(data.dof[p], drawn.line.At(level));
-    return dof > 0.0 && NormalQuantile(ChiSquareCdf(dof * variance / shotDn2, dof)) < -Significance.severalTests;
-  };
-  std::vector<std::uint8_t> quiet(data.pixels);
-  ForPixels(data.pixels, parallelFor, [&](std::size_t p) { quiet[p] = isQuiet(p) ? 1 : 0; });
-  const auto number = std::count(quiet.begin(), quiet.end(), std::uint8_t{ 1 });
-  const auto used = std::count_if(found.mask.begin(), found.mask.end(), [](std::uint8_t own) { return own != 0; });
-  if (static_cast<double>(number) < InPixels.leastQuietFraction * static_cast<double>(used))
-  {
-    return false;
-  }
-  ForPixels(data.pixels, parallelFor, [&](std::size_t p) {
-    found.mask[p] = quiet[p] != 0 ? 0 : found.mask[p];
-    found.pixelUse[p] = quiet[p] != 0 ? static_cast<std::uint8_t>(PixelUse::Outlier) : found.pixelUse[p];
-  });
-  return true;
-}
-
 /** Selects the pixels of a static scene. The line of the flat classes rejects neighbourhoods, and then classes among
  * the others. With \a mayDivide the variance may be divided by the ratios of parts. */
 SelectedLine
@@ -323,9 +274,18 @@ SelectStaticPixels(const ProjectedSquares &          squares,
     isSettled = static_cast<double>(numberRejected) < InPixels.fewRejected * static_cast<double>(usable.size());
     drawn = FitFixedPointLine(projected, found.mask, model.line, parallelFor);
   }
-  if (drawn.line.isDetermined && RejectQuietPixels(drawn, found, parallelFor))
+  if (drawn.line.isDetermined)
   {
-    drawn = FitFixedPointLine(drawn.OfLine(), found.mask, drawn.line, parallelFor);
+    ProjectedVariance               projected = drawn.OfLine();
+    const std::vector<std::uint8_t> quiet = FindQuietPixels(projected, drawn.line, found.mask, parallelFor);
+    if (!quiet.empty())
+    {
+      ForPixels(quiet.size(), parallelFor, [&](std::size_t p) {
+        found.mask[p] = quiet[p] != 0 ? 0 : found.mask[p];
+        found.pixelUse[p] = quiet[p] != 0 ? static_cast<std::uint8_t>(PixelUse::Outlier) : found.pixelUse[p];
+      });
+      drawn = FitFixedPointLine(std::move(projected), found.mask, drawn.line, parallelFor);
+    }
   }
   return { std::move(drawn), std::move(found), std::move(dividedBy) };
 }

@@ -127,7 +127,7 @@ VarianceFit::VarianceFit(const VarianceData &                data,
       m_Trim.emplace(this->MakeTrim());
       if (m_Rule == TrimRule::Distance)
       {
-        std::vector<double> levels = this->SampleLevels();
+        std::vector<double> levels = m_Data.SampleLevels();
         m_DarkestDn = Quantile(levels, InCommon.darkestQuantile);
         m_BrightestDn = Quantile(levels, InCommon.brightestQuantile);
         m_BrightDof = HighestDofAbove(m_BrightestDn, m_Data, m_Dofs.highest, m_ParallelFor);
@@ -222,7 +222,7 @@ VarianceFit::CurveAbout(const VarianceLine & line, SortedBy sortedBy) const
 {
   const double * const levels = sortedBy == SortedBy::OwnLevel ? m_Data.mean : m_Data.neighbourMean;
   using SumsOfBins = std::array<double, VarianceCurve::Bins * CurveBin::Sums>;
-  const std::vector<double> edges = EdgesOfEqualCount(this->SampleLevels(), VarianceCurve::Bins);
+  const std::vector<double> edges = EdgesOfEqualCount(m_Data.SampleLevels(), VarianceCurve::Bins);
   const double              toPivot = m_Line.pivotDn - line.pivotDn;
   const double              atPivot = line.intercept + line.gain * m_Line.pivotDn;
   const auto sumRun = [&](std::size_t first, std::size_t pixels, const KeptRun & kept, SumsOfBins & sums) {

@@ -265,9 +265,6 @@ private:
   ChiSquareTrim
   MakeTrim() const;
 
-  /** Returns the neighbours' means of a sample of the pixels [DN]. */
-  std::vector<double>
-  SampleLevels() const;
   /** Computes the distances from the line at which pixels are trimmed with TrimRule::Distance. */
   void
   SetReach();

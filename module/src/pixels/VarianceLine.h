@@ -4,10 +4,12 @@
 #define sensornoise_pixels_VarianceLine_h
 
 #include "base/Eigen.h"
+#include "base/Quantiles.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace sensornoise
 {
@@ -55,6 +57,18 @@ struct VarianceData
   const float *        dof{ nullptr };           ///< degrees of freedom of the variance
   const std::uint8_t * mask{ nullptr };          ///< nonzero at the pixels that count
   std::size_t          pixels{ 0 };              ///< number of pixels
+
+  /** Returns the means of the neighbours of pixels of the mask, see SamplePixels() [DN]. */
+  std::vector<double>
+  SampleLevels() const
+  {
+    std::vector<double> levels;
+    for (const std::size_t p : SamplePixels(mask, pixels))
+    {
+      levels.push_back(neighbourMean[p]);
+    }
+    return levels;
+  }
 };
 
 /** Line variance = intercept + gain mean, with its errors. */

@@ -180,17 +180,6 @@ VarianceFit::KeepRun(std::size_t first, std::size_t pixels, Run & run, KeptRun &
   ClearBehind(pixels, kept.weight, kept.x, kept.value);
 }
 
-std::vector<double>
-VarianceFit::SampleLevels() const
-{
-  std::vector<double> levels;
-  for (const std::size_t p : SamplePixels(m_Data.mask, m_Data.pixels))
-  {
-    levels.push_back(m_Data.neighbourMean[p]);
-  }
-  return levels;
-}
-
 void
 VarianceFit::SetReach()
 {

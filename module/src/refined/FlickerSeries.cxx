@@ -54,8 +54,7 @@ EstimateFlicker(const RefinedResults & found, const UsedOffset & offset, double 
   const double ownError =
     2.0 * std::sqrt(std::max(0.0, variance) * noise / (frames - 1.0)) + noise * std::sqrt(2.0 / (frames - 1.0));
   flicker.sd = RootOf(variance, std::hypot(ownError, fromOffset));
-  // Slow noise resembles local illumination: its energy does not count.
-  if (found.HasLocalIllumination() && found.correlation.kind != NoiseKind::Temporal)
+  if (found.HasLocalIllumination() && !found.MayLocalIlluminationBeNoise())
   {
     const LocalFlicker & local = found.reestimated.localFlicker;
     const double         sd = local.Sd(offsetFromCentre);

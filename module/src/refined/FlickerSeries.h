@@ -30,7 +30,7 @@ struct SeriesOfFlicker
   std::vector<double>     gamma; ///< illumination factor of every frame, minus 1 [1]
   Quantity                sd;    ///< its standard deviation over the frames [1]
   FlickerFailure          failure{ FlickerFailure::None };
-  double                  scaleError{ 0.0 }; ///< relative error of the change by that of the offset [1]
+  double                  scaleError{ 0.0 }; ///< relative error of the change by the error of the offset [1]
   std::optional<Interval> limit;             ///< 95 % interval of the standard deviation, also after a failure [1]
 };
 

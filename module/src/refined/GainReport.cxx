@@ -143,8 +143,7 @@ std::string
 TextOfTemporalCorrelation(const GainEstimate & gain)
 {
   return "the noise is correlated over more frames than the burst shows, as behind noise reduction in time: the gain "
-         "is "
-         "known only to +- " +
+         "is known only to +- " +
          Rounded(gain.StandardError()) + " of about " + Rounded(gain.scale) +
          " DN/e-. Switch the noise reduction of the camera off, or record more frames";
 }

@@ -17,7 +17,7 @@ namespace sensornoise
 
 namespace
 {
-/** Returns why the variance is not that of a sensor of one gain; Identified: no reason was found. */
+/** Returns why the variance does not belong to a sensor of one gain; Identified: no reason was found. */
 GainVerdict
 FindContradiction(const RefinedResults & found, const GainEstimate & gain)
 {

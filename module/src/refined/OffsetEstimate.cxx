@@ -128,8 +128,7 @@ FindFailure(const RefinedResults & found,
   {
     return OffsetFailure::FaintFlicker;
   }
-  // Slow noise resembles local illumination.
-  if (isLocal && (!local || found.correlation.kind == NoiseKind::Temporal))
+  if (isLocal && (!local || found.MayLocalIlluminationBeNoise()))
   {
     return OffsetFailure::LocalIllumination;
   }

@@ -59,7 +59,6 @@ WarnOfScene(Report & report, const RefinedResults & found)
   }
   else if (found.series.local.IsLocal())
   {
-    const auto count = std::to_string(found.series.local.series.cols());
     if (found.reestimated.isOffsetDrift)
     {
       report.Warn(WarningCode::OffsetDrift,
@@ -67,11 +66,13 @@ WarnOfScene(Report & report, const RefinedResults & found)
     }
     else
     {
-      const std::string components = "(" + count + " further temporal component" + (count == "1" ? "" : "s") + ")";
-      const std::string size = "(its flicker differs by " + Percent(found.series.local.unevenness) + " rms)";
+      const auto        count = found.series.local.series.cols();
+      const std::string how = count == 0
+                                ? "its flicker differs by " + Percent(found.series.local.unevenness.size) + " rms"
+                                : std::to_string(count) + " further temporal component" + (count == 1 ? "" : "s");
       report.Warn(WarningCode::LocalLight,
-                  "the illumination changes differently over the frame " + (count == "0" ? size : components) +
-                    ": a rolling shutter, several lamps or bleaching, which gain and intercept allow for");
+                  "the illumination changes differently over the frame (" + how +
+                    "): a rolling shutter, several lamps or bleaching, which gain and intercept allow for");
     }
   }
   if (found.lines.remainingVariance > 0.0)

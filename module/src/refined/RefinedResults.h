@@ -150,6 +150,13 @@ struct RefinedResults
   {
     return series.local.IsLocal() && !reestimated.isOffsetDrift;
   }
+  /** Returns whether slow noise, as behind noise reduction in time, may have made the temporal components of the local
+   * illumination: they determine neither an offset nor a flicker. */
+  bool
+  MayLocalIlluminationBeNoise() const
+  {
+    return correlation.kind == NoiseKind::Temporal;
+  }
 
 private:
   double

@@ -247,23 +247,22 @@ FindFactorsOfUnequalFrames(const Eigen::MatrixXd & whole,
   return found;
 }
 
-/** Measures the dispersion of the size of the global flicker over the cells. The size of a cell, in units of its noise,
+/** Returns the dispersion of the size of the global flicker over the cells. The size of a cell, in units of its noise,
  * is compared with a line in the signal that is common to all cells: an offset that is not known makes no difference.
  * \a rest is \a whole without flicker and motion, and determines the noise. */
-void
+Unevenness
 MeasureUnevenness(const Eigen::MatrixXd & whole,
                   const Eigen::MatrixXd & rest,
                   const UsedCells &       used,
                   const Eigen::VectorXd & gamma,
-                  Eigen::Index            dof,
-                  LocalIllumination &     found)
+                  Eigen::Index            dof)
 {
   const Eigen::VectorXd flicker = gamma.array() - gamma.mean();
   const double          energy = flicker.squaredNorm();
   const Eigen::Index    count = used.Count();
   if (!(energy > 0.0))
   {
-    return;
+    return {};
   }
   Eigen::VectorXd size = whole.transpose() * flicker / std::sqrt(energy);
   Eigen::MatrixXd line(count, 2); // the signal, and a change of the level of all pixels
@@ -284,8 +283,7 @@ MeasureUnevenness(const Eigen::MatrixXd & whole,
   const double cells = static_cast<double>(count) - 2.0;
   const double noise = QuantileOf(noises, 0.5);
   const double excess = size.squaredNorm() - noise * cells;
-  found.unevenness = std::sqrt(std::max(0.0, excess) / (precision * energy));
-  found.unevennessZ = excess / (noise * std::sqrt(2.0 * cells));
+  return { std::sqrt(std::max(0.0, excess) / (precision * energy)), excess / (noise * std::sqrt(2.0 * cells)) };
 }
 } // namespace
 
@@ -363,8 +361,7 @@ FindLocalIllumination(const FrameSums &           sums,
   const Eigen::Map<const Eigen::VectorXd> illumination(gamma.data(), frames);
   Eigen::MatrixXd                         rest = whole.rowwise() - whole.colwise().mean();
   rest -= basis * (basis.transpose() * rest);
-  LocalIllumination uneven;
-  MeasureUnevenness(whole, rest, used, illumination, dof, uneven);
+  const Unevenness  unevenness = MeasureUnevenness(whole, rest, used, illumination, dof);
   LocalIllumination found;
   if (illumination.cwiseAbs().maxCoeff() > InSeries.equalFrameNoise)
   {
@@ -376,8 +373,7 @@ FindLocalIllumination(const FrameSums &           sums,
     ScaleCells(rest, whole);
     found = FindFactors(rest, whole, dof, most);
   }
-  found.unevenness = uneven.unevenness;
-  found.unevennessZ = uneven.unevennessZ;
+  found.unevenness = unevenness;
   return found;
 }
 

@@ -27,6 +27,21 @@ Orthonormalise(const Eigen::MatrixXd & columns, Eigen::Index most);
 SensorNoise_EXPORT double
 MedianNoiseEigenvalue(double ratio);
 
+/** Dispersion over the cells of the size of the global flicker: where excitation light bleaches a spot, or a lamp that
+ * illuminates a part of the frame flickers. The series is the global one, so that it is no further series. */
+struct Unevenness
+{
+  double size{ 0.0 }; ///< dispersion relative to the mean size, beyond noise [1]
+  double z{ 0.0 };    ///< its significance, in standard deviations of chi-square [1]
+
+  /** Returns whether the flicker differs between the cells by size and significance. */
+  bool
+  Counts() const
+  {
+    return size > InSeries.leastUnevenness && z > Significance.manyTests;
+  }
+};
+
 /** Local changes of the illumination, which differ over the frame: bands of a rolling shutter, a second lamp, a spot
  * that bleaches, or an offset that drifts. */
 struct LocalIllumination
@@ -37,24 +52,14 @@ struct LocalIllumination
   double excess{ 0.0 };
   /** Ratio to the edge of the largest eigenvalue that is left [1], if the largest allowed number of series was found;
    * 0: fewer were found, or none is left. */
-  double beyond{ 0.0 };
-  /** Dispersion over the cells of the size of the global flicker, relative to its mean, beyond noise [1]: where the
-   * excitation light bleaches a spot, or a lamp that illuminates a part of the frame flickers. The series is the
-   * global one, so that it is no further series. */
-  double unevenness{ 0.0 };
-  double unevennessZ{ 0.0 }; ///< its significance, in standard deviations of chi-square [1]
+  double     beyond{ 0.0 };
+  Unevenness unevenness;
 
-  /** Returns whether the global flicker differs between the cells, by size and significance. */
-  bool
-  IsUneven() const
-  {
-    return unevenness > InSeries.leastUnevenness && unevennessZ > Significance.manyTests;
-  }
   /** Returns whether the illumination changes differently over the frame. */
   bool
   IsLocal() const
   {
-    return series.cols() > 0 || this->IsUneven();
+    return series.cols() > 0 || unevenness.Counts();
   }
 };
 
