@@ -206,3 +206,29 @@ TEST(SensorNoiseCorrelationReport, NormalNoiseThatIsNotLinearIsInterferenceOrRou
   EXPECT_TRUE(Has(warning, "periodic interference")) << warning;
   EXPECT_FALSE(Has(warning, "takes medians")) << warning;
 }
+
+TEST(SensorNoiseCorrelationReport, InterferenceIsInTheRecord)
+{
+  NoiseCorrelation correlation = CorrelationOf(NoiseKind::White);
+  correlation.interference = { { 0.1, 0.2, { 4.0, 0.4 } } };
+  const NoiseCorrelationRecord record = RecordOf(correlation);
+  ASSERT_EQ(record.interference.size(), 1U);
+  EXPECT_DOUBLE_EQ(record.interference.front().rmsDn, 2.0);
+  EXPECT_DOUBLE_EQ(record.interference.front().rmsStandardErrorDn, 0.1);
+}
+
+TEST(SensorNoiseCorrelationReport, TheStrongestWaveIsNamed)
+{
+  NoiseCorrelation correlation = CorrelationOf(NoiseKind::White);
+  correlation.interference = { { 0.1, 0.2, { 4.0, 0.4 } }, { 0.173, -0.091, { 9.0, 0.6 } } };
+  Report report;
+  report.noiseCorrelation = RecordOf(correlation);
+  WarnOfCorrelation(report, correlation);
+  ASSERT_EQ(report.warnings.size(), 1U);
+  EXPECT_EQ(report.warnings.front().code, WarningCode::PeriodicInterference);
+  const std::string & text = report.warnings.front().message;
+  EXPECT_TRUE(Has(text,
+                  "a wave of 3.00 +- 0.10 DN rms, with 0.173 cycles per column and -0.091 cycles per row, the "
+                  "strongest of 2 such waves, has another phase in each frame"))
+    << text;
+}

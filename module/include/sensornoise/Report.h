@@ -137,15 +137,25 @@ struct NoiseCorrelationRecord
     double intercept{ 0.0 };              ///< covariance at level 0 [DN^2]
     double interceptStandardError{ 0.0 }; ///< standard error of the intercept [DN^2]
   };
+  /** Periodic interference: a sine wave across the frame, with a phase of its own in each frame. */
+  struct Interference
+  {
+    double cyclesPerColumn{ 0.0 };  ///< frequency along a row [cycles/pixel]
+    double cyclesPerRow{ 0.0 };     ///< frequency along a column [cycles/pixel]
+    double rmsDn{ 0.0 };            ///< root mean square of the wave [DN]
+    double rmsStandardErrorDn{ 0 }; ///< standard error of the root mean square [DN]
+  };
   /** Noise class: "white", "crosstalk", "filtered", "temporal", "enlarged", "brighter-fatter", "not-linear" or
    * "not-measured". */
   std::string       kind;
   std::vector<Lag>  space;           ///< coefficients by lag in space; of each pair of opposite lags one is listed
   std::vector<Lag>  time;            ///< coefficients by lag in time
   std::vector<Line> covarianceLines; ///< lines of lag 0 and of the summed lags in space; empty: no correlation in space
-  Quantity          rowNoise;        ///< standard deviation of the noise common to a row of one frame [DN]
-  Quantity          columnNoise;     ///< standard deviation of the noise common to a column of one frame [DN]
-  Quantity          excessKurtosis;  ///< excess kurtosis of the noise of a pixel [1]; 0: normal noise
+  /** Waves that gain, intercept and read noise are without, in the order in which they were found. */
+  std::vector<Interference> interference;
+  Quantity                  rowNoise;       ///< standard deviation of the noise common to a row of one frame [DN]
+  Quantity                  columnNoise;    ///< standard deviation of the noise common to a column of one frame [DN]
+  Quantity                  excessKurtosis; ///< excess kurtosis of the noise of a pixel [1]; 0: normal noise
 };
 
 /** Gains of parts of the frame or of the burst that differ. */

@@ -33,6 +33,7 @@ enum class WarningCode : std::uint8_t
   LinesWithoutFlicker,
   OffsetDrift,
   StrongVibration,
+  PeriodicInterference,
   NoiseCorrelated,
   ResponseNotStraight,
   ResponseUnchecked,
@@ -92,7 +93,7 @@ struct WarningKind
 
 /** All warnings that a report can have, in the order of WarningCode. documentation/reference/warnings.md and the Python
  * package show this table. The message of a warning has the numbers. */
-inline constexpr std::array<WarningKind, 51> WarningTable{ {
+inline constexpr std::array<WarningKind, 52> WarningTable{ {
   { WarningCode::FewFrames,
     "few-frames",
     Severity::Warning,
@@ -188,6 +189,12 @@ inline constexpr std::array<WarningKind, 51> WarningTable{ {
     Severity::Warning,
     "The scene may move by more than 0.4 pixels rms, so that rough areas are left out. Register the frames to whole "
     "pixels first." },
+  { WarningCode::PeriodicInterference,
+    "periodic-interference",
+    Severity::Note,
+    "The frames contain sine waves with a phase of their own in each frame: pickup from a power supply or a clock. "
+    "Gain, "
+    "intercept and read noise are without them." },
   { WarningCode::NoiseCorrelated,
     "noise-correlated",
     Severity::Warning,

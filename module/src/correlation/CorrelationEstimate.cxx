@@ -11,6 +11,7 @@
 #include "report/Quantities.h"
 #include "report/ReportJson.h"
 #include "sensornoise/Version.h"
+#include "correlation/Interference.h"
 #include "correlation/NoiseResiduals.h"
 
 #include <algorithm>
@@ -232,7 +233,7 @@ EstimateCorrelation(NoiseSample                       sample,
                            SeriesOf(settings, distinct, means),
                                   { mean, taken, blackDn, !std::isnan(settings.offsetDn) },
                            parallelFor);
-  NoiseCorrelation      correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
+  NoiseCorrelation      correlation = MeasureWithoutInterference(residuals, codesDn2, parallelFor);
   MeasureSettledFrames(correlation, residuals, codesDn2, parallelFor);
 
   estimate.framesUsed = residuals.GetTiles().frames;
@@ -311,6 +312,12 @@ RecordOf(const NoiseCorrelation & correlation)
                                        line.slopeDn.standardError,
                                        line.interceptDn2.value,
                                        line.interceptDn2.standardError });
+  }
+  for (const PeriodicInterference & wave : correlation.interference)
+  {
+    const double rms = std::sqrt(std::max(0.0, wave.varianceDn2.value));
+    const double error = rms > 0.0 ? wave.varianceDn2.standardError / (2.0 * rms) : 0.0;
+    record.interference.push_back({ wave.cyclesPerColumn, wave.cyclesPerRow, rms, error });
   }
   record.rowNoise = LineNoise(correlation.rowsDn2);
   record.columnNoise = LineNoise(correlation.columnsDn2);

@@ -118,20 +118,17 @@ AddProductsOfFrames(const float * here, const float * there, std::size_t size, s
   }
 }
 
-/** Restores the covariance that the regression along lines removed: adds it to the products of a tile's pixels with the
- * pixels \a shift places behind them. */
+/** Restores covariance that a regression removed: adds it to the products of a tile's pixels with the pixels \a shift
+ * places behind them. \a projection are the values of NoiseResiduals::LineProjectionsOf() or WaveProjectionsOf(). */
 void
-RestoreLineCovariance(const NoiseResiduals & residuals, std::size_t tile, int shift, std::vector<float> & products)
+RestoreCovariance(const float * projection, double dof, std::ptrdiff_t shift, std::vector<float> & products)
 {
-  const auto dof = static_cast<float>(residuals.GetDof());
-  const auto first = static_cast<std::size_t>(std::max(0, -shift));
-  const auto last = products.size() - static_cast<std::size_t>(std::max(0, shift));
-  for (const float * const projection : residuals.LineProjectionsOf(tile))
+  const auto first = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, -shift));
+  const auto last = products.size() - static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, shift));
+  for (std::size_t p = first; p < last; ++p)
   {
-    for (std::size_t p = first; p < last; ++p)
-    {
-      products[p] += dof * projection[p] * projection[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(p) + shift)];
-    }
+    products[p] += static_cast<float>(dof) * projection[p] *
+                   projection[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(p) + shift)];
   }
 }
 } // namespace
@@ -168,14 +165,25 @@ SumProducts(const NoiseResiduals & residuals, std::size_t tile, const std::vecto
     }
   });
   const auto axis = residuals.GetLinesTakenOff();
-  for (std::size_t k = 0; k < lags.size() && axis; ++k)
+  const auto waves = residuals.WaveProjectionsOf(tile);
+  for (std::size_t k = 0; k < lags.size(); ++k)
   {
-    const auto [along, across] =
-      *axis == LineAxis::Rows ? std::pair(lags[k].x, lags[k].y) : std::pair(lags[k].y, lags[k].x);
-    if (along != 0 && across == 0 && lags[k].t == 0)
+    const std::ptrdiff_t shift =
+      static_cast<std::ptrdiff_t>(lags[k].y) * static_cast<std::ptrdiff_t>(tiles.side) + lags[k].x;
+    if (lags[k].t != 0 || shift == 0)
     {
-      RestoreLineCovariance(
-        residuals, tile, along * (*axis == LineAxis::Rows ? 1 : static_cast<int>(tiles.side)), products[k]);
+      continue;
+    }
+    for (const float * const projection : waves)
+    {
+      RestoreCovariance(projection, residuals.GetDof(), shift, products[k]);
+    }
+    if (axis && (*axis == LineAxis::Rows ? lags[k].y : lags[k].x) == 0)
+    {
+      for (const float * const projection : residuals.LineProjectionsOf(tile))
+      {
+        RestoreCovariance(projection, residuals.GetDof(), shift, products[k]);
+      }
     }
   }
   return products;

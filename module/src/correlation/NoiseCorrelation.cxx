@@ -167,6 +167,16 @@ IsLinear(const CorrelationSums & sums, const NoiseCorrelation & found)
     return more.value > 0.0 && more.Exceeds(InCorrelation.largestExcess, Significance.severalTests);
   });
 }
+
+void
+AddIfSignificant(const MeasuredNumber & variance, MeasuredNumber & sum)
+{
+  if (variance.value > Significance.severalTests * variance.standardError)
+  {
+    sum.value += variance.value;
+    sum.standardError = std::hypot(sum.standardError, variance.standardError);
+  }
+}
 } // namespace
 
 const char *
@@ -204,13 +214,18 @@ MeasuredNumber
 NoiseCorrelation::LineNoise() const
 {
   MeasuredNumber sum;
-  for (const MeasuredNumber & lines : { rowsDn2, columnsDn2 })
+  AddIfSignificant(rowsDn2, sum);
+  AddIfSignificant(columnsDn2, sum);
+  return sum;
+}
+
+MeasuredNumber
+NoiseCorrelation::StructuredNoise() const
+{
+  MeasuredNumber sum = this->LineNoise();
+  for (const PeriodicInterference & wave : interference)
   {
-    if (lines.value > Significance.severalTests * lines.standardError)
-    {
-      sum.value += lines.value;
-      sum.standardError = std::hypot(sum.standardError, lines.standardError);
-    }
+    AddIfSignificant(wave.varianceDn2, sum);
   }
   return sum;
 }
@@ -251,6 +266,7 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   CorrelationSums  sums(residuals, codesDn2, FirstRings, FirstTimeLags, parallelFor);
   NoiseCorrelation found;
   found.kind = NoiseKind::White;
+  found.interference = residuals.GetInterference();
   FindCoefficients(sums, found);
   const bool inTime = IsCorrelatedInTime(sums, found.time);
   const bool inSpace = IsCorrelatedInSpace(sums, found.space);

@@ -98,6 +98,8 @@ struct SensorNoise_EXPORT NoiseCorrelation
   std::vector<CovarianceLine> covarianceLines;
   MeasuredNumber              rowsDn2;    ///< noise variance of whole rows [DN^2]
   MeasuredNumber              columnsDn2; ///< noise variance of whole columns [DN^2]
+  /** Waves that were subtracted before the correlation was measured. */
+  std::vector<PeriodicInterference> interference;
   /** Excess kurtosis of each kind of series, see KurtosisSums [1]. */
   std::array<MeasuredNumber, KurtosisSums::Kinds> kurtosis;
 
@@ -130,6 +132,10 @@ struct SensorNoise_EXPORT NoiseCorrelation
   /** Returns the noise variance of whole rows and columns together, where each is significant [DN^2]. */
   MeasuredNumber
   LineNoise() const;
+  /** Returns the noise variance of whole rows and columns and of periodic interference together, where each is
+   * significant [DN^2]. */
+  MeasuredNumber
+  StructuredNoise() const;
 
   /** Returns whether local motion of the scene causes a part of the spatial correlation. */
   bool

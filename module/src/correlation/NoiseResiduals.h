@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
+#include "sensornoise/StepResults.h"
 #include "correlation/Constants.h"
 #include "correlation/FrameSample.h"
 
@@ -76,6 +77,15 @@ private:
   double          m_OffsetDn{ 0.0 };
 };
 
+/** Periodic interference: a sine wave across the frame, whose amplitude and phase are free in each tile of each frame.
+ * Estimator.md, 3.12. */
+struct PeriodicInterference
+{
+  double         cyclesPerColumn; ///< frequency along x [cycles/pixel]
+  double         cyclesPerRow;    ///< frequency along y [cycles/pixel]
+  MeasuredNumber varianceDn2;     ///< mean square of the wave [DN^2]
+};
+
 /** Properties of the pixels of a frame whose noise is sampled. */
 struct SampledPixels
 {
@@ -133,6 +143,30 @@ public:
    * InCorrelation.leastLeftOfLine, or where the line has no pixel of \a take. Estimator.md, 3.18. */
   std::vector<float>
   TakeOffLines(LineAxis axis, const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor);
+
+  /** Subtracts a sine wave of these frequencies [cycles/pixel] from each tile of each frame, by least squares over the
+   * pixels that are used. Their values are divided by sqrt(1 - h) as in TakeOffLines(), and the weights and bins are
+   * computed again. */
+  void
+  SubtractWave(double cyclesPerColumn, double cyclesPerRow, const ParallelFor & parallelFor);
+  /** Returns the waves that were subtracted. */
+  const std::vector<PeriodicInterference> &
+  GetInterference() const
+  {
+    return m_Interference;
+  }
+  /** Returns values a_k of the pixels of tile \a i [DN]. By the subtraction of waves white noise has the covariance
+   * -sum a_k a_k' between the residuals of two pixels of a frame. */
+  std::vector<const float *>
+  WaveProjectionsOf(std::size_t i) const
+  {
+    std::vector<const float *> projections;
+    for (const std::vector<float> & projection : m_WaveProjections)
+    {
+      projections.push_back(projection.data() + i * this->GetTiles().Pixels());
+    }
+    return projections;
+  }
 
   /** Sets the noise that differs from frame to frame. \a frames describes all frames of the stack; the sample contains
    * the first frames of them. Default: all frames have equal noise. */
@@ -253,6 +287,13 @@ private:
    * projections on the line, and in \a left the fraction of each pixel's variance that remains. */
   void
   RegressLines(LineAxis axis, const std::vector<std::size_t> & tiles, std::size_t line, std::vector<float> & left);
+  /** Does the regression of SubtractWave() in tile \a i, and stores its two projections in \a projections. Returns the
+   * mean square of the wave [DN^2]; NaN if the tile has too few pixels. */
+  double
+  SubtractWaveOfTile(std::size_t                    i,
+                     double                         cyclesPerColumn,
+                     double                         cyclesPerRow,
+                     const std::array<float *, 2> & projections);
   /** Sets the weights by averaging the variance along the signal, and the intensity bins. */
   void
   Weigh(const std::vector<std::uint8_t> & take);
@@ -271,6 +312,8 @@ private:
   std::optional<LineAxis>   m_LinesTakenOff;
   /** LineProjectionsOf() for all tiles; empty: no lines were subtracted. */
   std::array<std::vector<float>, 2> m_LineProjections;
+  std::vector<PeriodicInterference> m_Interference;
+  std::vector<std::vector<float>>   m_WaveProjections; // WaveProjectionsOf() for all tiles, two for each wave
 };
 
 /** Returns the pixels whose \a take is not 0 in the order of their signal \a signal, which must be finite. Pixels of

@@ -183,11 +183,31 @@ BeforeReadOut(const NoiseCorrelation & correlation)
              "electrons (scintillator, intensifier)"
            : "";
 }
+void
+NoteInterference(Report & report)
+{
+  if (!report.noiseCorrelation || report.noiseCorrelation->interference.empty())
+  {
+    return;
+  }
+  const auto & waves = report.noiseCorrelation->interference;
+  const auto   strongest =
+    *std::max_element(waves.begin(), waves.end(), [](const auto & a, const auto & b) { return a.rmsDn < b.rmsDn; });
+  const std::string others =
+    waves.size() == 1 ? "" : ", the strongest of " + std::to_string(waves.size()) + " such waves,";
+  report.Warn(WarningCode::PeriodicInterference,
+              "a wave of " + Measured(strongest.rmsDn, strongest.rmsStandardErrorDn) + " DN rms, with " +
+                Rounded(strongest.cyclesPerColumn) + " cycles per column and " + Rounded(strongest.cyclesPerRow) +
+                " cycles per row" + others +
+                " has another phase in each frame: periodic interference, which gain, intercept and read noise do not "
+                "contain. Look for its source in cables, power supply and read-out clock");
+}
 } // namespace
 
 void
 WarnOfCorrelation(Report & report, const NoiseCorrelation & correlation)
 {
+  NoteInterference(report);
   const LagCoefficient * space = LargestOf(correlation.space);
   const LagCoefficient * time = LargestOf(correlation.time);
   switch (correlation.kind)

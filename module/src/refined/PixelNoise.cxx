@@ -3,6 +3,7 @@
 #include "refined/PixelNoise.h"
 
 #include "correlation/FrameEnergies.h"
+#include "correlation/Interference.h"
 #include "correlation/NoiseResiduals.h"
 #include "correlation/RemainingSceneChange.h"
 #include "moments/DarkMaps.h"
@@ -269,14 +270,14 @@ MeasurePixelNoise(ResidualSquares                          squares,
     }
   };
   allowForFrames();
-  noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
+  noise.correlation = MeasureWithoutInterference(residuals, codesDn2, parallelFor);
   const double varianceInflation = VarianceInflation(noise.correlation.space);
   if (noise.correlation.IsCorrelated() && varianceInflation > InRefined.leastVarianceInflation)
   {
     noise.variance = fit(varianceInflation);
     residuals.Take(MaskOfUsed(noise.variance.pixelUse), parallelFor);
     allowForFrames();
-    noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
+    noise.correlation = MeasureWithoutInterference(residuals, codesDn2, parallelFor);
     // Near an edge, the spatial covariance is a mean over both sides, and the pixel's variance is not on the line.
     LeaveOutEdges(scene.frame, noise.variance.line, chosen, pixelUse);
     noise.variance = fit(varianceInflation);

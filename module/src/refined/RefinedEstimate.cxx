@@ -28,13 +28,14 @@ SettingsOfSensor(const RefinedResults & found, double codesDn2)
     DarkVariance & dark = *settings.offset->variance;
     const double   spread = StandardDeviationOfShapes(dark.valueDn2, found.correlation, codesDn2);
     dark.valueDn2 = VarianceOfSensor(dark.valueDn2, found.correlation, codesDn2);
-    dark.standardErrorDn2 = std::hypot(FilterFactor(found.correlation) * dark.standardErrorDn2,
-                                       FilterFactor(found.correlation) * found.correlation.LineNoise().standardError,
-                                       spread);
+    dark.standardErrorDn2 =
+      std::hypot(FilterFactor(found.correlation) * dark.standardErrorDn2,
+                 FilterFactor(found.correlation) * found.correlation.StructuredNoise().standardError,
+                 spread);
     settings.offset->maps.reset();
     if (auto & median = settings.offset->readNoiseMedian; median && FilterFactor(found.correlation) == 1.0)
     {
-      const double square = median->valueDn * median->valueDn - found.correlation.LineNoise().value;
+      const double square = median->valueDn * median->valueDn - found.correlation.StructuredNoise().value;
       median->valueDn = std::sqrt(std::max(0.0, square));
     }
     else
@@ -156,7 +157,7 @@ EstimateRefined(const RefinedResults & found)
   const double       codesDn2 = found.variance.codeNoise.darkVarianceDn2;
   const GainEstimate ofFrames = EstimateGain(found);
   RefinedEstimate    estimate;
-  if (found.correlation.IsCorrelated() || found.correlation.LineNoise().value > 0.0)
+  if (found.correlation.IsCorrelated() || found.correlation.StructuredNoise().value > 0.0)
   {
     const RefinedSettings settings = SettingsOfSensor(found, codesDn2);
     const SensorLines     lines = AddCovariances(LinesOf(found.variance), found.correlation, found.blackDn, codesDn2);

@@ -57,7 +57,7 @@ public:
     : m_Mean(MeanShape(correlation))
     , m_BlackDn(blackDn)
     , m_CodesDn2(codesDn2)
-    , m_LinesDn2(correlation.LineNoise().value)
+    , m_StructuredDn2(correlation.StructuredNoise().value)
   {}
 
   /** Returns the sensor's variance, from the variance of a pixel at a level [DN^2]. */
@@ -65,7 +65,7 @@ public:
   SensorOf(double varianceDn2, double levelDn) const
   {
     const double signal = levelDn - m_BlackDn;
-    const double noise = varianceDn2 - m_CodesDn2 - m_LinesDn2;
+    const double noise = varianceDn2 - m_CodesDn2 - m_StructuredDn2;
     return m_CodesDn2 + noise * this->Factor() + m_Mean.constantDn2 +
            signal * (m_Mean.ofSignal + signal * m_Mean.ofSquare);
   }
@@ -82,7 +82,7 @@ public:
     VarianceLine sensor = line;
     const double factor = this->Factor();
     sensor.gain = factor * line.gain + m_Mean.ofSignal + m_Mean.ofSquare * lineOfSquare(0);
-    sensor.intercept = m_CodesDn2 + factor * (line.intercept - m_CodesDn2 - m_LinesDn2) +
+    sensor.intercept = m_CodesDn2 + factor * (line.intercept - m_CodesDn2 - m_StructuredDn2) +
                        m_Mean.ofSquare * lineOfSquare(1) - m_Mean.ofSignal * m_BlackDn + m_Mean.constantDn2;
     sensor.lowestDn2 = line.lowestDn2 * factor;
     sensor.covariance = line.covariance * (factor * factor);
@@ -97,7 +97,7 @@ private:
   WeightedShape m_Mean;
   double        m_BlackDn;
   double        m_CodesDn2;
-  double        m_LinesDn2;
+  double        m_StructuredDn2;
 };
 
 /** Returns slope and intercept of the line through the squared signal, with the weights of the curve. */
@@ -214,9 +214,9 @@ ErrorOf(const NoiseCorrelation & correlation,
                                    ofSpace * ProbabilityOfFilter(correlation) * correlation.beyondTimeLags);
   const double          relative = beyond * line.gain / std::max(1e-9, sensor.gain);
   error += relative * relative * whole * whole.transpose();
-  // The line noise is subtracted before the factor of the filter is applied.
-  const double ofLines = FilterFactor(correlation) * correlation.LineNoise().standardError;
-  error(1, 1) += ofLines * ofLines;
+  // The structured noise is subtracted before the factor of the filter is applied.
+  const double ofStructured = FilterFactor(correlation) * correlation.StructuredNoise().standardError;
+  error(1, 1) += ofStructured * ofStructured;
   return error;
 }
 } // namespace
@@ -243,7 +243,7 @@ VarianceOfSensor(double varianceDn2, const NoiseCorrelation & correlation, doubl
 double
 StandardDeviationOfShapes(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2)
 {
-  const double noise = varianceDn2 - codesDn2 - correlation.LineNoise().value;
+  const double noise = varianceDn2 - codesDn2 - correlation.StructuredNoise().value;
   const auto   covarianceOf = [noise](const WeightedShape & shape) {
     return shape.ofVariance * noise + shape.constantDn2;
   };

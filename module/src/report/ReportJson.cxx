@@ -133,12 +133,22 @@ WriteJson(JsonWriter & json, const NoiseCorrelationRecord::Line & line)
 }
 
 void
+WriteJson(JsonWriter & json, const NoiseCorrelationRecord::Interference & wave)
+{
+  json.Object([&] {
+    json.Member("cycles_per_column", wave.cyclesPerColumn).Member("cycles_per_row", wave.cyclesPerRow);
+    json.Member("rms", wave.rmsDn).Member("rms_standard_error", wave.rmsStandardErrorDn);
+  });
+}
+
+void
 WriteJson(JsonWriter & json, const NoiseCorrelationRecord & correlation)
 {
   json.Object([&] {
     json.Member("kind", correlation.kind);
     json.Member("space", correlation.space).Member("time", correlation.time);
     json.Member("covariance_lines", correlation.covarianceLines);
+    json.Member("interference", correlation.interference);
     Report report;
     report.noiseCorrelation = correlation;
     WriteQuantities(json, report, "noise_correlation.");

@@ -220,8 +220,11 @@ DescribeNoise(const Report & report)
   if (noise.kind == "white")
   {
     const bool hasLines = IsIdentified(noise.rowNoise) || IsIdentified(noise.columnNoise);
-    return hasLines ? "noise: white, except for row and column noise"
-                    : "noise: white (no correlation between neighbours or frames)";
+    const bool hasWaves = !noise.interference.empty();
+    return !hasLines && !hasWaves
+             ? "noise: white (no correlation between neighbours or frames)"
+             : std::string("noise: white, except for ") + (hasLines ? "row and column noise" : "") +
+                 (hasLines && hasWaves ? " and " : "") + (hasWaves ? "periodic interference" : "");
   }
   if (noise.kind == "not-linear")
   {

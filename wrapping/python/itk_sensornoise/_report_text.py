@@ -176,12 +176,11 @@ def _noise(record: Mapping[str, Any]) -> str:
         return ""
     kind = noise["kind"]
     if kind == "white":
-        lines = (noise[name]["status"] == "identified" for name in ("row_noise", "column_noise"))
-        return (
-            "noise: white, except for row and column noise"
-            if any(lines)
-            else ("noise: white (no correlation between neighbours or frames)")
-        )
+        lines = any(noise[name]["status"] == "identified" for name in ("row_noise", "column_noise"))
+        parts = ["row and column noise"] * lines + ["periodic interference"] * bool(noise.get("interference"))
+        if parts:
+            return f"noise: white, except for {' and '.join(parts)}"
+        return "noise: white (no correlation between neighbours or frames)"
     if kind == "not-linear":
         return "noise: not-linear (not as a sensor or a linear filter leaves it: the gain is not identifiable)"
     if kind == "enlarged":

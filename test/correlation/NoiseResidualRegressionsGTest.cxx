@@ -72,7 +72,7 @@ ForValues(const NoiseResiduals & residuals, TFunction function)
 }
 } // namespace
 
-TEST(SensorNoiseNoiseResidualLines, IlluminationOfRowsIsRemoved)
+TEST(SensorNoiseNoiseResidualRegressions, IlluminationOfRowsIsRemoved)
 {
   std::vector<float>   left;
   const NoiseResiduals uniform = WithoutRows(0.0, left);
@@ -89,7 +89,7 @@ TEST(SensorNoiseNoiseResidualLines, IlluminationOfRowsIsRemoved)
   EXPECT_LT(std::sqrt(square / count), 0.01);
 }
 
-TEST(SensorNoiseNoiseResidualLines, VarianceStays)
+TEST(SensorNoiseNoiseResidualRegressions, VarianceStays)
 {
   std::vector<float>   left;
   const NoiseResiduals residuals = WithoutRows(0.05, left);
@@ -110,7 +110,7 @@ TEST(SensorNoiseNoiseResidualLines, VarianceStays)
   EXPECT_NEAR(variance, 1.0, 4.0 * std::sqrt(2.0 / (residuals.GetDof() * count)));
 }
 
-TEST(SensorNoiseNoiseResidualLines, RowsOfOneLevelLoseTheirMeanAlone)
+TEST(SensorNoiseNoiseResidualRegressions, RowsOfOneLevelLoseTheirMeanAlone)
 {
   std::vector<float> left;
   auto               residuals =
@@ -119,7 +119,7 @@ TEST(SensorNoiseNoiseResidualLines, RowsOfOneLevelLoseTheirMeanAlone)
   EXPECT_NEAR(left.front(), 1.0 - 1.0 / 128.0, 1e-6);
 }
 
-TEST(SensorNoiseNoiseResidualLines, RowsWithoutPixelsAreSkipped)
+TEST(SensorNoiseNoiseResidualRegressions, RowsWithoutPixelsAreSkipped)
 {
   auto                      residuals = ComputeResiduals(Geometry, Frames, Signal(), NoiseUnderRows(0.05));
   std::vector<std::uint8_t> take = All;
@@ -129,7 +129,7 @@ TEST(SensorNoiseNoiseResidualLines, RowsWithoutPixelsAreSkipped)
   EXPECT_GT(left[residuals.GetTiles().side], 0.9F);
 }
 
-TEST(SensorNoiseNoiseResidualLines, ThreadsGiveTheSameBits)
+TEST(SensorNoiseNoiseResidualRegressions, ThreadsGiveTheSameBits)
 {
   std::vector<float>   ofOne;
   std::vector<float>   ofThree;
@@ -139,7 +139,7 @@ TEST(SensorNoiseNoiseResidualLines, ThreadsGiveTheSameBits)
   ForValues(one, [&](std::size_t i, std::size_t k) { ASSERT_EQ(one.OfTile(i)[k], three.OfTile(i)[k]); });
 }
 
-TEST(SensorNoiseNoiseResidualLines, ColumnsOfTheTransposedFrameAreItsRows)
+TEST(SensorNoiseNoiseResidualRegressions, ColumnsOfTheTransposedFrameAreItsRows)
 {
   const auto transposed = [](const std::vector<double> & values) {
     std::vector<double> other(values.size());
