@@ -153,18 +153,40 @@ TEST(SensorNoiseGainByParts, ErrorsOfTheRatiosAreErrorsOfTheLine)
   const double vb = reference.line.At(b);
   reference.line.pivotDn = (a / (va * va) + b / (vb * vb)) / (1.0 / (va * va) + 1.0 / (vb * vb));
 
-  GainByParts parts;
-  PartGains & halves = parts.places.emplace();
+  PartGains halves;
   halves.partition = Partition::LeftRight;
   halves.excess = halves.dark = { 0.0, 0.0 };
   halves.darkCovariance = Eigen::Vector2d(s * s, s * s).asDiagonal();
   halves.meanOfTerms = Eigen::Vector2d(0.5, 0.5);
-  const Eigen::Matrix2d covariance = CovarianceByRatios(parts, data, geometry, reference, SerialFor);
+  const Eigen::Matrix2d covariance = CovarianceByRatios({ halves }, data, geometry, reference, SerialFor);
   EXPECT_NEAR(covariance(0, 0), 2.0 * std::pow(s * d / (b - a), 2), 1e-12);
   // The excess of both halves together does not matter: at the middle of the levels no variance changes.
   const Eigen::Vector2d atMiddle(0.5 * (a + b), 1.0);
   EXPECT_NEAR(atMiddle.dot(covariance * atMiddle), 0.0, 1e-9);
   EXPECT_TRUE(CovarianceByRatios({}, data, geometry, reference, SerialFor).isZero(0.0));
+}
+
+// Halves whose variances without signal differ by 10 %, 5 standard errors, are too much alike to be found, but are more
+// probable than one part. The square of the difference is an error. Without a difference, little is.
+TEST(SensorNoiseGainByParts, DifferencesThatAreNotFoundAreErrors)
+{
+  const auto covarianceOf = [](double difference) {
+    const auto excess = [&](const TileExcess & tile) {
+      return (1.0 - tile.shotFraction) * (tile.x < 0.5 ? -0.5 : 0.5) * difference;
+    };
+    const PartTiles tiles = TilesOf(excess);
+    EXPECT_FALSE(CompareParts(tiles).places);
+    const std::vector<PartGains> possible = FindPossibleParts(tiles.places);
+    EXPECT_EQ(possible.size(), 3U);
+    EXPECT_EQ(possible.front().partition, Partition::LeftRight);
+    const Eigen::Vector2d contrast(-1.0, 1.0);
+    return contrast.dot(possible.front().darkCovariance * contrast);
+  };
+  constexpr double difference = 0.1;
+  // 128 tiles per half, with errors of 0.01 and 7 % of the variance without signal, know the difference to 0.02.
+  EXPECT_GT(covarianceOf(difference), 0.5 * std::pow(difference - 2.0 * 0.02, 2));
+  EXPECT_LT(covarianceOf(difference), std::pow(difference + 3.0 * 0.02, 2));
+  EXPECT_LT(covarianceOf(0.0), 0.2 * std::pow(2.0 * 0.02, 2));
 }
 
 TEST(SensorNoiseGainByParts, NamesOfPartsDiffer)

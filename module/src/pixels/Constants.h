@@ -219,6 +219,9 @@ struct PartsConstants
   /** Dispersion of the tiles within parts over their sampling error, up to which the parts are uniform [1]. Moving
    * objects make it 10 and more. Chosen empirically. */
   double largestScatter{ 3.0 };
+  /** Number of pixels from which the effect of the parts on the line is computed: it is an error, and the sampling
+   * noise of its derivatives is below 1 %. */
+  std::size_t pixelsOfDerivatives{ 65536 };
   /** Prior standard deviations of the coefficients [1]: gains agree within a factor of 2, the variances without signal
    * (read noise, offset) within 30 %, and a curve deviates from its line by a few per cent. */
   double priorOfGain{ 1.0 };

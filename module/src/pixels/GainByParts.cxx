@@ -11,6 +11,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace sensornoise
@@ -264,6 +265,37 @@ CompareParts(const PartTiles & tiles)
   }
   found.phases = FindBest(phases, Divided::Phases);
   return found;
+}
+
+std::vector<PartGains>
+FindPossibleParts(const std::vector<TileExcess> & tiles)
+{
+  if (tiles.size() < InParts.fewestTiles)
+  {
+    return {};
+  }
+  const PartRegression   uniform = FitUniform(tiles);
+  const double           criterion = uniform.Criterion(tiles, uniform.scale);
+  std::vector<PartGains> possible;
+  std::vector<double>    odds; // of the partition against one part
+  for (const Partition partition : { Partition::LeftRight, Partition::UpperLower, Partition::Quadrants })
+  {
+    const PartRegression fit = FitParts(partition, PartsDiffer::InTheDark, tiles);
+    const double         more = criterion - fit.Criterion(tiles, uniform.scale);
+    if (fit.isDetermined)
+    {
+      const Eigen::VectorXd dark = fit.theta.segment(fit.gains, fit.darks);
+      possible.push_back(GainsOf(fit, tiles));
+      possible.back().darkCovariance = dark * dark.transpose();
+      odds.push_back(std::exp(0.5 * std::min(more, InCommon.strongEvidence)));
+    }
+  }
+  const double all = std::accumulate(odds.begin(), odds.end(), 1.0);
+  for (std::size_t k = 0; k < odds.size(); ++k)
+  {
+    possible[k].darkCovariance *= odds[k] / all;
+  }
+  return possible;
 }
 
 std::optional<PartGains>

@@ -18,6 +18,12 @@ namespace sensornoise
 SensorNoise_EXPORT GainByParts
 CompareParts(const PartTiles & tiles);
 
+/** Returns the partitions by place that may have unlike variances without signal, where CompareParts() finds no places.
+ * The covariance of each is that of its differences as an error: their square, times the probability of the partition.
+ * Estimator.md, 3.15. */
+SensorNoise_EXPORT std::vector<PartGains>
+FindPossibleParts(const std::vector<TileExcess> & tiles);
+
 /** Compares groups of frames in the same way; \a tiles has an entry for each group at each place. Null if the gains do
  * not differ. */
 SensorNoise_EXPORT std::optional<PartGains>

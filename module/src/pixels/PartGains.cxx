@@ -120,7 +120,12 @@ CovarianceByOne(const PartGains &     own,
   // The derivatives of the line's value at the pivot and of its gain, by rows, so that no sum depends on the threads.
   std::vector<Eigen::MatrixXd> ofRows(geometry.height, Eigen::MatrixXd::Zero(2, own.darkCovariance.rows()));
   std::vector<Eigen::Vector2d> weightsOfRows(geometry.height, Eigen::Vector2d::Zero());
+  const std::size_t every = std::max<std::size_t>(1, geometry.Pixels() / (LargestPeriod * InParts.pixelsOfDerivatives));
   parallelFor(geometry.height, [&](std::size_t row) {
+    if (row / LargestPeriod % every != 0)
+    {
+      return;
+    }
     const double y = (static_cast<double>(row) + 0.5) / height;
     // Every fourth pixel of a row; sixteen rows have all phases.
     for (std::size_t column = (row + row / LargestPeriod) % LargestPeriod; column < geometry.width;
@@ -159,19 +164,16 @@ CovarianceByOne(const PartGains &     own,
 } // namespace
 
 Eigen::Matrix2d
-CovarianceByRatios(const GainByParts &   parts,
-                   const VarianceData &  data,
-                   const FrameGeometry & geometry,
-                   const PartReference & reference,
-                   const ParallelFor &   parallelFor)
+CovarianceByRatios(const std::vector<PartGains> & parts,
+                   const VarianceData &           data,
+                   const FrameGeometry &          geometry,
+                   const PartReference &          reference,
+                   const ParallelFor &            parallelFor)
 {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
-  for (const auto * const own : { &parts.places, &parts.phases })
+  for (const PartGains & own : parts)
   {
-    if (*own)
-    {
-      covariance += CovarianceByOne(**own, data, geometry, reference, parallelFor);
-    }
+    covariance += CovarianceByOne(own, data, geometry, reference, parallelFor);
   }
   return covariance;
 }

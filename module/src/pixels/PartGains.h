@@ -66,6 +66,21 @@ struct GainByParts
   std::optional<PartGains> phases;
   std::optional<PartGains> frames;
 
+  /** Returns the partitions by place and by phase, where they differ. */
+  std::vector<PartGains>
+  OfPixels() const
+  {
+    std::vector<PartGains> parts;
+    for (const auto * const own : { &places, &phases })
+    {
+      if (*own)
+      {
+        parts.push_back(**own);
+      }
+    }
+    return parts;
+  }
+
   /** Returns the partition by place or by phase with the larger differences; null: neither is there. */
   const PartGains *
   Larger() const
@@ -74,14 +89,14 @@ struct GainByParts
   }
 };
 
-/** Returns what the errors of the variances without signal of \a parts, by whose ratios the variance of \a data was
- * divided, add to the covariance of gain and intercept. Estimator.md, 3.15. */
+/** Returns what the errors of the variances without signal of \a parts add to the covariance of gain and intercept,
+ * where the variance of \a data was divided by their ratios, or may have to be. Estimator.md, 3.15. */
 SensorNoise_EXPORT Eigen::Matrix2d
-CovarianceByRatios(const GainByParts &   parts,
-                   const VarianceData &  data,
-                   const FrameGeometry & geometry,
-                   const PartReference & reference,
-                   const ParallelFor &   parallelFor);
+CovarianceByRatios(const std::vector<PartGains> & parts,
+                   const VarianceData &           data,
+                   const FrameGeometry &          geometry,
+                   const PartReference &          reference,
+                   const ParallelFor &            parallelFor);
 
 /** Returns a map of every pixel's variance over the variance by the common line, as given by the places and phases of
  * \a parts [1]. \a mean is the map of means [DN]. */

@@ -155,16 +155,16 @@ SelectPixels(const ProjectedVariance &         projected,
   return static_cast<std::size_t>(std::count(rejected.begin(), rejected.end(), std::uint8_t{ 1 }));
 }
 
-/** Compares the parts by the measured variance of the pixels of \a mask. */
-GainByParts
-CompareMeasuredParts(const ProjectedVariance &         projected,
-                     const PartReference &             reference,
-                     const std::vector<std::uint8_t> & mask,
-                     const ParallelFor &               parallelFor)
+/** Returns tiles of the measured variance of the pixels of \a mask. */
+PartTiles
+TilesOfMeasured(const ProjectedVariance &         projected,
+                const PartReference &             reference,
+                const std::vector<std::uint8_t> & mask,
+                const ParallelFor &               parallelFor)
 {
   VarianceData data = projected.GetData(mask);
   data.variance.ratios = nullptr;
-  return CompareParts(MakePartTiles(data, projected.GetFrame().geometry, reference, parallelFor));
+  return MakePartTiles(data, projected.GetFrame().geometry, reference, parallelFor);
 }
 
 /** A line, and the parts by whose ratios the variance was divided for it; null: it was not divided. */
@@ -183,7 +183,7 @@ CorrectForParts(FittedLine                        drawn,
                 const std::vector<std::uint8_t> & mask,
                 const ParallelFor &               parallelFor)
 {
-  GainByParts parts = CompareMeasuredParts(drawn.projected, reference, mask, parallelFor);
+  GainByParts parts = CompareParts(TilesOfMeasured(drawn.projected, reference, mask, parallelFor));
   for (auto * const own : { &parts.places, &parts.phases })
   {
     if (*own && !(*own)->DifferMuch())
@@ -338,17 +338,18 @@ FitOnce(const ProjectedSquares &          squares,
     found.instrumentalLine = settle(FitInstrumental(fit, data, frame));
   }
   CorrectForNoisyMeans(line, offsetDn, frame.frames);
-  if (dividedBy)
-  {
-    const PartReference   reference{ line, blackDn, varianceInflation };
-    const Eigen::Matrix2d byRatios = CovarianceByRatios(*dividedBy, data, frame.geometry, reference, parallelFor);
-    line.covariance += byRatios;
-    found.instrumentalLine.covariance += byRatios;
-  }
-  found.line = line;
   std::vector<std::uint8_t> kept = found.mask;
   ForPixels(kept.size(), parallelFor, [&](std::size_t p) { kept[p] = trimmed[p] != 0 ? 0 : kept[p]; });
-  found.parts = CompareMeasuredParts(projected, { line, blackDn, varianceInflation }, kept, parallelFor);
+  const PartReference reference{ line, blackDn, varianceInflation };
+  const PartTiles     tiles = TilesOfMeasured(projected, reference, kept, parallelFor);
+  found.parts = CompareParts(tiles);
+  const std::vector<PartGains> parts = dividedBy            ? dividedBy->OfPixels()
+                                       : found.parts.places ? std::vector<PartGains>()
+                                                            : FindPossibleParts(tiles.places);
+  const Eigen::Matrix2d        ofParts = CovarianceByRatios(parts, data, frame.geometry, reference, parallelFor);
+  line.covariance += ofParts;
+  found.instrumentalLine.covariance += ofParts;
+  found.line = line;
   found.curve = fit.CurveAbout(found.instrumentalLine.isDetermined ? found.instrumentalLine : line);
   if (found.curve.ReducedChi2() > InSteps.leastChi2 * varianceInflation)
   {
