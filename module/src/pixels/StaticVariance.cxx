@@ -220,7 +220,6 @@ CorrectForNoisyMeans(VarianceLine & line, double offsetDn, std::size_t frames)
 /** Levels and variance inflation that FitStaticVariance() is called with, see there. */
 struct FitPremises
 {
-  double slopeDn;
   double offsetDn;
   double blackDn;
   double varianceInflation;
@@ -255,7 +254,8 @@ SelectStaticPixels(const ProjectedSquares &          squares,
   found.varianceInflation = premises.varianceInflation;
   found.pixelUse = std::move(pixelUse);
   found.mask = MaskOfFlatClasses(squares, usable, parallelFor);
-  FittedLine                 drawn = FitFirstLine({ squares, premises.slopeDn }, usable, found.mask, parallelFor);
+  // A gain that is too small changes the variances little, one that is too large makes them negative.
+  FittedLine                 drawn = FitFirstLine({ squares, 0.0 }, usable, found.mask, parallelFor);
   std::optional<GainByParts> dividedBy;
   if (mayDivide && drawn.line.isDetermined)
   {
@@ -299,7 +299,7 @@ FitOnce(const ProjectedSquares &          squares,
         bool                              mayDivide,
         const ParallelFor &               parallelFor)
 {
-  const auto [slopeDn, offsetDn, blackDn, varianceInflation] = premises;
+  const auto [offsetDn, blackDn, varianceInflation] = premises;
   auto [drawn, found, dividedBy] =
     SelectStaticPixels(squares, usable, std::move(pixelUse), premises, mayDivide, parallelFor);
   const bool isDivided = drawn.projected.HasRatios();
@@ -365,13 +365,12 @@ StaticVariance
 FitStaticVariance(const ProjectedSquares &          squares,
                   const std::vector<std::uint8_t> & usable,
                   std::vector<std::uint8_t>         pixelUse,
-                  double                            slopeDn,
                   double                            offsetDn,
                   double                            blackDn,
                   const ParallelFor &               parallelFor,
                   double                            varianceInflation)
 {
-  const FitPremises premises{ slopeDn, offsetDn, blackDn, varianceInflation };
+  const FitPremises premises{ offsetDn, blackDn, varianceInflation };
   StaticFit         found = FitOnce(squares, usable, pixelUse, premises, true, parallelFor);
   if (found.isDivided && found.variance.parts.Larger() == nullptr)
   {

@@ -246,8 +246,8 @@ MeasurePixelNoise(ResidualSquares                          squares,
   ProjectedSquares projected =
     ProjectSquares(std::move(squares), scene, *series, allowed.replaced, codeNoise, parallelFor);
   const auto fit = [&](double varianceInflation) {
-    StaticVariance variance = FitStaticVariance(
-      projected, chosen, pixelUse, scene.model.slopeDn, offsetDn, blackDn, parallelFor, varianceInflation);
+    StaticVariance variance =
+      FitStaticVariance(projected, chosen, pixelUse, offsetDn, blackDn, parallelFor, varianceInflation);
     variance.codeNoise = codeNoise;
     return variance;
   };
