@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -23,9 +24,9 @@ namespace sensornoise
 
 namespace
 {
-/** Sums over a tile, without what increases linearly over it: a gradient of the illumination and a gradient of the
- * scene look alike. They are the Gram matrix of 1 and I, the mean minus the centre, corrected for the noise of the
- * means, and for each response z the sums r1 = sum w z and r2 = sum w I z. */
+/** Sums over a tile in which the illumination may have gradients. They are the Gram matrix of 1 and I, the mean minus
+ * the centre, corrected for the noise of the means, and for each response z the sums r1 = sum w z and r2 = sum w I z.
+ */
 struct TileSums
 {
   double              n{ 0.0 };
@@ -150,24 +151,39 @@ FitTiles(const std::vector<TileSums> & tiles, const IlluminationResponses & data
   return result;
 }
 
-/** Sums over a tile of the products of 1, I and the place (x, y), and of these terms with each response. */
+/** Number of the terms 1, I, x, y, I x and I y of a tile: 1 and I with slopes along the place (x, y). */
+constexpr int Terms = 6;
+using TermProducts = Eigen::Matrix<double, Terms, 1>;
+
+/** Sums over a tile of the products of its terms, and of these terms with each response. */
 struct TileMoments
 {
-  double                       n{ 0.0 };
-  Eigen::Matrix4d              gram{ Eigen::Matrix4d::Zero() };
-  std::vector<Eigen::Vector4d> products;
+  double                              n{ 0.0 };
+  Eigen::Matrix<double, Terms, Terms> gram{ Eigen::Matrix<double, Terms, Terms>::Zero() };
+  std::vector<TermProducts>           products;
 
-  /** Returns the sums of 1 and I after the regression of both on the place (Frisch & Waugh 1933). */
-  TileSums
-  WithoutPlace() const
+  /** Returns the sums of 1 and I after the regression of both on the other terms (Frisch & Waugh 1933). Null if the
+   * contrast of the tile does not determine I x and I y: they differ from x and y by no more than the noise of the
+   * means of \a frames frames. */
+  std::optional<TileSums>
+  WithoutPlace(double frames) const
   {
-    const Eigen::Matrix2d slopes = gram.bottomRightCorner<2, 2>().ldlt().solve(gram.bottomLeftCorner<2, 2>());
-    const Eigen::Matrix2d taken = slopes.allFinite() ? slopes : Eigen::Matrix2d(Eigen::Matrix2d::Zero());
-    const Eigen::Matrix2d left = gram.topLeftCorner<2, 2>() - gram.topRightCorner<2, 2>() * taken;
-    TileSums              sums{ n, left(0, 0), left(0, 1), left(1, 1), {}, {} };
-    for (const Eigen::Vector4d & product : products)
+    const Eigen::Matrix2d ofPlace = gram.block<2, 2>(2, 2);
+    const Eigen::Matrix2d both = gram.block<2, 2>(2, 4);
+    const Eigen::Matrix2d contrast = gram.block<2, 2>(4, 4) - both.transpose() * ofPlace.ldlt().solve(both);
+    const double          noise = n / (12.0 * frames); // of I x, as the mean square of x is 1/12
+    if (!(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(contrast).eigenvalues()(0) >
+          InPattern.leastTileContrast * noise))
     {
-      const Eigen::Vector2d own = product.head<2>() - taken.transpose() * product.tail<2>();
+      return std::nullopt;
+    }
+    const Eigen::Matrix<double, Terms - 2, 2> slopes =
+      gram.bottomRightCorner<Terms - 2, Terms - 2>().ldlt().solve(gram.bottomLeftCorner<Terms - 2, 2>());
+    const Eigen::Matrix2d left = gram.topLeftCorner<2, 2>() - gram.topRightCorner<2, Terms - 2>() * slopes;
+    TileSums              sums{ n, left(0, 0), left(0, 1), left(1, 1), {}, {} };
+    for (const TermProducts & product : products)
+    {
+      const Eigen::Vector2d own = product.head<2>() - slopes.transpose() * product.tail<Terms - 2>();
       sums.r1.push_back(own(0));
       sums.r2.push_back(own(1));
     }
@@ -191,7 +207,7 @@ SumTiles(const IlluminationResponses &            data,
   std::vector<TileMoments> moments(tiles.across * ((frame.geometry.height + tileHeight - 1) / tileHeight));
   for (TileMoments & own : moments)
   {
-    own.products.assign(factors, Eigen::Vector4d::Zero());
+    own.products.assign(factors, TermProducts::Zero());
   }
   for (std::size_t p = 0; p < data.mask.size(); ++p)
   {
@@ -199,57 +215,72 @@ SumTiles(const IlluminationResponses &            data,
     {
       const double          w = 1.0 / data.line.At(frame.neighbourMean[p]);
       const double          centred = frame.mean[p] - data.centreDn;
-      const Eigen::Vector4d terms = (Eigen::Vector4d() << 1.0, centred, tiles.PlaceOf(p, width)).finished();
+      const Eigen::Vector2d place = tiles.PlaceOf(p, width);
+      const TermProducts    terms = (TermProducts() << 1.0, centred, place, centred * place).finished();
+      const TermProducts    ofMean = (TermProducts() << 0.0, 1.0, 0.0, 0.0, place).finished(); // derivative to I
       TileMoments &         own = moments[tiles.Of(p, width)];
       own.n += 1.0;
-      own.gram += w * terms * terms.transpose();
-      own.gram(1, 1) -= 1.0 / frames; // the noise of the mean
+      own.gram += w * terms * terms.transpose() - ofMean * ofMean.transpose() / frames; // the noise of the mean
       for (std::size_t j = 0; j < factors; ++j)
       {
-        own.products[j] += w * responses[j][p] * terms;
-        own.products[j](1) -= w * data.line.gain / frames * responses[j][p];
+        own.products[j] += w * responses[j][p] * (terms - data.line.gain / frames * ofMean);
       }
     }
   }
   std::vector<TileSums> good;
   for (const TileMoments & own : moments)
   {
-    const TileSums s = own.WithoutPlace();
-    const double   determinant = s.Determinant();
-    if (s.n > InPattern.leastTilePixels && determinant > InPattern.leastTileContrast * s.g11 * s.n / frames &&
-        determinant > 1e-6 * s.g11 * std::abs(s.g22))
+    if (!(own.n > InPattern.leastTilePixels))
     {
-      good.push_back(s);
+      continue;
+    }
+    const std::optional<TileSums> s = own.WithoutPlace(frames);
+    if (s && s->Determinant() > InPattern.leastTileContrast * s->g11 * s->n / frames &&
+        s->Determinant() > 1e-6 * s->g11 * std::abs(s->g22))
+    {
+      good.push_back(*s);
     }
   }
   return good;
 }
 
-/** Returns the fit of the smallest standard error of those whose lines cross zero at one level, and whose offset agrees
- * with all of these fits of larger errors, within two errors. Where no partition has such lines, returns the fit of the
- * smallest error; null: there is no fit. \a factors is the number of lines of a tile. */
+/** Returns the first of \a fits, of increasing errors, that agrees with the weighted mean of those behind it, within
+ * three errors of this mean. */
+std::optional<LocalOffset>
+FirstThatAgrees(const std::vector<LocalOffset> & fits)
+{
+  for (auto fit = fits.begin(); fit != fits.end(); ++fit)
+  {
+    double weights = 0.0;
+    double difference = 0.0; // to the weighted mean, times the weights
+    for (auto other = fit + 1; other != fits.end(); ++other)
+    {
+      const double weight = 1.0 / (other->standardError * other->standardError);
+      weights += weight;
+      difference += weight * (fit->offset - other->offset);
+    }
+    if (std::abs(difference) <= Significance.oneTest * std::sqrt(weights))
+    {
+      return *fit;
+    }
+  }
+  return std::nullopt;
+}
+
+/** Returns the fit of the smallest standard error that agrees with fits of larger errors: of those whose lines cross
+ * zero at one level, or of all if there are none of these. Null: there is no fit. \a factors is the number of lines of
+ * a tile. */
 std::optional<LocalOffset>
 ChoosePartition(std::vector<LocalOffset> fits, std::size_t factors)
 {
   std::sort(fits.begin(), fits.end(), [](const LocalOffset & a, const LocalOffset & b) {
     return a.standardError < b.standardError;
   });
-  const auto meet = [factors](const LocalOffset & fit) {
+  std::vector<LocalOffset> meeting;
+  std::copy_if(fits.begin(), fits.end(), std::back_inserter(meeting), [factors](const LocalOffset & fit) {
     return fit.phi - 1.0 < Significance.oneTest * std::sqrt(2.0 / static_cast<double>(fit.tiles * factors));
-  };
-  const auto disagree = [](const LocalOffset & fit, const LocalOffset & other) {
-    return std::abs(fit.offset - other.offset) > Significance.hint * other.standardError;
-  };
-  for (auto fit = fits.begin(); fit != fits.end(); ++fit)
-  {
-    if (meet(*fit) && std::none_of(fit + 1, fits.end(), [&](const LocalOffset & other) {
-          return meet(other) && disagree(*fit, other);
-        }))
-    {
-      return *fit;
-    }
-  }
-  return fits.empty() ? std::nullopt : std::optional<LocalOffset>(fits.front());
+  });
+  return FirstThatAgrees(meeting.empty() ? fits : meeting);
 }
 } // namespace
 
