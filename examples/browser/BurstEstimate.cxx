@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "browser/BurstEstimate.h"
 
-#include "files/PixelTypes.h"
 #include "browser/BurstChunks.h"
 #include "browser/BurstMemory.h"
+#include "files/FrameSizes.h"
 #include "moments/MosaicLevels.h"
 #include "mosaic/DarkFrameSums.h"
 #include "report/StackSettings.h"

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/DenoisedFile.h"
 
-#include "files/PixelTypes.h"
 #include "base/FreeMemory.h"
 #include "sensornoise/NoiseModel.h"
+#include "files/FrameSizes.h"
 #include "tools/ImageScale.h"
 #include "tools/LowerCase.h"
 #include "tools/PendingFile.h"

@@ -3,7 +3,7 @@
 #include "tools/EmvaFrames.h"
 
 #include "base/PixelLayout.h"
-#include "files/PixelTypes.h"
+#include "files/FrameSizes.h"
 #include "mosaic/MosaicGeometry.h"
 #include "tools/EmvaSources.h"
 #include "tools/EstimateOptions.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/StackEstimate.h"
 
-#include "files/PixelTypes.h"
+#include "files/FrameSizes.h"
 #include "tools/CompanionFiles.h"
 #include "tools/EstimateOptions.h"
 #include "tools/FilesHash.h"

@@ -22,8 +22,8 @@
 #include "files/FileBytes.h"
 #include "files/FrameFormats.h"
 #include "files/FrameReader.h"
+#include "files/RawCameraFile.h"
 #include "files/RawLayout.h"
-#include "files/RawTiff.h"
 
 #include <exception>
 #include <vector>

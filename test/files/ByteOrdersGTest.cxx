@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/ByteOrder.h"
+#include "files/FileBytes.h"
 #include "files/RawLayout.h"
 #include "helpers/FrameFileTestHelper.h"
 

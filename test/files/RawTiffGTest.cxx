@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/RawTiff.h"
+#include "files/RawCameraFile.h"
 
 #include "helpers/DngTestHelper.h"
 #include "helpers/FrameFileTestHelper.h"

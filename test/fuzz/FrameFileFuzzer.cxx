@@ -12,7 +12,7 @@
 #include "files/FileBytes.h"
 #include "files/FrameFormats.h"
 #include "files/FrameReader.h"
-#include "files/RawTiff.h"
+#include "files/RawCameraFile.h"
 #include "FuzzedPng.h"
 
 #include <unistd.h>

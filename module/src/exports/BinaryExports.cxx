@@ -4,7 +4,7 @@
 
 #include "base/Text.h"
 #include "exports/ExportInput.h"
-#include "files/ByteOrder.h"
+#include "files/FileBytes.h"
 #include "files/Zlib.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "base/NumberText.h"
 #include "base/Text.h"
 #include "exports/ExportInput.h"
-#include "files/ByteOrder.h"
+#include "files/FileBytes.h"
 #include "report/JsonWriter.h"
 
 #include <algorithm>

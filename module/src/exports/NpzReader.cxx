@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exports/NpzReader.h"
 
-#include "files/ByteOrder.h"
+#include "files/FileBytes.h"
 #include "files/Zlib.h"
 #include "sensornoise/NoiseExport.h"
 

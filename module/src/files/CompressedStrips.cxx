@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/CompressedStrips.h"
+#include "files/Compression.h"
 
 #include "sensornoise/FrameFile.h"
 

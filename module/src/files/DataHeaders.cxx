@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/DataHeaders.h"
+#include "files/DataFile.h"
 
 #include "base/LowerCase.h"
 #include "sensornoise/FrameFile.h"

@@ -4,15 +4,18 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <ios>
 #include <system_error>
+
 #if defined(__unix__) || defined(__APPLE__)
 #  include <sys/stat.h>
 #endif
 
 namespace sensornoise
 {
+
 namespace
 {
 namespace fs = std::filesystem;
@@ -292,6 +295,29 @@ ByteRanges::Gaps(std::uint64_t size)
   }
   add(size);
   return gaps;
+}
+
+ByteOrders
+CompareByteOrders(const unsigned char * bytes, std::size_t pixels, bool isSigned)
+{
+  const auto levelOf = [isSigned](unsigned int pixel) {
+    constexpr double range = 65536.0;
+    return isSigned && pixel >= 32768U ? static_cast<double>(pixel) - range : static_cast<double>(pixel);
+  };
+  const auto add = [&levelOf](BytesInOrder & order, unsigned int pixel, unsigned int other) {
+    order.roughness += std::abs(levelOf(pixel) - levelOf(other));
+    order.largest = std::max(order.largest, pixel);
+    order.usesLowByte = order.usesLowByte || (pixel & 255U) != 0;
+  };
+  ByteOrders orders;
+  for (std::size_t i = 2; i < pixels; ++i)
+  {
+    const unsigned char * const pixel = bytes + 2 * i;
+    const unsigned char * const other = pixel - 4;
+    add(orders.little, pixel[0] + 256U * pixel[1], other[0] + 256U * other[1]);
+    add(orders.big, pixel[1] + 256U * pixel[0], other[1] + 256U * other[0]);
+  }
+  return orders;
 }
 
 } // namespace sensornoise

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/FrameFormats.h"
 
-#include "files/FitsHeader.h"
 #include "files/FrameReader.h"
 #include "files/FrameSizes.h"
 #include "files/TextHeader.h"

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/FitsHeader.h"
+#include "files/TextHeader.h"
 
 #include "base/NumberText.h"
 #include "sensornoise/FrameFile.h"
 #include "files/FrameSizes.h"
-#include "files/TextHeader.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/FrameReader.h"
 
-#include "files/ByteOrder.h"
 #include "files/FileBytes.h"
 #include "files/FrameSizes.h"
 

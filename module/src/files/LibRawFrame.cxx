@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #ifdef SENSORNOISE_LIBRAW
-#  include "files/LibRawFrame.h"
+#  include "files/RawCameraFile.h"
 
 #  include "base/FreeMemory.h"
 #  include "sensornoise/FrameFile.h"
 #  include "files/FileBytes.h"
-#  include "files/LibRawSettings.h"
 
 #  include <libraw/libraw.h>
 

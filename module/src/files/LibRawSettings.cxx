@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #ifdef SENSORNOISE_LIBRAW
-#  include "files/LibRawSettings.h"
+#  include "files/RawCameraFile.h"
 
 #  include "files/TextHeader.h"
+
+#  include <libraw/libraw.h>
 
 #  include <algorithm>
 #  include <array>

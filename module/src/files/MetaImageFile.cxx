@@ -4,7 +4,6 @@
 
 #include "base/LowerCase.h"
 #include "files/DataFile.h"
-#include "files/DataHeaders.h"
 #include "files/FrameSizes.h"
 #include "files/TextHeader.h"
 

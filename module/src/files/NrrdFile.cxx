@@ -5,7 +5,6 @@
 #include "base/LowerCase.h"
 #include "base/NumberText.h"
 #include "files/DataFile.h"
-#include "files/DataHeaders.h"
 #include "files/FrameSizes.h"
 #include "files/TextHeader.h"
 

@@ -3,9 +3,9 @@
 #include "files/FrameFormats.h"
 
 #include "base/NumberText.h"
+#include "files/Compression.h"
 #include "files/FrameReader.h"
 #include "files/FrameSizes.h"
-#include "files/Inflate.h"
 #include "files/PngChunks.h"
 #include "files/TextHeader.h"
 

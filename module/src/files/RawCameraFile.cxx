@@ -4,8 +4,7 @@
 
 #include "files/FrameReader.h"
 #include "files/FrameSizes.h"
-#include "files/LibRawFrame.h"
-#include "files/RawTiff.h"
+#include "files/RawCameraFile.h"
 #include "files/TiffDirectory.h"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 #include "files/RawLayout.h"
 
 #include "base/LowerCase.h"
-#include "files/ByteOrder.h"
 #include "files/FileBytes.h"
 #include "files/FrameFormats.h"
 #include "files/FrameSizes.h"

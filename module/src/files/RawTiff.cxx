@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/RawTiff.h"
+#include "files/RawCameraFile.h"
 
 #include "files/FileBytes.h"
 #include "sensornoise/FrameFile.h"
-#include "files/CompressedStrips.h"
-#include "files/TiffChunks.h"
+#include "files/Compression.h"
+#include "files/TiffPage.h"
 #include "files/TiffDirectory.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/FrameFormats.h"
 
-#include "files/ByteOrder.h"
+#include "files/FileBytes.h"
 #include "files/FrameReader.h"
 #include "files/FrameSizes.h"
 #include "files/TextHeader.h"

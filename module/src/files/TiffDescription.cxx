@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/TiffDescription.h"
+#include "files/TiffPage.h"
 
 #include "files/TextHeader.h"
 

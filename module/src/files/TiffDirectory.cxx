@@ -3,7 +3,7 @@
 #include "files/TiffDirectory.h"
 
 #include "sensornoise/FrameFile.h"
-#include "files/ByteOrder.h"
+#include "files/FileBytes.h"
 
 #include <algorithm>
 #include <array>

@@ -4,11 +4,8 @@
 
 #include "files/FrameReader.h"
 #include "files/FrameSizes.h"
-#include "files/TiffDescription.h"
 #include "files/TiffDirectory.h"
-#include "files/TiffFrames.h"
 #include "files/TiffPage.h"
-#include "files/TiffStrips.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,16 +1,13 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/TiffFrames.h"
+#include "files/TiffPage.h"
 
+#include "files/Compression.h"
 #include "files/FileBytes.h"
 #include "sensornoise/FrameFile.h"
-#include "files/Inflate.h"
 #include "files/FrameReader.h"
 #include "files/FrameSizes.h"
-#include "files/TiffChunks.h"
 #include "files/TiffDirectory.h"
-#include "files/CompressedStrips.h"
-#include "files/TiffPage.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/TiffStrips.h"
+#include "files/TiffPage.h"
 
 #include "sensornoise/FrameFile.h"
-#include "files/Inflate.h"
-#include "files/TiffChunks.h"
-#include "files/CompressedStrips.h"
+#include "files/Compression.h"
 
 #include <algorithm>
 

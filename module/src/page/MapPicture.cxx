@@ -3,7 +3,7 @@
 #include "page/MapPicture.h"
 
 #include "base/Text.h"
-#include "files/ByteOrder.h"
+#include "files/FileBytes.h"
 #include "files/Zlib.h"
 #include "sensornoise/Report.h"
 

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#ifndef sensornoise_files_Inflate_h
-#define sensornoise_files_Inflate_h
+#ifndef sensornoise_files_Compression_h
+#define sensornoise_files_Compression_h
+
+#include "files/FileBytes.h"
 
 #include <array>
 #include <cstddef>
@@ -9,6 +11,9 @@
 #include <functional>
 #include <memory>
 #include <string>
+
+/** \file
+ * Decompression of the bytes of a file: of zlib and gzip, of LZW, and of lossless JPEG. */
 
 namespace sensornoise
 {
@@ -89,6 +94,31 @@ private:
 /** Adds the bytes [offset, offset + count) of a file to \a inflater, until it wants no more or the file ends. */
 void
 InflateFrom(FileBytes & bytes, std::uint64_t offset, std::uint64_t count, Inflater & inflater);
+
+/** Number of decoded bytes of a strip that is compressed by LZW. LZW has no checksum, so that wrong bytes are not
+ * detected. */
+struct LzwLength
+{
+  std::uint64_t bytes{ 0 };
+  std::string   error{}; // empty where all codes have a meaning
+};
+
+/** Follows the codes in the bytes [offset, offset + count) until they stand for \a expected bytes, or, where a writer
+ * has filled the strip up, for \a whole, or end. The first \a expected of these bytes go to \a out, where there is one.
+ */
+LzwLength
+LengthOfLzw(FileBytes &     bytes,
+            std::uint64_t   offset,
+            std::uint64_t   count,
+            std::uint64_t   expected,
+            std::uint64_t   whole,
+            unsigned char * out = nullptr);
+
+/** Returns the number of samples that the lossless JPEG (ITU-T T.81, Annex H: SOF3) in these bytes declares. Throws
+ * FileError, of which \a piece begins the sentence, where it is another JPEG, which loses something, or none, or where
+ * its only scan does not go on to the end of the image within these bytes. */
+std::uint64_t
+SamplesOfLosslessJpeg(const std::string & piece, FileBytes & bytes, std::uint64_t offset, std::uint64_t count);
 
 } // namespace sensornoise
 
