@@ -102,7 +102,7 @@ def emva1288() -> str:
     """Returns the table of the quantities of the evaluation of EMVA 1288."""
     entry = re.compile(r"\{\s*(\"\w+\",\s*\"\w+\",.*?)&Of::", re.DOTALL)
     rows = ["| quantity | in the table | symbol | unit | equation |", "|---|---|---|---|---|"]
-    for strings in entry.findall(source_of("EmvaQuantities.cxx")):
+    for strings in entry.findall(source_of("EmvaText.cxx")):
         section, name, symbol, label, unit, equation = re.findall(r'"([^"]*)"', strings)
         rows.append(f"| `{section}.{name}` | {label} | {escaped(symbol)} | {unit} | {equation} |")
     return "\n".join(rows)

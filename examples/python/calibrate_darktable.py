@@ -14,7 +14,7 @@ does, and prints the factor for each channel: at several levels, for two gains, 
 The colour changes the noise of the channels relative to each other. Flat files suffice, because darktable's tool asks
 for an image out of focus. The last lines are the means and standard deviations of the cases with grey light and of
 all cases, and the standard error of the latter. The standard deviation is the error of a profile. The constants in
-module/src/exports/DarktableExport.h are these numbers.
+module/src/exports/Darktable.h are these numbers.
 
 The median is taken of all details of an image, which have one level. Method: tools/noise/noiseprofile.c of darktable.
 """

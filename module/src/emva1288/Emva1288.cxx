@@ -4,9 +4,8 @@
 
 #include "base/Text.h"
 #include "emva1288/Constants.h"
-#include "emva1288/DarkLevels.h"
 #include "emva1288/EvaluationSteps.h"
-#include "emva1288/TransferCurve.h"
+#include "emva1288/LevelLines.h"
 
 #include <algorithm>
 #include <cmath>

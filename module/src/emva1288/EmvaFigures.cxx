@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "emva1288/EmvaFigures.h"
+#include "emva1288/EmvaText.h"
 
 #include "emva1288/Constants.h"
-#include "emva1288/EmvaText.h"
 #include "page/FigureParts.h"
 #include "page/SvgPanel.h"
 

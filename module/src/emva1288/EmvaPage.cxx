@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "base/Text.h"
-#include "emva1288/EmvaFigures.h"
 #include "emva1288/EmvaText.h"
 #include "page/HtmlText.h"
 #include "page/PageSections.h"

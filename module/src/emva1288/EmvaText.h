@@ -7,6 +7,9 @@
 
 #include <string>
 
+/** \file
+ * Words and figures of a report, for its table, its records and its page. */
+
 namespace sensornoise
 {
 
@@ -26,6 +29,21 @@ EmvaSeriesWords(const EmvaReport & report);
 /** Returns whether all points have photons, which are then the abscissa of the linearity. */
 bool
 HasPhotons(const EmvaReport & report);
+
+/** Returns the photon transfer curve as an SVG element for a page with FigureStyle: temporal variance less dark
+ * variance, against signal, with the line of the system gain. */
+std::string
+TransferFigure(const EmvaReport & report);
+
+/** Returns the signal-to-noise ratio with its models, in the form of TransferFigure(). Both axes are logarithmic. The
+ * abscissa is photons; where these are not known, electrons; where there is no gain either, the signal. */
+std::string
+SnrFigure(const EmvaReport & report);
+
+/** Returns signal and deviation from the line of the linearity against photons or exposure, in the form of
+ * TransferFigure(). */
+std::string
+LinearityFigure(const EmvaReport & report);
 
 } // namespace sensornoise
 

@@ -4,14 +4,81 @@
 #define sensornoise_emva1288_EvaluationSteps_h
 
 #include "sensornoise/Emva1288.h"
+#include "moments/ExposureFit.h"
+#include "report/Quantities.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+/** \file
+ * The photon transfer curve, and the steps of EvaluateEmva1288(). Each of them sets a part of the report. */
 
 namespace sensornoise
 {
 
 class DarkLevels;
-struct TransferCurve;
 
-// The steps of EvaluateEmva1288(). Each of them sets a part of the report.
+/** Photon transfer curve: the flat series in the order of their exposures, and saturation. */
+struct TransferCurve
+{
+  std::vector<EmvaSeries> series;               ///< series of each point
+  std::vector<EmvaPoint>  points;               ///< points with their gain fit range
+  std::size_t             saturation{ 0 };      ///< number of the point with the largest variance
+  bool                    hasPhotons{ false };  ///< whether all points have photons
+  bool                    isSaturated{ false }; ///< false: no frames reach the end of the range of digital numbers
+
+  double
+  SaturationSignalDn() const
+  {
+    return points[saturation].signalDn;
+  }
+  /** Returns photons, or the exposure where photons are not known: the abscissa of the response. */
+  double
+  AbscissaOf(const EmvaPoint & point) const
+  {
+    return hasPhotons ? *point.photons : point.exposure;
+  }
+};
+
+/** Makes the curve. Of an exposure with a pair of frames and a longer series, the pair counts. Throws
+ * std::invalid_argument if fewer than three exposures differ, if the frames have no temporal noise, or if the flat
+ * fields are darker than the dark frames. */
+TransferCurve
+MakeTransferCurve(const std::vector<EmvaSeries> & series, const DarkLevels & dark, const EmvaSettings & settings);
+
+/** Returns the value of \a function of the numbers with its standard error, as a quantity above 0. The errors of the
+ * numbers are independent. Each contributes half of the difference of the function between one standard error above and
+ * below the number. */
+template <typename TFunction, std::size_t VNumbers>
+Quantity
+Propagate(TFunction function, const std::array<FittedNumber, VNumbers> & numbers)
+{
+  std::array<double, VNumbers> values{};
+  for (std::size_t k = 0; k < VNumbers; ++k)
+  {
+    values[k] = numbers[k].value;
+  }
+  double variance = 0.0;
+  for (std::size_t k = 0; k < VNumbers; ++k)
+  {
+    std::array<double, VNumbers> up = values;
+    std::array<double, VNumbers> down = values;
+    up[k] += numbers[k].standardError;
+    down[k] -= numbers[k].standardError;
+    const double change = 0.5 * (function(up) - function(down));
+    variance += change * change;
+  }
+  return Filed(WithError(function(values), std::sqrt(variance)), QuantityDomain::Positive);
+}
+
+/** Returns value and standard error of an identified quantity; the error is 0 if it is not known. */
+inline FittedNumber
+NumberOf(const Quantity & quantity)
+{
+  return { quantity.value.value_or(0.0), quantity.standardError.value_or(0.0) };
+}
 
 /** Sets the system gain K: the slope of the variance against the signal, both less those of the dark frames, by a line
  * with an offset and equal weights (50). The range is 0 to 70 % of saturation. Also sets the slope of the line without

@@ -4,8 +4,14 @@
 #define sensornoise_emva1288_LevelLines_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/Emva1288.h"
+#include "moments/ExposureFit.h"
 
+#include <cstddef>
 #include <vector>
+
+/** \file
+ * Lines through the values of several exposures, and the levels of the dark frames. */
 
 namespace sensornoise
 {
@@ -48,6 +54,64 @@ FitLineThroughOrigin(const std::vector<LevelValue> & values);
 /** Fits a line whose relative deviations are least: with weights 1 / y^2. Has no errors. All y are above 0. */
 SensorNoise_EXPORT LevelLine
 FitRelativeLine(const std::vector<LevelValue> & values);
+
+struct LevelLine;
+
+/** Returns the variance of the error of the temporal variance of a series [DN^4]. The variance of pixels * (frames - 1)
+ * normal numbers has the relative variance 2 / (pixels * (frames - 1)). */
+double
+ErrorVarianceOf(const EmvaSeries & series);
+
+/** \class DarkLevels
+ * \brief Mean level and temporal variance of the dark frames as a function of the exposure. Of an exposure with a pair
+ * of frames and a longer series, the pair counts. */
+class DarkLevels
+{
+public:
+  /** \a series are all series. Throws std::invalid_argument if none of them is dark. */
+  explicit DarkLevels(const std::vector<EmvaSeries> & series);
+
+  /** Level of the dark frames at one exposure. */
+  struct Level
+  {
+    double meanDn{ 0.0 };
+    double varianceDn2{ 0.0 };
+    double varianceError{ 0.0 }; ///< variance of the error of varianceDn2 [DN^4]
+    bool   isMeasured{ true };   ///< false: no dark frames have this exposure
+  };
+
+  /** Returns the level at an exposure: of its dark frames, or interpolated between the nearest two exposures, or of the
+   * nearest exposure outside of all. */
+  Level
+  At(double exposure) const;
+
+  /** Returns the dark series, one of each exposure, in rising order of the exposures. */
+  const std::vector<EmvaSeries> &
+  Series() const
+  {
+    return m_Series;
+  }
+
+  /** Returns whether a dark current can be measured: three or more exposures. */
+  bool
+  HasLine() const;
+
+  /** Returns the line of the mean level against the exposure [DN], with errors from the scatter about it. HasLine() is
+   * true. */
+  LevelLine
+  MeanLine() const;
+  /** Returns the line of the temporal variance against the exposure [DN^2]. HasLine() is true. */
+  LevelLine
+  VarianceLine() const;
+
+  /** Returns the dark variance of the sensor [DN^2]: at the exposure 0 of VarianceLine(), or of the lowest exposure if
+   * there is no such line. */
+  FittedNumber
+  DarkVariance() const;
+
+private:
+  std::vector<EmvaSeries> m_Series;
+};
 
 } // namespace sensornoise
 

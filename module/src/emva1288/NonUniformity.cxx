@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "emva1288/EvaluationSteps.h"
 
-#include "emva1288/DarkLevels.h"
-#include "emva1288/Propagation.h"
+#include "emva1288/LevelLines.h"
 
 #include <algorithm>
 #include <cmath>
