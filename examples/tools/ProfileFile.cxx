@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/ProfileFile.h"
 
-#include "exports/StoredFrames.h"
 #include "sensornoise/ReportText.h"
+#include "exports/ProfileCheck.h"
 #include "tools/StoredReportFile.h"
 #include "itkSensorNoiseProfileFile.h"
 

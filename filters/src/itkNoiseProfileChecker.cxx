@@ -17,9 +17,9 @@
  *=========================================================================*/
 #include "itkNoiseProfileChecker.h"
 
-#include "exports/StoredFrames.h"
 #include "itkSensorNoiseErrors.h"
 #include "itkSensorNoiseProfileFile.h"
+#include "exports/ProfileCheck.h"
 
 #include <ostream>
 #include <string>

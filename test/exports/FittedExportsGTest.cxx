@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "exports/FittedExports.h"
+#include "exports/ExportFormats.h"
 #include "helpers/ExportTestHelper.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "exports/StoredFrames.h"
+#include "exports/ProfileCheck.h"
 
 #include "helpers/ProfileTestHelper.h"
 

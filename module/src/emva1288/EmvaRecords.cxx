@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "emva1288/EmvaText.h"
 
-#include "sensornoise/Emva1288.h"
-#include "sensornoise/Version.h"
 #include "report/JsonWriter.h"
 #include "report/ReportJson.h"
+#include "sensornoise/Emva1288.h"
+#include "sensornoise/Version.h"
 
 #include <array>
 #include <cmath>

@@ -3,7 +3,6 @@
 #include "exports/ExportFormats.h"
 
 #include "base/Text.h"
-#include "exports/ExportInput.h"
 #include "files/FileBytes.h"
 #include "files/Zlib.h"
 

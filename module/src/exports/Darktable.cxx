@@ -4,8 +4,8 @@
 
 #include "base/LowerCase.h"
 #include "base/Text.h"
-#include "exports/ExportInput.h"
-#include "exports/ProfileValues.h"
+#include "exports/ExportFormats.h"
+#include "exports/NoiseProfile.h"
 #include "report/JsonWriter.h"
 
 #include <algorithm>

@@ -4,15 +4,73 @@
 #define sensornoise_exports_ExportFormats_h
 
 #include "sensornoise/NoiseExport.h"
+#include "sensornoise/NoiseModel.h"
 
 #include <string>
 #include <utility>
 #include <vector>
 
+/** \file
+ * The formats of the table in NoiseExport.cxx, each a function of the noise of a camera, and the numbers that they
+ * take. */
+
 namespace sensornoise
 {
 
-// The formats of the table in NoiseExport.cxx, each a function of the noise of a camera.
+/** The variance on the scale where the black level is 0 and the white level is 1: scale x + offset. */
+struct NormalisedLine
+{
+  double scale{ 0.0 };  ///< S = a / (W - B)
+  double offset{ 0.0 }; ///< O = (b + a B) / (W - B)^2
+};
+
+/** The parameters of a sensor in the units of most records. */
+struct SensorNumbers
+{
+  double offsetDn{ 0.0 };
+  double electronsPerDn{ 0.0 };
+  double readNoiseElectrons{ 0.0 };
+};
+
+/** The only channel. Throws ExportError, with the name of the \a format, if the report has several. */
+const ChannelNoise &
+OnlyChannel(const CameraNoise & noise, const std::string & format);
+
+/** The noise model of a channel. Throws ExportError if it is not identified or its slope is not above 0. */
+NoiseModel
+ModelOf(const CameraNoise & noise, const ChannelNoise & channel);
+
+/** The line of a channel between the black and the white level. Throws ExportError if a level is missing, or the
+ * variance at the black level is negative. */
+NormalisedLine
+NormalisedLineOf(const CameraNoise & noise, const ChannelNoise & channel);
+
+/** The gain of a channel [DN/e-]. Throws ExportError if it is not identified. */
+double
+GainOf(const CameraNoise & noise, const ChannelNoise & channel);
+
+/** The dark offset of a channel [DN]. Throws ExportError if it is not identified. */
+double
+OffsetOf(const CameraNoise & noise, const ChannelNoise & channel);
+
+/** Offset, electrons per DN and read noise of a channel. Throws ExportError if one is not identified. */
+SensorNumbers
+SensorNumbersOf(const CameraNoise & noise, const ChannelNoise & channel);
+
+/** The black level, or the white level [DN]. Throws ExportError if it is missing. */
+double
+BlackLevelOf(const CameraNoise & noise);
+double
+WhiteLevelOf(const CameraNoise & noise);
+
+/** Throws ExportError, with the name of the \a format, if a report has no ISO speed, or another number of channels than
+ * the first one. */
+void
+RequireIsoSpeeds(const std::vector<CameraNoise> & settings, const std::string & format);
+
+/** A file of this name with this text, alone. */
+NoiseExport
+OneFile(const std::string & name, const std::string & bytes, const std::string & note = {});
 
 /** The tag NoiseProfile as text: the numbers of all pairs, scale and offset, as exiftool takes them. */
 NoiseExport
@@ -88,6 +146,39 @@ ExportCareamics(const CameraNoise & noise);
  * variance_electrons.tif [e-^2]. Throws ExportError if the report has no maps. */
 NoiseExport
 ExportMaps(const CameraNoise & noise);
+
+/** Factor by which rpi-ctt 1.4.0 multiplies the slope that it stores [1]. */
+constexpr double libcameraSlopeFactor = 1.4;
+
+/** The numbers of rpi.noise, as a tuning file of libcamera has them. */
+struct LibcameraNoise
+{
+  double constant{ 0.0 }; ///< reference_constant [DN of 16 bits]
+  double slope{ 0.0 };    ///< reference_slope [root of DN of 16 bits]
+};
+
+/** Fits libcamera's model to a camera. Throws ExportError if the line, a level or the bit depth is missing. */
+LibcameraNoise
+FitLibcamera(const CameraNoise & noise);
+
+/** Returns the variance of libcamera's model at a level [DN^2]: at the black level where the level is below. The camera
+ * gives bit depth, analogue gain and black level. Throws ExportError if one is missing. */
+double
+LibcameraVariance(const LibcameraNoise & model, const CameraNoise & noise, double levelDn);
+
+/** The section rpi.noise of a tuning file of libcamera, JSON. On a scale of 16 bits at an analogue gain of 1, its
+ * standard deviation is constant + slope sqrt(mean - black). The constant and the slope are fitted between the black
+ * and the white level, and stored as the tuning tool rpi-ctt 1.4.0 does: int(constant) and round(1.4 slope, 3).
+ * Channels of a mosaic are averaged. The note has the largest error of the fit. */
+NoiseExport
+ExportLibcamera(const CameraNoise & noise);
+
+/** The coefficients of Android's sensor noise model (CTS, dng_noise_model.py), JSON: for each channel S = A iso + B and
+ * O = C iso^2 + D d^2 with d = max(1, iso / max_analog_iso), where S and O are those of NoiseProfile at this ISO speed.
+ * The fits weight relative errors, and no coefficient of O is negative. The note has the largest error of the variance.
+ * Throws ExportError unless two reports have different ISO speeds and all have the same channels. */
+NoiseExport
+ExportAndroid(const std::vector<CameraNoise> & settings);
 
 } // namespace sensornoise
 

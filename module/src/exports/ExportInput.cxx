@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "exports/ExportInput.h"
+#include "exports/ExportFormats.h"
 
 #include "base/Text.h"
 #include "sensornoise/ReportText.h"

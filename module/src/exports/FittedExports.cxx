@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "exports/FittedExports.h"
+#include "exports/ExportFormats.h"
 
 #include "base/Text.h"
-#include "exports/ExportInput.h"
 #include "report/JsonWriter.h"
 
 #include <algorithm>

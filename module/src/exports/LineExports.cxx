@@ -4,7 +4,6 @@
 
 #include "base/NumberText.h"
 #include "base/Text.h"
-#include "exports/ExportInput.h"
 #include "files/FileBytes.h"
 #include "report/JsonWriter.h"
 

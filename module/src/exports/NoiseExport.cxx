@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/NoiseExport.h"
 
-#include "exports/ExportFormats.h"
 #include "exports/Darktable.h"
-#include "exports/FittedExports.h"
+#include "exports/ExportFormats.h"
 #include "report/JsonWriter.h"
 
 #include <algorithm>

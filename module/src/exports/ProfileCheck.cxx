@@ -4,8 +4,7 @@
 
 #include "base/Text.h"
 #include "exports/Darktable.h"
-#include "exports/ExportInput.h"
-#include "exports/ProfileVariance.h"
+#include "exports/ExportFormats.h"
 #include "stabilise/CheckText.h"
 #include "stabilise/VarianceCheck.h"
 

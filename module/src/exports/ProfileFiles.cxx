@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exports/ExportFormats.h"
 #include "exports/NoiseProfile.h"
-#include "exports/NpzReader.h"
-#include "exports/ProfileValues.h"
 
 #include "base/NumberText.h"
 #include "base/Text.h"

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "exports/Darktable.h"
-#include "exports/ExportInput.h"
+#include "exports/ExportFormats.h"
 #include "exports/NoiseProfile.h"
-#include "exports/ProfileValues.h"
 
 #include "base/Text.h"
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "exports/ProfileVariance.h"
+#include "exports/ProfileCheck.h"
 
 #include "base/Text.h"
 #include "exports/Darktable.h"
-#include "exports/ExportInput.h"
+#include "exports/ExportFormats.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,6 @@
 #include "exports/ExportFormats.h"
 
 #include "base/NumberText.h"
-#include "exports/ExportInput.h"
 #include "report/JsonWriter.h"
 
 #include <cmath>

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "exports/StoredFrames.h"
-
 #include "exports/ProfileCheck.h"
 
 #include <algorithm>
