@@ -18,7 +18,7 @@
 #ifndef itkSensorNoisePageMaps_h
 #define itkSensorNoisePageMaps_h
 
-#include "page/MapPicture.h"
+#include "page/PageSections.h"
 
 namespace itk
 {

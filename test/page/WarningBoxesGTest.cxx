@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "page/Verdict.h"
 #include "helpers/PageTestHelper.h"
+#include "page/PageSections.h"
 #include "sensornoise/ChannelReports.h"
 #include "sensornoise/ReportText.h"
 #include "sensornoise/WarningCodes.h"

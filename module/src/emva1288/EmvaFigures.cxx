@@ -3,7 +3,7 @@
 #include "emva1288/EmvaText.h"
 
 #include "emva1288/Constants.h"
-#include "page/FigureParts.h"
+#include "page/Figures.h"
 #include "page/SvgPanel.h"
 
 #include <algorithm>

@@ -4,7 +4,6 @@
 #include "emva1288/EmvaText.h"
 #include "page/HtmlText.h"
 #include "page/PageSections.h"
-#include "page/QuantityTable.h"
 #include "page/SvgPanel.h"
 #include "sensornoise/Emva1288.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "page/ComparisonWords.h"
+#include "page/Comparison.h"
 
 #include "base/Text.h"
 #include "page/HtmlText.h"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page/Figures.h"
 
-#include "page/FigureParts.h"
 #include "page/SvgPanel.h"
 
 #include <algorithm>

@@ -4,10 +4,17 @@
 #define sensornoise_page_PageSections_h
 
 #include "sensornoise/Report.h"
+#include "sensornoise/ChannelReports.h"
+#include "sensornoise/ReportPage.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
+
+/** \file
+ * Sections of a page as HTML: the verdict and the warnings, tables, and pictures of the maps. */
 
 namespace sensornoise
 {
@@ -57,6 +64,100 @@ InputTable(const std::optional<InputRecord> & input);
 /** Returns version, method, bit depth, quantization step, clip levels, and all settings as used, as an HTML table. */
 std::string
 SettingsTable(const Report & report);
+
+/** Result of a measurement or of a comparison. */
+struct Verdict
+{
+  Severity    severity; ///< Error: no result; Warning: a warning or a change; Note: neither
+  std::string sentence; ///< the result, as plain text
+};
+
+/** Returns the gain and, if it is known, the read noise of a report as a sentence. Without a gain the sentence has the
+ * message of the first error, and the severity is an error. */
+Verdict
+VerdictOf(const Report & report);
+
+/** Returns the worst severity of the channels: an error if a channel has no gain. The warnings about all channels count
+ * as warnings at most. */
+Severity
+SeverityOf(const ChannelReports & reports);
+
+/** Message of a warning in two parts, as sentences of plain text. */
+struct WarningParts
+{
+  std::string finding; ///< what was found, and why it matters
+  std::string action;  ///< what to do; "" for a note that needs no action
+};
+
+/** Divides the message of a warning. The action is its last sentences that begin with a command, or a command behind
+ * its last colon. Without one, a warning or error gets the action of WarningTable. */
+WarningParts
+SplitWarning(const Warning & warning);
+
+/** Returns one HTML box for each code, errors first: its name, the findings, and the action. The code is the address of
+ * the box, for example "#few-frames". "" if there are no \a warnings. */
+std::string
+WarningBoxes(const std::vector<Warning> & warnings);
+
+/** Returns the verdict in one sentence as HTML, with links to the warnings of its severity. */
+std::string
+VerdictBox(const Report & report);
+std::string
+VerdictBox(const ChannelReports & reports);
+
+/** Returns a quantity as a row of a table in HTML, with its value, error and unit, and its 95 % interval or status.
+ * \a label is plain text; \a meaning, in small letters below it, is HTML. \a unit: as in QuantityList(). */
+std::string
+QuantityRow(const std::string & label,
+            const std::string & meaning,
+            const Quantity &    quantity,
+            const std::string & unit);
+
+/** Returns rows of a table of quantities below a \a title, which is plain text. "" if there are no \a rows. */
+std::string
+QuantityGroupRows(const std::string & title, const std::string & rows);
+
+/** Returns the table of quantities around its \a groups of rows. */
+std::string
+TableOfGroups(const std::string & groups);
+
+/** Returns a quantity as a card in HTML, with its value, error and unit, and below it the 95 % interval or the status.
+ * \a name and \a besides, words behind the interval, are plain text. \a unit: as in QuantityList(). */
+std::string
+KeyCard(const std::string & name,
+        const Quantity &    quantity,
+        const std::string & unit,
+        const std::string & besides = "");
+
+/** Returns whether any quantity of the report has a value or an upper limit. */
+bool
+HasValues(const Report & report);
+
+/** Returns gain, read noise and offset as three cards in HTML. Each has the value with its error and unit, and its 95 %
+ * interval or its status. "" if no quantity has a value. */
+std::string
+KeyNumbers(const Report & report);
+
+/** Returns the quantities as an HTML table in three groups: sensor, illumination and motion, noise model for a
+ * denoiser. Each has its value, error and unit, and its 95 % interval or status. */
+std::string
+QuantityTable(const Report & report);
+
+/** Returns the quantities of EMVA 1288 as an HTML table. Values that are computed by the linear model are marked by
+ * "≈". */
+std::string
+EmvaTable(const Report & report);
+
+/** Returns the mean image as an HTML figure of at most 256 x 256 points. A point is the mean of its finite pixels. Grey
+ * is from the 0.002 to the 0.998 quantile of the points. "" if there is no mean image. Throws as PixelUsePicture(). */
+std::string
+MeanPicture(const PageMaps & maps);
+
+/** Returns the map of pixel use with its legend as an HTML figure of at most 256 x 256 points. A point is "used" if
+ * more than seven eighths of its pixels are used. Otherwise it has the most frequent other use. "" if there is no map.
+ * Throws std::runtime_error if zlib cannot compress the picture. */
+std::string
+PixelUsePicture(const PageMaps & maps);
 
 } // namespace sensornoise
 

@@ -5,11 +5,8 @@
 #include "base/Text.h"
 #include "page/Figures.h"
 #include "page/HtmlText.h"
-#include "page/MapPicture.h"
-#include "page/PageSections.h"
-#include "page/QuantityTable.h"
-#include "page/Verdict.h"
 #include "sensornoise/ReportText.h"
+#include "page/PageSections.h"
 #include "report/ReportTable.h"
 
 #include <algorithm>

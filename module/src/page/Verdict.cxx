@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "page/Verdict.h"
+#include "page/PageSections.h"
 
 #include "page/HtmlText.h"
 #include "sensornoise/ReportText.h"
