@@ -3,7 +3,7 @@
 #ifndef LowerCase_h
 #define LowerCase_h
 
-#include "base/LowerCase.h"
+#include "base/Text.h"
 
 #include <filesystem>
 #include <string>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/TerminalText.h"
 
-#include "report/TextSigns.h"
+#include "base/Text.h"
 #include "tools/LowerCase.h"
 
 #include <cstdlib>

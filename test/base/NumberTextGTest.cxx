@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 // Numbers as text: the shortest that reads back, and a given number of decimals or digits; text as numbers.
-#include "base/NumberText.h"
+#include "base/Text.h"
 
 #include <cmath>
 #include <cstdlib>

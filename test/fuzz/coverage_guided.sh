@@ -58,7 +58,7 @@ build() {
   sensornoise_use_ccache "$PWD"
   [ -z "${CMAKE_CXX_COMPILER_LAUNCHER:-}" ] || compiler=(ccache clang++)
   printf '%s\n' '#define SensorNoise_EXPORT' >"$folder/SensorNoiseExport.h"
-  printf '#include "%s"\n' module/src/base/NumberText.cxx module/src/files/*.cxx | sed 's,module/src/,,' >"$folder/readers.cxx"
+  printf '#include "%s"\n' module/src/base/Text.cxx module/src/files/*.cxx | sed 's,module/src/,,' >"$folder/readers.cxx"
   "${compiler[@]}" "${flags[@]}" -fsanitize=fuzzer-no-link -c "$folder/readers.cxx" -o "$folder/readers.o"
   "${compiler[@]}" "${flags[@]}" -fsanitize=fuzzer-no-link -c test/fuzz/FrameFileFuzzer.cxx -o "$folder/fuzzer.o"
   clang++ "${flags[@]}" -fsanitize=fuzzer "$folder/fuzzer.o" "$folder/readers.o" -lz -o "$folder/frame-file-fuzzer"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/TextSigns.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/ReportText.h"
+#include "base/Text.h"
 
 #include <gtest/gtest.h>
 #include <string>

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "helpers/EstimateToolTestHelper.h"
 #include "base/Text.h"
-#include "report/TextSigns.h"
+#include "helpers/EstimateToolTestHelper.h"
 #include "sensornoise/ReportText.h"
 
 #include <cmath>

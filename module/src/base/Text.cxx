@@ -3,9 +3,18 @@
 #include "base/Text.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <iomanip>
+#include <locale>
 #include <sstream>
+#include <string>
+#include <utility>
 
 namespace sensornoise
 {
@@ -76,6 +85,183 @@ Measured(double value, double standardError)
   text << std::fixed << std::setprecision(std::max(0, -place));
   text << rounded(value) << " +- " << rounded(standardError);
   return text.str();
+}
+
+namespace
+{
+constexpr std::size_t BufferCharacters = 400; // a double has at most 309 digits before the point
+constexpr int         MostDecimals = 20;
+} // namespace
+
+#if defined(__cpp_lib_to_chars)
+
+std::string
+ShortestText(double number)
+{
+  char buffer[BufferCharacters];
+  return { buffer, std::to_chars(buffer, buffer + sizeof(buffer), number).ptr };
+}
+
+std::string
+FixedText(double number, int decimals)
+{
+  char      buffer[BufferCharacters];
+  const int digits = std::clamp(decimals, 0, MostDecimals);
+  return { buffer, std::to_chars(buffer, buffer + sizeof(buffer), number, std::chars_format::fixed, digits).ptr };
+}
+
+std::string
+GeneralText(double number, int digits)
+{
+  char buffer[BufferCharacters];
+  return { buffer, std::to_chars(buffer, buffer + sizeof(buffer), number, std::chars_format::general, digits).ptr };
+}
+
+#else
+
+// The C++ library of Emscripten 3.1 has no std::to_chars() for floating-point numbers. It has one locale, whose point
+// is ".".
+std::string
+ShortestText(double number)
+{
+  constexpr int always = 17; // digits with which every double is read again
+  std::string   text;
+  for (int digits = 1; digits <= always; ++digits)
+  {
+    text = GeneralText(number, digits);
+    if (std::strtod(text.c_str(), nullptr) == number)
+    {
+      break;
+    }
+  }
+  return text;
+}
+
+std::string
+FixedText(double number, int decimals)
+{
+  char buffer[BufferCharacters];
+  std::snprintf(buffer, sizeof(buffer), "%.*f", std::clamp(decimals, 0, MostDecimals), number);
+  return buffer;
+}
+
+std::string
+GeneralText(double number, int digits)
+{
+  char buffer[BufferCharacters];
+  std::snprintf(buffer, sizeof(buffer), "%.*g", digits, number);
+  return buffer;
+}
+
+#endif
+
+std::optional<double>
+FiniteNumber(const std::string & text)
+{
+  // not strtod(), which uses the decimal comma of some locales
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  double number = 0;
+  if (!(stream >> number) || !std::isfinite(number) || stream.peek() != std::istringstream::traits_type::eof())
+  {
+    return std::nullopt;
+  }
+  return number;
+}
+
+namespace
+{
+/** A string, and the string that replaces it. */
+using Replacement = std::pair<const char *, const char *>;
+
+/** Returns the text with the first string of each pair replaced by the second. */
+template <std::size_t VCount>
+std::string
+Replace(std::string text, const std::array<Replacement, VCount> & replacements)
+{
+  for (const auto & [part, other] : replacements)
+  {
+    const std::string found = part;
+    const std::string by = other;
+    for (std::size_t at = text.find(found); at != std::string::npos; at = text.find(found, at + by.size()))
+    {
+      text.replace(at, found.size(), by);
+    }
+  }
+  return text;
+}
+
+/** Returns the blanks that fill the text up to \a width characters. */
+std::string
+BlanksFor(const std::string & text, std::size_t width)
+{
+  const std::size_t characters = CharactersIn(text);
+  return std::string(width > characters ? width - characters : 0, ' ');
+}
+} // namespace
+
+std::string
+WithSigns(std::string text)
+{
+  constexpr std::array<Replacement, 4> signs{
+    { { " +- ", " \u00B1 " }, { "DN/e-", "DN/e\u207B" }, { "[e-]", "[e\u207B]" }, { "^2", "\u00B2" } }
+  };
+  return text == "e-" ? "e\u207B" : Replace(std::move(text), signs);
+}
+
+std::string
+WithoutSigns(const std::string & text)
+{
+  constexpr std::array<Replacement, 10> letters{ { { "\u00A0", " " },
+                                                   { "\u2212", "-" },
+                                                   { "\u00B1", "+-" },
+                                                   { "\u00B2", "^2" },
+                                                   { "\u207B", "-" },
+                                                   { "\u03C7", "chi" },
+                                                   { "\u03C3", "sigma" },
+                                                   { "\u03BC", "mu" },
+                                                   { "\u00D7", "x" },
+                                                   { "\u2013", "-" } } };
+  std::string                           ascii;
+  std::size_t                           excess = 0; // number of characters added to the current line
+  for (std::size_t at = 0; at < text.size();)
+  {
+    const auto sign = std::find_if(letters.begin(), letters.end(), [&](const Replacement & letter) {
+      return text.compare(at, std::strlen(letter.first), letter.first) == 0;
+    });
+    if (sign != letters.end())
+    {
+      ascii += sign->second;
+      excess += std::strlen(sign->second) - 1;
+      at += std::strlen(sign->first);
+      continue;
+    }
+    const bool isPadding = text[at] == ' ' && !ascii.empty() && ascii.back() == ' ' && excess > 0;
+    excess = text[at] == '\n' ? 0 : excess - (isPadding ? 1 : 0);
+    ascii += isPadding ? std::string() : std::string(1, text[at]);
+    ++at;
+  }
+  return ascii;
+}
+
+std::size_t
+CharactersIn(const std::string & text)
+{
+  // A byte 10xxxxxx continues the character before it.
+  return static_cast<std::size_t>(
+    std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+std::string
+PaddedRight(const std::string & text, std::size_t width)
+{
+  return text + BlanksFor(text, width);
+}
+
+std::string
+PaddedLeft(const std::string & text, std::size_t width)
+{
+  return BlanksFor(text, width) + text;
 }
 
 } // namespace sensornoise

@@ -6,7 +6,13 @@
 #include "SensorNoiseExport.h"
 #include "base/Constants.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <optional>
 #include <string>
+
+/** \file
+ * Numbers as text and in text, letters, and signs. */
 
 namespace sensornoise
 {
@@ -46,6 +52,54 @@ DescribeInsignificantFlicker(double flickerZ)
                " standard errors above its noise (more than " + Rounded(Significance.everyPixel) + " needed)"
            : "the flicker is below its noise";
 }
+
+/** Returns the shortest text that is read as this finite number again, with a point in every locale. */
+SensorNoise_EXPORT std::string
+ShortestText(double number);
+
+/** Returns a finite number with \a decimals digits after the point, 0 to 20. */
+SensorNoise_EXPORT std::string
+FixedText(double number, int decimals);
+
+/** Returns a finite number to \a digits digits, 1 to 17, with an exponent where it is large or small. */
+SensorNoise_EXPORT std::string
+GeneralText(double number, int digits);
+
+/** Returns the number of a text, with a point in every locale; null for other texts, infinity and NaN. Blanks may stand
+ * before the number, and nothing behind it. */
+SensorNoise_EXPORT std::optional<double>
+FiniteNumber(const std::string & text);
+
+/** Returns \a text with its ASCII letters in lower case, in every locale. */
+inline std::string
+LowerCase(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(), [](char letter) {
+    return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+  });
+  return text;
+}
+
+/** Returns the text with signs in UTF-8 ("±", "e⁻", "²") instead of their ASCII form in records ("+-", "e-", "^2"). */
+SensorNoise_EXPORT std::string
+WithSigns(std::string text);
+
+/** Returns the text in ASCII, for terminals that show nothing else. It replaces the signs that this library writes. A
+ * sign may become several letters; as many of the next repeated blanks are removed, so that columns stay aligned. */
+SensorNoise_EXPORT std::string
+WithoutSigns(const std::string & text);
+
+/** Returns the number of characters of a text in UTF-8. A character may have several bytes. */
+SensorNoise_EXPORT std::size_t
+CharactersIn(const std::string & text);
+
+/** Returns the text, followed by blanks up to \a width characters. */
+SensorNoise_EXPORT std::string
+PaddedRight(const std::string & text, std::size_t width);
+
+/** Returns the text, preceded by blanks up to \a width characters. */
+SensorNoise_EXPORT std::string
+PaddedLeft(const std::string & text, std::size_t width);
 
 } // namespace sensornoise
 

@@ -9,7 +9,7 @@
 #include "base/Text.h"
 #include "report/JsonWriter.h"
 #include "report/Quantities.h"
-#include "report/ReportJson.h"
+#include "report/ReportParts.h"
 #include "sensornoise/Version.h"
 #include "correlation/Interference.h"
 #include "correlation/NoiseResiduals.h"

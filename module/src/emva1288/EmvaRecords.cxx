@@ -3,7 +3,7 @@
 #include "emva1288/EmvaText.h"
 
 #include "report/JsonWriter.h"
-#include "report/ReportJson.h"
+#include "report/ReportParts.h"
 #include "sensornoise/Emva1288.h"
 #include "sensornoise/Version.h"
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "emva1288/EmvaText.h"
 
-#include "report/ReportTable.h"
 #include "sensornoise/Emva1288.h"
 #include "sensornoise/ReportText.h"
 #include "sensornoise/Version.h"
+#include "report/ReportParts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exports/Darktable.h"
 
-#include "base/LowerCase.h"
 #include "base/Text.h"
 #include "exports/ExportFormats.h"
 #include "exports/NoiseProfile.h"

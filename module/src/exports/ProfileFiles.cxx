@@ -3,7 +3,6 @@
 #include "exports/ExportFormats.h"
 #include "exports/NoiseProfile.h"
 
-#include "base/NumberText.h"
 #include "base/Text.h"
 #include "files/TextHeader.h"
 

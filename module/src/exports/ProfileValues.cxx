@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exports/NoiseProfile.h"
 
-#include "base/NumberText.h"
 #include "base/Text.h"
 #include "files/FileBytes.h"
 #include "files/TextHeader.h"

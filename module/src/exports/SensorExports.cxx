@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exports/ExportFormats.h"
 
-#include "base/NumberText.h"
+#include "base/Text.h"
 #include "report/JsonWriter.h"
 
 #include <cmath>

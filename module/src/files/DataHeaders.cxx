@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/DataFile.h"
 
-#include "base/LowerCase.h"
 #include "sensornoise/FrameFile.h"
+#include "base/Text.h"
 #include "files/TextHeader.h"
 
 #include <algorithm>

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/FrameFormats.h"
 
-#include "base/LowerCase.h"
-#include "base/NumberText.h"
+#include "base/Text.h"
 #include "files/DataFile.h"
 #include "files/FrameReader.h"
 #include "files/FrameSizes.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/FrameFormats.h"
 
-#include "base/NumberText.h"
+#include "base/Text.h"
 #include "files/Compression.h"
 #include "files/FrameReader.h"
 #include "files/FrameSizes.h"

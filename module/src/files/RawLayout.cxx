@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/RawLayout.h"
 
-#include "base/LowerCase.h"
+#include "base/Text.h"
 #include "files/FileBytes.h"
 #include "files/FrameFormats.h"
 #include "files/FrameSizes.h"

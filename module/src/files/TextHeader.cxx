@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/TextHeader.h"
 
-#include "base/NumberText.h"
 #include "sensornoise/FrameFile.h"
+#include "base/Text.h"
 
 #include <cstdlib>
 

@@ -5,7 +5,7 @@
 #include "page/HtmlText.h"
 #include "page/PageSections.h"
 #include "page/SvgPanel.h"
-#include "report/ReportJson.h"
+#include "report/ReportParts.h"
 #include "sensornoise/Version.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include "base/Text.h"
 #include "page/HtmlText.h"
-#include "report/ReportJson.h"
+#include "report/ReportParts.h"
 
 #include <algorithm>
 #include <cmath>

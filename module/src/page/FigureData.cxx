@@ -4,7 +4,7 @@
 
 #include "page/HtmlText.h"
 #include "report/JsonWriter.h"
-#include "report/ReportJson.h"
+#include "report/ReportParts.h"
 #include "sensornoise/ReportPage.h"
 
 #include <algorithm>

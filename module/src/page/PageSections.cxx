@@ -5,8 +5,7 @@
 #include "base/Text.h"
 #include "page/HtmlText.h"
 #include "page/SvgPanel.h"
-#include "report/ReportJson.h"
-#include "report/TextSigns.h"
+#include "report/ReportParts.h"
 #include "sensornoise/ReportText.h"
 #include "sensornoise/Version.h"
 

@@ -7,7 +7,7 @@
 #include "page/HtmlText.h"
 #include "sensornoise/ReportText.h"
 #include "page/PageSections.h"
-#include "report/ReportTable.h"
+#include "report/ReportParts.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page/SvgPanel.h"
 
-#include "base/NumberText.h"
 #include "base/Text.h"
 #include "page/HtmlText.h"
 

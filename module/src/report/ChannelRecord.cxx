@@ -4,9 +4,7 @@
 
 #include "base/Text.h"
 #include "report/JsonWriter.h"
-#include "report/ReportJson.h"
-#include "report/ReportTable.h"
-#include "report/TextSigns.h"
+#include "report/ReportParts.h"
 #include "sensornoise/Version.h"
 
 #include <algorithm>

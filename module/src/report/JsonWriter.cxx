@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/JsonWriter.h"
 
-#include "base/NumberText.h"
+#include "base/Text.h"
 
 #include <cmath>
 #include <cstdio>

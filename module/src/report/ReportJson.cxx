@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/ReportJson.h"
+#include "report/ReportParts.h"
 
 #include "report/JsonWriter.h"
 #include "sensornoise/ReportText.h"

@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/ReportTable.h"
+#include "report/ReportParts.h"
 
-#include "base/Text.h"
 #include "sensornoise/ReportText.h"
-#include "report/ReportJson.h"
-#include "report/TextSigns.h"
+#include "base/Text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,6 @@
 
 #include "base/Text.h"
 #include "report/JsonWriter.h"
-#include "report/TextSigns.h"
 
 #include <algorithm>
 #include <cmath>

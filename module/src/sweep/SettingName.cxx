@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sweep/SettingName.h"
 
-#include "base/LowerCase.h"
-#include "base/NumberText.h"
 #include "base/Text.h"
 
 #include <cmath>

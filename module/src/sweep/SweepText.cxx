@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sweep/SweepText.h"
 
-#include "base/LowerCase.h"
 #include "base/Text.h"
-#include "report/TextSigns.h"
 #include "sweep/Constants.h"
 
 #include <algorithm>
