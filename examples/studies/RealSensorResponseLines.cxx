@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studies/RealSensorLines.h"
 
-#include "simulation/ResponseCurve.h"
+#include "simulation/ReadOut.h"
 
 #include <array>
 #include <string>

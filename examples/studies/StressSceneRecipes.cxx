@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/Illumination.h"
+#include "simulation/CollectedCharge.h"
 #include "simulation/Random.h"
 #include "sensornoise/Simulator.h"
 #include "sensornoise/SimulationSettings.h"

@@ -4,9 +4,9 @@
 //   simulate-sensor-noise --output stack.mha --truth truth.json --reference target --camera B --condition 3
 
 #include "base/FreeMemory.h"
-#include "simulation/Illumination.h"
 #include "sensornoise/SimulationSettings.h"
 #include "sensornoise/FrameFile.h"
+#include "simulation/CollectedCharge.h"
 #include "tools/ErrorSentence.h"
 #include "tools/FilesInUse.h"
 #include "tools/ImageOnFile.h"

@@ -9,7 +9,7 @@
 #include "correlation/Jackknife.h"
 #include "correlation/NoiseResiduals.h"
 #include "correlation/FrameSample.h"
-#include "simulation/DoubleFrame.h"
+#include "simulation/FrameProcessing.h"
 #include "helpers/FrameNoiseTestHelper.h"
 
 #include <cmath>

@@ -3,7 +3,7 @@
 #ifndef sensornoise_test_FrameNoiseTestHelper_h
 #define sensornoise_test_FrameNoiseTestHelper_h
 
-#include "simulation/DoubleFrame.h"
+#include "simulation/FrameProcessing.h"
 #include "simulation/Random.h"
 
 #include <algorithm>

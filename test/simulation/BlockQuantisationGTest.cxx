@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/LossyCompression.h"
 #include "helpers/FrameNoiseTestHelper.h"
 #include "helpers/StackTestHelper.h"
+#include "simulation/FrameProcessing.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/ChargeExchange.h"
 #include "helpers/FrameNoiseTestHelper.h"
+#include "simulation/CollectedCharge.h"
 
 #include <cmath>
 #include <cstddef>

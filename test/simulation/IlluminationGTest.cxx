@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/Illumination.h"
 #include "sensornoise/Simulator.h"
 #include "sensornoise/SimulationSettings.h"
+#include "simulation/CollectedCharge.h"
 
 #include <algorithm>
 #include <cmath>

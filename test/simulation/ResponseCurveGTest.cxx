@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/ResponseCurve.h"
 #include "simulation/Random.h"
+#include "simulation/ReadOut.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

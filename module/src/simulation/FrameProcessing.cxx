@@ -3,9 +3,7 @@
 #include "simulation/FrameProcessing.h"
 
 #include "sensornoise/Simulator.h"
-#include "simulation/ChargeExchange.h"
-#include "simulation/FrameResampling.h"
-#include "simulation/LossyCompression.h"
+#include "simulation/CollectedCharge.h"
 #include "simulation/SettingChecks.h"
 
 #include <algorithm>

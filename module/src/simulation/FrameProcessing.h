@@ -6,18 +6,47 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/SensorFlaws.h"
-#include "simulation/DoubleFrame.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 /** \file
- * The processing of whole frames, in order. */
+ * The processing of whole frames: correction of defects, filters, resampling and lossy compression. */
 
 namespace sensornoise
 {
+
+/** One frame, row by row, of charges [e-] or of codes before they are rounded [DN]. */
+struct DoubleFrame
+{
+  std::size_t         width{ 0 };
+  std::size_t         height{ 0 };
+  std::vector<double> values;
+
+  DoubleFrame() = default;
+  DoubleFrame(std::size_t columns, std::size_t rows)
+    : width(columns)
+    , height(rows)
+    , values(columns * rows)
+  {}
+
+  double *
+  Row(std::size_t y)
+  {
+    return values.data() + y * width;
+  }
+  const double *
+  Row(std::size_t y) const
+  {
+    return values.data() + y * width;
+  }
+};
 
 /** \throws std::invalid_argument that names the first setting that cannot be used. */
 SensorNoise_EXPORT void
@@ -100,6 +129,118 @@ ProcessAfterTemporalFilter(DoubleFrame         codesDn,
                            const SensorFlaws & flaws,
                            unsigned int        bitDepth,
                            const ParallelFor & parallelFor);
+
+/** Linear interpolation at position + shift along one axis of \a size pixels, edge pixels replicated. */
+class LinearShift
+{
+public:
+  LinearShift(double shift, std::size_t size)
+    : m_Last(static_cast<double>(size) - 1.0)
+    , m_Whole(std::floor(shift))
+    , m_Fraction(shift - m_Whole)
+  {}
+  std::size_t
+  First(std::size_t position) const
+  {
+    return static_cast<std::size_t>(std::clamp(static_cast<double>(position) + m_Whole, 0.0, m_Last));
+  }
+  std::size_t
+  Second(std::size_t position) const
+  {
+    return static_cast<std::size_t>(std::clamp(static_cast<double>(position) + m_Whole + 1.0, 0.0, m_Last));
+  }
+  double
+  Blend(double first, double second) const
+  {
+    return first + m_Fraction * (second - first);
+  }
+
+private:
+  double m_Last;
+  double m_Whole;
+  double m_Fraction;
+};
+
+/** Cubic interpolation at position + shift along one axis of \a size pixels, edge pixels replicated. The four weights
+ * of Keys 1981 (IEEE Trans. ASSP 29, DOI 10.1109/TASSP.1981.1163711) with a = -1/2 are exact for polynomials up to
+ * degree 2. They sum to 1; at half a pixel they are -1/16, 9/16, 9/16, -1/16. */
+class CubicShift
+{
+public:
+  static constexpr std::size_t NumberOfTaps = 4;
+
+  CubicShift(double shift, std::size_t size)
+    : m_Last(static_cast<double>(size) - 1.0)
+    , m_Whole(std::floor(shift))
+  {
+    const double f = shift - m_Whole;
+    const double back = 1.0 - f;
+    m_Weights = { -0.5 * f * back * back,
+                  1.0 - 2.5 * f * f + 1.5 * f * f * f,
+                  1.0 - 2.5 * back * back + 1.5 * back * back * back,
+                  -0.5 * back * f * f };
+  }
+  /** Returns the pixel that tap \a k, 0 to 3, reads. */
+  std::size_t
+  Tap(std::size_t position, std::size_t k) const
+  {
+    const double at = static_cast<double>(position) + m_Whole + static_cast<double>(k) - 1.0;
+    return static_cast<std::size_t>(std::clamp(at, 0.0, m_Last));
+  }
+  double
+  Weight(std::size_t k) const
+  {
+    return m_Weights[k];
+  }
+
+private:
+  double                           m_Last;
+  double                           m_Whole;
+  std::array<double, NumberOfTaps> m_Weights{};
+};
+
+/** \throws std::invalid_argument that names the first setting that cannot be used. */
+SensorNoise_EXPORT void
+CheckSettings(const BinningSettings & settings);
+
+/** Returns \a codesDn binned, in the original size [DN]. Where whole squares fill the frame, its mean is kept. */
+SensorNoise_EXPORT DoubleFrame
+BinFrame(const DoubleFrame & codesDn, const BinningSettings & settings, const ParallelFor & parallelFor);
+
+/** \throws std::invalid_argument that names the first setting that cannot be used. */
+SensorNoise_EXPORT void
+CheckSettings(const ResamplingSettings & settings);
+
+/** Returns \a codesDn shifted [DN]. */
+SensorNoise_EXPORT DoubleFrame
+ResampleFrame(const DoubleFrame & codesDn, const ResamplingSettings & settings, const ParallelFor & parallelFor);
+
+/** Quantization step of each coefficient [DN], row by row: vertical frequency 0 to 7, within it horizontal frequency 0
+ * to 7. */
+using BlockStepsDn = std::array<double, 64>;
+
+/** \throws std::invalid_argument if the setting cannot be used with a converter of \a bitDepth bits. */
+SensorNoise_EXPORT void
+CheckSettings(const BlockSettings & settings, unsigned int bitDepth);
+
+/** Returns the luminance table of T.81, Table K.1, in units of (2^bitDepth - 1) / 255 [DN]. It is scaled by the quality
+ * and rounded as libjpeg's jpeg_quality_scaling() and jpeg_add_quant_table() do for baseline JPEG. */
+SensorNoise_EXPORT BlockStepsDn
+StepsOfQuality(const BlockSettings & settings, unsigned int bitDepth);
+
+/** Returns \a codesDn with the coefficients of each block rounded to multiples of \a stepsDn, all above 0 [DN]. A block
+ * that the edge of the frame cuts is filled with copies of its last column and row. */
+SensorNoise_EXPORT DoubleFrame
+QuantiseBlocks(const DoubleFrame & codesDn, const BlockStepsDn & stepsDn, const ParallelFor & parallelFor);
+
+/** \throws std::invalid_argument if the setting cannot be used with a converter of \a bitDepth bits. */
+SensorNoise_EXPORT void
+CheckSettings(const CompandingSettings & settings, unsigned int bitDepth);
+
+/** Compands the codes and expands them again, in place [DN].
+ * \param codesDn codes, which are clamped to 0 and 2^bitDepth - 1 first */
+SensorNoise_EXPORT void
+Compand(double * codesDn, std::size_t count, const CompandingSettings & settings, unsigned int bitDepth);
 
 } // namespace sensornoise
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/FrameResampling.h"
+#include "simulation/FrameProcessing.h"
 
 #include "simulation/SettingChecks.h"
 

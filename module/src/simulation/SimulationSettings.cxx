@@ -3,14 +3,10 @@
 #include "sensornoise/SimulationSettings.h"
 
 #include "base/Text.h"
-#include "simulation/ChargeExchange.h"
+#include "simulation/CollectedCharge.h"
 #include "simulation/FixedPattern.h"
 #include "simulation/FrameProcessing.h"
-#include "simulation/FrameResampling.h"
-#include "simulation/Illumination.h"
-#include "simulation/LossyCompression.h"
 #include "simulation/ReadOut.h"
-#include "simulation/ResponseCurve.h"
 #include "simulation/SettingChecks.h"
 
 #include <cmath>

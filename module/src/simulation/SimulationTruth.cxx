@@ -4,7 +4,7 @@
 
 #include "report/JsonWriter.h"
 #include "sensornoise/SimulationSettings.h"
-#include "simulation/Illumination.h"
+#include "simulation/CollectedCharge.h"
 #include "simulation/Random.h"
 #include "simulation/ReadOut.h"
 

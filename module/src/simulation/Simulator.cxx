@@ -4,12 +4,10 @@
 
 #include "sensornoise/FrameGeometry.h"
 #include "base/Text.h"
-#include "simulation/DoubleFrame.h"
+#include "simulation/CollectedCharge.h"
 #include "simulation/FrameProcessing.h"
-#include "simulation/LossyCompression.h"
 #include "simulation/Random.h"
 #include "simulation/ReadOut.h"
-#include "simulation/ExpectedSignal.h"
 
 #include <algorithm>
 #include <cmath>

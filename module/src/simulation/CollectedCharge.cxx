@@ -1,19 +1,25 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/Illumination.h"
+#include "simulation/CollectedCharge.h"
 
 #include "base/Text.h"
+#include "sensornoise/Simulator.h"
+#include "simulation/FixedPattern.h"
+#include "simulation/FrameProcessing.h"
 #include "simulation/Random.h"
 #include "simulation/SettingChecks.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace sensornoise
 {
+
 namespace
 {
 constexpr std::pair<const char *, IlluminationShape> NamedShapes[] = { { "steady", IlluminationShape::Steady },
@@ -176,6 +182,132 @@ IlluminationFactor(const IlluminationSettings & illumination, std::size_t frame,
       break;
   }
   return 1.0;
+}
+
+namespace
+{
+void
+RequireReference(const std::vector<double> & reference, std::size_t width, std::size_t height)
+{
+  if (width == 0 || height == 0 || reference.size() != width * height)
+  {
+    throw std::invalid_argument("the reference image has " + std::to_string(reference.size()) +
+                                " values; expected width x height = " + std::to_string(width) + " x " +
+                                std::to_string(height) + ", both at least 1");
+  }
+  if (!std::all_of(reference.begin(), reference.end(), [](double value) { return std::isfinite(value); }))
+  {
+    throw std::invalid_argument("the reference image holds a value that is not finite; expected finite values only");
+  }
+}
+} // namespace
+
+ExpectedSignal::ExpectedSignal(const std::vector<double> & reference,
+                               std::size_t                 width,
+                               std::size_t                 height,
+                               const SimulationSettings &  settings)
+  : m_Width(width)
+  , m_Height(height)
+  , m_IsDark(settings.isDark)
+{
+  RequireReference(reference, width, height);
+  m_Electrons =
+    ScaleToRange(GaussianBlur(reference, width, height, settings.opticalBlurPixels), 0.0, settings.camera.electrons);
+  m_Efficiency = DrawEfficiency(settings, width, height);
+}
+
+void
+ExpectedSignal::ExpectedElectronsRow(const SimulationTruth & truth,
+                                     std::size_t             frame,
+                                     std::size_t             y,
+                                     double *                electrons) const
+{
+  if (m_IsDark)
+  {
+    std::fill_n(electrons, m_Width, 0.0);
+    return;
+  }
+  const LinearShift vertical(truth.series.beta[frame], m_Height);
+  const LinearShift horizontal(truth.series.alpha[frame], m_Width);
+  const double *    above = m_Electrons.data() + vertical.First(y) * m_Width;
+  const double *    below = m_Electrons.data() + vertical.Second(y) * m_Width;
+  const double      brightness = 1.0 + FlickerOfRow(truth.settings, truth.series, frame, y);
+  for (std::size_t x = 0; x < m_Width; ++x)
+  {
+    const std::size_t left = horizontal.First(x);
+    const std::size_t right = horizontal.Second(x);
+    const double      rate =
+      vertical.Blend(horizontal.Blend(above[left], above[right]), horizontal.Blend(below[left], below[right]));
+    const double efficiency = m_Efficiency.empty() ? 1.0 : m_Efficiency[y * m_Width + x];
+    electrons[x] = std::max(0.0, rate * brightness * efficiency);
+  }
+}
+
+double
+ExpectedSignal::ElectronsAtRest(std::size_t pixel, double brightness) const
+{
+  const double efficiency = m_Efficiency.empty() ? 1.0 : m_Efficiency[pixel];
+  return m_IsDark ? 0.0 : std::max(0.0, m_Electrons[pixel] * brightness * efficiency);
+}
+
+namespace
+{
+/** Adds inflow(charge of the pixel, charge of the neighbour) to every pixel for each of its four neighbours; a pixel at
+ * the edge has fewer. If inflow(a, b) = -inflow(b, a), the total charge of the frame is conserved. */
+template <typename TInflow>
+DoubleFrame
+ExchangeWithNeighbours(const DoubleFrame & frame, const ParallelFor & parallelFor, TInflow inflow)
+{
+  DoubleFrame out(frame.width, frame.height);
+  parallelFor(frame.height, [&](std::size_t y) {
+    const double * row = frame.Row(y);
+    for (std::size_t x = 0; x < frame.width; ++x)
+    {
+      double sum = row[x];
+      sum += x > 0 ? inflow(row[x], row[x - 1]) : 0.0;
+      sum += x + 1 < frame.width ? inflow(row[x], row[x + 1]) : 0.0;
+      sum += y > 0 ? inflow(row[x], frame.Row(y - 1)[x]) : 0.0;
+      sum += y + 1 < frame.height ? inflow(row[x], frame.Row(y + 1)[x]) : 0.0;
+      out.Row(y)[x] = sum;
+    }
+  });
+  return out;
+}
+} // namespace
+
+void
+CheckSettings(const BrighterFatterSettings & settings, double electrons)
+{
+  RequireNotNegative(settings.perElectron, "brighter-fatter coefficient");
+  // A bright pixel among dark ones loses up to twice this fraction; beyond it the first order is not accurate.
+  RequireSetting(settings.perElectron * electrons <= 0.1,
+                 "brighter-fatter coefficient times the electrons of the brightest pixel",
+                 settings.perElectron * electrons,
+                 "at most 0.1");
+}
+
+DoubleFrame
+SpreadCharge(const DoubleFrame & charge, const BrighterFatterSettings & settings, const ParallelFor & parallelFor)
+{
+  const double half = 0.5 * settings.perElectron;
+  return ExchangeWithNeighbours(
+    charge, parallelFor, [half](double own, double neighbour) { return half * (neighbour - own) * (neighbour + own); });
+}
+
+void
+CheckSettings(const CouplingSettings & settings)
+{
+  // At 0.2 a pixel keeps no more charge than each of its neighbours receives.
+  RequireSetting(
+    settings.fraction >= 0.0 && settings.fraction <= 0.2, "coupling of charge", settings.fraction, "0 to 0.2");
+}
+
+DoubleFrame
+CoupleCharge(const DoubleFrame & charge, const CouplingSettings & settings, const ParallelFor & parallelFor)
+{
+  const double fraction = settings.fraction;
+  return ExchangeWithNeighbours(
+    charge, parallelFor, [fraction](double own, double neighbour) { return fraction * (neighbour - own); });
 }
 
 } // namespace sensornoise
