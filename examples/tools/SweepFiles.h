@@ -3,7 +3,7 @@
 #ifndef SweepFiles_h
 #define SweepFiles_h
 
-#include "sweep/SettingName.h"
+#include "sweep/Setting.h"
 
 #include <optional>
 #include <string>

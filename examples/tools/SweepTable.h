@@ -3,7 +3,7 @@
 #ifndef SweepTable_h
 #define SweepTable_h
 
-#include "sweep/SettingName.h"
+#include "sweep/Setting.h"
 
 #include <string>
 #include <vector>

@@ -19,7 +19,7 @@
 
 #include "itkSensorNoiseErrors.h"
 #include "report/JsonWriter.h"
-#include "sweep/SettingName.h"
+#include "sweep/Setting.h"
 #include "sweep/SweepSummary.h"
 
 

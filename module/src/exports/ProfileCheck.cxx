@@ -5,8 +5,7 @@
 #include "base/Text.h"
 #include "exports/Darktable.h"
 #include "exports/ExportFormats.h"
-#include "stabilise/CheckText.h"
-#include "stabilise/VarianceCheck.h"
+#include "stabilise/NoiseModelCheck.h"
 
 #include <algorithm>
 #include <array>

@@ -4,9 +4,8 @@
 
 #include "base/Quantiles.h"
 #include "base/Text.h"
-#include "stabilise/CheckText.h"
+#include "stabilise/NoiseModelCheck.h"
 #include "stabilise/PoissonGaussianLaw.h"
-#include "stabilise/VarianceCheck.h"
 
 #include <algorithm>
 #include <cmath>

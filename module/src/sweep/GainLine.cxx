@@ -4,7 +4,6 @@
 
 #include "base/Eigen.h"
 #include "sweep/Constants.h"
-#include "sweep/GainLevel.h"
 
 #include <algorithm>
 #include <cmath>

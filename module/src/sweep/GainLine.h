@@ -4,15 +4,50 @@
 #define sensornoise_sweep_GainLine_h
 
 #include "SensorNoiseExport.h"
-#include "sweep/SettingNoise.h"
+#include "sweep/Setting.h"
 
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
+/** \file
+ * The gains of the settings of a sweep: the level that most of them share, their lines with the switch of the
+ * conversion gain, and the common gain of exposures. */
+
 namespace sensornoise
 {
+
+/** ln(gain / setting) of one setting. */
+struct GainRatio
+{
+  double setting{ 0.0 };
+  double logRatio{ 0.0 };
+  double standardError{ 0.0 }; ///< with SweepConstants::gainRounding
+};
+
+/** Level of the largest group of ratios. */
+struct GainLevel
+{
+  double logRatio{ 0.0 };
+  double standardError{ 0.0 };
+  double loss{ 0.0 }; ///< sum of squared deviations over their errors, each at most Significance.severalTests squared
+  double chi2{ 0.0 }; ///< the same of the settings on the level alone
+  std::size_t settings{ 0 }; ///< settings on the level
+};
+
+/** Returns the ratios of all settings with a gain. */
+std::vector<GainRatio>
+GainRatiosOf(const std::vector<SettingNoise> & settings);
+
+/** Returns whether a ratio is on the level: within Significance.oneTest errors or SweepConstants::leastGainDeviation.
+ */
+bool
+IsOnLevel(const GainRatio & ratio, const GainLevel & level);
+
+/** Finds the level of the least loss, of the ratios from \a first to before \a last. There must be one or more. */
+GainLevel
+FindGainLevel(const std::vector<GainRatio> & ratios, std::size_t first, std::size_t last);
 
 /** Place at which a camera switches its conversion gain, and what changes there. One of the two steps is there. */
 struct GainSwitch
@@ -63,6 +98,28 @@ struct GainLine
  * on it. Throws std::invalid_argument as RequireSettings(). */
 SensorNoise_EXPORT GainLine
 FitGainLine(const std::vector<SettingNoise> & settings, const std::optional<GainSwitch> & conversionSwitch);
+
+/** The gain that settings share which differ in the exposure time alone, and whether they share it. */
+struct CommonGain
+{
+  std::string     channel{ "mono" };
+  NumberWithError gain;               ///< weighted mean of the gains [DN/e-]
+  std::size_t     settings{ 0 };      ///< settings with a gain and its error
+  double          reducedChi2{ 0.0 }; ///< scatter of the gains over their errors, squared [1]
+  bool            isSame{ true };     ///< whether no setting differs from the others
+  double          setting{ 0.0 }; ///< setting that deviates most in standard errors, of those that differ if any does
+  NumberWithError deviation;      ///< its gain over the weighted mean of the others, less 1 [1]
+};
+
+/** Tests whether the gains of settings are equal, and pools them as their mean, weighted by 1 / error squared.
+ *
+ * Each gain is compared with the weighted mean of all others. A setting differs if its deviation exceeds both
+ * SweepConstants::leastCommonGainDeviation and Significance.severalTests standard errors. If the
+ * gains scatter by more than their errors, the error of the mean is multiplied by the root of the reduced chi-square.
+ * Returns none if fewer than two settings have a gain with an error above 0. Throws std::invalid_argument as
+ * RequireSettings(). */
+SensorNoise_EXPORT std::optional<CommonGain>
+FindCommonGain(const std::vector<SettingNoise> & settings);
 
 } // namespace sensornoise
 

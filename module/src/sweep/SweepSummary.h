@@ -4,12 +4,12 @@
 #define sensornoise_sweep_SweepSummary_h
 
 #include "SensorNoiseExport.h"
-#include "sweep/CommonGain.h"
 #include "sweep/GainLine.h"
 #include "sweep/NoiseInterpolation.h"
-#include "sweep/SettingName.h"
-#include "sweep/SettingNoise.h"
+#include "sweep/Setting.h"
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -85,6 +85,20 @@ FindingsOf(const SweepSummary & summary);
  * the setting on logarithmic axes, and the table. */
 SensorNoise_EXPORT std::string
 ToHtml(const SweepSummary & summary);
+
+/** Columns of the table of a sweep. */
+inline constexpr std::size_t SweepColumns = 8;
+
+using SweepCellRow = std::array<std::string, SweepColumns>;
+using SweepCells = std::vector<SweepCellRow>;
+
+/** Returns the table of the measured settings as text, with the names of its columns in the first row. */
+SweepCells
+SweepCellsOf(const SweepSummary & summary);
+
+/** Returns the camera and how many settings were measured. */
+std::string
+SweepTitle(const SweepSummary & summary);
 
 } // namespace sensornoise
 

@@ -1,11 +1,15 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#ifndef sensornoise_stabilise_VarianceCheck_h
-#define sensornoise_stabilise_VarianceCheck_h
+#ifndef sensornoise_stabilise_NoiseModelCheck_h
+#define sensornoise_stabilise_NoiseModelCheck_h
 
 #include "sensornoise/NoiseModel.h"
 
 #include <functional>
+#include <string>
+
+/** \file
+ * The check of a variance of any form on frames, and its result in words. */
 
 namespace sensornoise
 {
@@ -20,6 +24,16 @@ using VarianceModel = std::function<double(double levelDn)>;
  * \param tolerance deviation of the ratio from 1 that is accepted at a level, whatever its error [1] */
 SensorNoise_EXPORT NoiseModelCheck
 CheckVariance(const Report & frames, const VarianceModel & model, const std::function<double(double)> & tolerance);
+
+/** Returns a level with as many digits as a reader needs, with commas: 3,000. */
+std::string
+LevelText(double levelDn);
+
+/** Returns the result of a check in one sentence: the ranges of levels in which the variance agrees with the model, and
+ * those in which it does not. Each range has its ratio, with the larger of the ratio's error and the scatter of its
+ * bands. The warnings of \a frames give the reason if nothing was measured. */
+std::string
+MakeCheckSentence(const NoiseModelCheck & check, const Report & frames);
 
 } // namespace sensornoise
 
