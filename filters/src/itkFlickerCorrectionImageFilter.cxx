@@ -22,8 +22,7 @@
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Settings.h"
 #include "base/Constants.h"
-#include "published/FlickerEstimate.h"
-#include "published/FlickerSums.h"
+#include "published/Flicker.h"
 #include "published/PublishedScene.h"
 #include "itkImageScanlineIterator.h"
 

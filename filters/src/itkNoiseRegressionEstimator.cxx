@@ -19,8 +19,8 @@
 
 #include "itkSensorNoiseErrors.h"
 #include "base/PolynomialFit.h"
+#include "published/PublishedEstimate.h"
 #include "sensornoise/ReportPage.h"
-#include "published/PublishedReport.h"
 #include "sensornoise/Report.h"
 
 #include <cmath>

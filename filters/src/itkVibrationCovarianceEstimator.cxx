@@ -18,7 +18,7 @@
 #include "itkVibrationCovarianceEstimator.h"
 
 #include "itkSensorNoiseErrors.h"
-#include "published/Vibration.h"
+#include "published/PublishedScene.h"
 
 #include <ostream>
 

@@ -18,7 +18,7 @@
 #include "itkVibrationMaskImageFilter.h"
 
 #include "itkSensorNoiseErrors.h"
-#include "published/Vibration.h"
+#include "published/PublishedScene.h"
 
 #include <algorithm>
 #include <cstddef>

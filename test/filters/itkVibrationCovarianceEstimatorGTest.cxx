@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "published/Vibration.h"
 #include "sensornoise/Simulator.h"
 #include "itkVibrationCovarianceEstimator.h"
 #include "helpers/PipelineTestHelper.h"
+#include "published/PublishedScene.h"
 #include "itkTemporalStatisticsImageFilter.h"
 
 #include <cmath>

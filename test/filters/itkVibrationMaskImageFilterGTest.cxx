@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "published/Vibration.h"
 #include "itkVibrationMaskImageFilter.h"
 #include "helpers/PipelineTestHelper.h"
+#include "published/PublishedScene.h"
 #include "itkCastImageFilter.h"
 #include "itkPipelineMonitorImageFilter.h"
 #include "itkStreamingImageFilter.h"

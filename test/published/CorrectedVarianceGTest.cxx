@@ -3,7 +3,7 @@
 #include "published/CorrectedVariance.h"
 #include "sensornoise/FrameGeometry.h"
 #include "base/PixelLayout.h"
-#include "published/FlickerEstimate.h"
+#include "published/Flicker.h"
 
 #include <algorithm>
 #include <cmath>

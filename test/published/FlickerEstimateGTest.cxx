@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "base/Constants.h"
-#include "published/FlickerEstimate.h"
 #include "sensornoise/Settings.h"
-#include "published/FlickerSums.h"
+#include "published/Flicker.h"
 #include "published/PublishedScene.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "published/PublishedReport.h"
 #include "sensornoise/ReportText.h"
 #include "sensornoise/Simulator.h"
 #include "helpers/PublishedTestHelper.h"
+#include "published/PublishedEstimate.h"
 
 #include <cmath>
 #include <cstddef>

@@ -7,7 +7,7 @@
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
 #include "base/PixelLayout.h"
-#include "published/FlickerEstimate.h"
+#include "published/Flicker.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -6,7 +6,6 @@
 #include "base/PolynomialFit.h"
 #include "base/Quantiles.h"
 #include "published/PublishedScene.h"
-#include "published/Vibration.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,12 +4,12 @@
 #define sensornoise_published_PublishedEstimate_h
 
 #include "SensorNoiseExport.h"
-#include "base/PolynomialFit.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Settings.h"
-#include "published/FlickerEstimate.h"
+#include "base/PolynomialFit.h"
+#include "published/Flicker.h"
 #include "published/PublishedScene.h"
 
 #include <cstddef>
@@ -139,6 +139,15 @@ struct PublishedEstimate
 /** Decides on every quantity by the results of the passes; the scene must be measurable. */
 SensorNoise_EXPORT PublishedEstimate
 EstimatePublished(const PublishedFindings & found, const ParallelFor & parallelFor);
+
+/** Returns the report of the published method. It has values and statuses, but no standard errors or intervals: the
+ * paper gives none for a stack, and the errors of an ordinary regression would hide its bias. */
+SensorNoise_EXPORT Report
+MakePublishedReport(const PublishedFindings & found, const ParallelFor & parallelFor);
+
+/** Copies the parameters and the quality of the fit to \a report, and warns of what contradicts them. */
+SensorNoise_EXPORT void
+FileParameters(Report & report, const NoiseParameters & parameters);
 
 } // namespace sensornoise
 

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "published/PublishedReport.h"
+#include "published/PublishedEstimate.h"
 
 #include "base/Text.h"
 #include "base/PolynomialFit.h"
 #include "sensornoise/Settings.h"
-#include "published/FlickerEstimate.h"
+#include "published/Flicker.h"
 #include "published/PublishedScene.h"
-#include "published/PublishedEstimate.h"
 #include "report/Quantities.h"
 #include "report/StackReport.h"
 #include "report/StackSettings.h"

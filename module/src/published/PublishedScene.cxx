@@ -9,7 +9,6 @@
 #include "sensornoise/Report.h"
 #include "sensornoise/Settings.h"
 #include "moments/StackFrames.h"
-#include "published/Vibration.h"
 
 #include <algorithm>
 #include <cmath>

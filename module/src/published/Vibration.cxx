@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "published/Vibration.h"
+#include "published/PublishedScene.h"
 
 #include "base/Eigen.h"
 #include "base/Simd.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "single/BandTile.h"
+#include "single/LevelSums.h"
 
 #include "base/Simd.h"
 #include "sensornoise/FrameGeometry.h"

@@ -6,7 +6,6 @@
 #include "base/Quantiles.h"
 #include "base/Text.h"
 #include "moments/Codes.h"
-#include "single/BandTile.h"
 #include "single/Constants.h"
 #include "single/LevelSums.h"
 

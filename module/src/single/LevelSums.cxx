@@ -4,7 +4,6 @@
 
 #include "base/Constants.h"
 #include "base/Quantiles.h"
-#include "single/BandTile.h"
 #include "single/Constants.h"
 #include "single/ImageNoise.h"
 

@@ -4,13 +4,137 @@
 #define sensornoise_single_LevelSums_h
 
 #include "SensorNoiseExport.h"
+#include "base/PixelLayout.h"
 #include "single/NoiseLine.h"
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace sensornoise
 {
+
+/** Daubechies' orthonormal wavelet with three vanishing moments (Comm. Pure Appl. Math. 41, 1988, DOI
+ * 10.1002/cpa.3160410705). Details of white noise are uncorrelated with each other and with the approximation; details
+ * of a polynomial of degree 2 along a row or a column are 0. */
+struct Wavelet
+{
+  static constexpr std::size_t Taps = 6;
+
+  /** Weights of the approximation; their sum is the square root of 2. (1 + s + q, 5 + s + 3 q, 10 - 2 s + 2 q,
+   * 10 - 2 s - 2 q, 5 + s - 3 q, 1 + s - q) / (16 sqrt(2)), with s = sqrt(10) and q = sqrt(5 + 2 s). */
+  static constexpr std::array<float, Taps> low{ { 0.3326705529500826F,
+                                                  0.8068915093110926F,
+                                                  0.4598775021184915F,
+                                                  -0.1350110200102546F,
+                                                  -0.0854412738820267F,
+                                                  0.0352262918857095F } };
+  /** Weights of the details: those of the approximation in reverse, with alternating sign. */
+  static constexpr std::array<float, Taps> high{ { low[5], -low[4], low[3], -low[2], low[1], -low[0] } };
+};
+
+/** Geometry of the windows of a position, in coefficients of the approximation. The centre of the approximation's
+ * weights is 0.8 pixels from its first tap, the centre of the squared weights of the details 3.8 pixels: 1.5
+ * coefficients apart. A window of an even number of coefficients has its centre half between two of them, so both
+ * centres are equal. Without that the level of a ramp would be off by 3 pixels of its slope. */
+struct WaveletWindow
+{
+  /** Width of the window of the level and of the roughness. */
+  static constexpr std::size_t Size = 6;
+  /** Weights of the level along an axis. A detail has the noise of its pixels' levels, with its squared weights, whose
+   * variance along an axis is 0.4537 pixels^2. The approximation has none of its own. These weights have the same
+   * variance, so that the level is right where it is a parabola: an even mean would lower crests and lift troughs. Of
+   * all such weights, their squares have the least sum. The standard deviation of the level is 0.19 of a pixel's noise.
+   */
+  static constexpr std::array<float, Size> level{
+    { -0.08362313F, 0.21672463F, 0.3668985F, 0.3668985F, 0.21672463F, -0.08362313F }
+  };
+  /** Width of the mean from which the approximation's deviations are taken: a ramp has none. */
+  static constexpr std::size_t Smooth = 5;
+  /** Coefficients that a position's windows reach along an axis, less 1. */
+  static constexpr std::size_t Reach = Size + Smooth - 2;
+  /** First coefficient of the window of the level. */
+  static constexpr std::size_t LevelFirst = Smooth / 2;
+  /** The detail coefficient of the position. */
+  static constexpr std::size_t Detail = LevelFirst + Size / 2 - 2;
+};
+
+/** A frame, or a plane of a mosaic, and the unit in which its levels are computed. */
+template <typename TPixel>
+struct SingleFrame
+{
+  const TPixel *       pixels{ nullptr };
+  PixelLayout          layout; ///< its width is the plane's
+  std::size_t          height{ 0 };
+  const std::uint8_t * mask{ nullptr }; ///< by place, as the pixels: 0 is left out; null: none is
+  double               originDn{ 0.0 }; ///< level that becomes 0 [DN]
+  double               unitDn{ 1.0 };   ///< difference of levels that becomes 1 [DN]: floats do not overflow
+
+  /** Positions along an axis of \a pixels pixels: one for each detail coefficient whose windows are inside. */
+  static std::size_t
+  PositionsAlong(std::size_t pixels)
+  {
+    const std::size_t coefficients = pixels < Wavelet::Taps ? 0 : (pixels - Wavelet::Taps) / 2 + 1;
+    return coefficients < WaveletWindow::Reach ? 0 : coefficients - WaveletWindow::Reach;
+  }
+};
+
+/** Positions of a tile: [x, x + width) times [y, y + height). */
+struct TileOfPositions
+{
+  std::size_t x{ 0 };
+  std::size_t y{ 0 };
+  std::size_t width{ 0 };
+  std::size_t height{ 0 };
+};
+
+/** \class BandTile
+ * \brief Level, roughness and squared details of the positions of a tile, in units of SingleFrame.
+ *
+ * Level and roughness are made of the approximation alone, whose white noise is independent of the noise of the
+ * details: a selection by them does not change the distribution of the details. Positions whose windows hold a pixel
+ * that is not finite or masked have a roughness of NaN. */
+class BandTile
+{
+public:
+  /** Computes all positions of the tile. */
+  template <typename TPixel>
+  void
+  Compute(const SingleFrame<TPixel> & frame, const TileOfPositions & tile);
+
+  std::size_t
+  Positions() const
+  {
+    return m_Tile.width * m_Tile.height;
+  }
+
+  std::vector<float> level; ///< mean of the approximation in the window
+  std::vector<float>
+    roughness; ///< unbiased variance of a pixel's noise, by the approximation's deviations in the window
+  std::vector<float> diagonal;   ///< square of the diagonal detail
+  std::vector<float> horizontal; ///< square of the horizontal detail
+  std::vector<float> vertical;   ///< square of the vertical detail
+
+private:
+  template <typename TPixel>
+  void
+  LoadRow(const SingleFrame<TPixel> & frame, std::size_t y);
+
+  void
+  TransformRow(std::size_t row, bool hasDetails);
+  void
+  MeasureWindows();
+
+  TileOfPositions    m_Tile;
+  std::size_t        m_Columns{ 0 };      ///< coefficients of the approximation along a row
+  std::size_t        m_Half{ 0 };         ///< even, or odd, pixels of a row
+  std::vector<float> m_Rows;              ///< the last 6 rows of pixels: the even ones, then the odd ones
+  std::vector<float> m_Mixed;             ///< sums of these rows, with the weights of approximation and details
+  std::vector<float> m_Approximation;     ///< of the tile and its surroundings
+  std::vector<float> m_SquaredDeviations; ///< of the approximation from its smooth
+  std::vector<float> m_Sums;              ///< sums of rows
+};
 
 class BandTile;
 struct LevelLimits;

@@ -5,7 +5,6 @@
 #include "base/NothingToMeasure.h"
 #include "report/StackSettings.h"
 #include "single/ImageNoise.h"
-#include "single/SingleImageReport.h"
 
 #include <algorithm>
 #include <array>
