@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Target of libFuzzer for one format of module/src/files/FrameFormats.cxx: frame-file-fuzzer --format=NAME.
+// Target of libFuzzer for one format of module/src/files/FrameFile.cxx: frame-file-fuzzer --format=NAME.
 // test/fuzz/coverage_guided.sh builds and runs it.
 //
 // An input is one or several files. "%%FILE%%", a name and a line feed begin a file; the bytes in front of the first

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
 # Searches for damaged files that the readers of module/src/files do not survive, by clang's libFuzzer with
-# AddressSanitizer and UndefinedBehaviorSanitizer: each format of FrameFormats.cxx for itself, guided by the code that it
+# AddressSanitizer and UndefinedBehaviorSanitizer: each format of FrameFile.cxx for itself, guided by the code that it
 # reaches. It begins with the files of coverage_seeds.py. Of raw files of cameras it tries what is checked before LibRaw
 # decodes them; LibRaw itself, and frames without a header, are not in it.
 #
@@ -10,7 +10,7 @@
 #
 #   --seconds N      at most, for each format (default: 20)
 #   --runs N         inputs of each format at most (default: no limit). A limit that is reached repeats exactly
-#   --format NAME    as FrameFormats.cxx calls it; several times for several formats (default: all)
+#   --format NAME    as FrameFile.cxx calls it; several times for several formats (default: all)
 #   --jobs N         formats at a time (default: one for each processor)
 #
 # A crash, a finding of a sanitizer, an input of more than 20 seconds, an allocation of more than 192 MB, and pixels that

@@ -21,7 +21,7 @@ from known import known_cases  # noqa: E402 - see above
 
 FRAMES = 8
 
-# The formats as FrameFormats.cxx calls them, by the first word of a case's name. Frames without a header and formats
+# The formats as FrameFile.cxx calls them, by the first word of a case's name. Frames without a header and formats
 # that are refused unread have no target.
 FORMATS = {
     "dng": "camera raw",

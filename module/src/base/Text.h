@@ -101,6 +101,10 @@ PaddedRight(const std::string & text, std::size_t width);
 SensorNoise_EXPORT std::string
 PaddedLeft(const std::string & text, std::size_t width);
 
+/** Returns the text in one line for a message: "?" replaces each invalid byte of UTF-8 and each control character. */
+std::string
+OneLine(const std::string & text);
+
 } // namespace sensornoise
 
 #endif

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/FrameFile.h"
 
+#include "base/Text.h"
 #include "files/FileBytes.h"
 #include "files/FrameFormats.h"
 #include "files/FrameReader.h"
@@ -16,46 +17,6 @@
 
 namespace sensornoise
 {
-namespace
-{
-/** Returns the number of bytes of the UTF-8 character at `at`; 0 for invalid bytes and control characters. */
-std::size_t
-CharacterBytes(const std::string & text, std::size_t at)
-{
-  const auto        byte = [&text](std::size_t i) { return static_cast<unsigned char>(i < text.size() ? text[i] : 0); };
-  const unsigned    first = byte(at);
-  const std::size_t count = first < 0x80                    ? 1
-                            : first >= 0xC2 && first < 0xE0 ? 2
-                            : first >= 0xE0 && first < 0xF0 ? 3
-                            : first >= 0xF0 && first < 0xF5 ? 4
-                                                            : 0;
-  for (std::size_t i = 1; i < count; ++i)
-  {
-    if ((byte(at + i) & 0xC0) != 0x80)
-    {
-      return 0;
-    }
-  }
-  const unsigned second = byte(at + 1);
-  const bool     isTooLong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
-  const bool     isNoCharacter = (first == 0xED && second >= 0xA0) || (first == 0xF4 && second >= 0x90);
-  const bool     isControl = first < ' ' || first == 0x7F || (first == 0xC2 && second < 0xA0);
-  return isTooLong || isNoCharacter || isControl ? 0 : count;
-}
-
-std::string
-OneLine(const std::string & text)
-{
-  std::string line;
-  for (std::size_t at = 0; at < text.size();)
-  {
-    const std::size_t count = CharacterBytes(text, at);
-    line += count == 0 ? "?" : text.substr(at, count);
-    at += count == 0 ? 1 : count;
-  }
-  return line;
-}
-} // namespace
 
 FileError::FileError(const std::string & file, const std::string & what)
   : std::runtime_error(OneLine(file + ": " + what))
@@ -264,6 +225,79 @@ ChooseFrames(FrameFile & file, const FrameChoice & choice)
   }
   SetFrameSizes(file, { file.width, file.height, times });
   file.reader = std::make_shared<EveryFrame>(file.reader, first, step);
+}
+
+const std::vector<FrameFormat> &
+FrameFormats()
+{
+  static const std::vector<FrameFormat> formats{
+    // before TIFF, as which most raw files begin
+    { "camera raw", false, IsHeadOfRawCamera, InspectRawCamera },
+    { "TIFF", false, IsHeadOfTiff, InspectTiff },
+    { "PNG", true, IsHeadOfPng, InspectPng },
+    { "MetaImage", true, IsHeadOfMetaImage, InspectMetaImage, DataFilesOfMetaImage },
+    { "NRRD", true, IsHeadOfNrrd, InspectNrrd, DataFilesOfNrrd },
+    { "SER", false, IsHeadOfSer, InspectSer },
+    { "MRAW", false, IsHeadOfMraw, InspectMraw, DataFilesOfMraw },
+    { "FITS", false, IsHeadOfFits, InspectFits },
+    { "NPY", false, IsHeadOfNpy, InspectNpy },
+    { "PGM", false, IsHeadOfPnm, InspectPnm },
+  };
+  return formats;
+}
+
+std::string
+HeadOf(FileBytes & bytes)
+{
+  constexpr std::size_t mostBytes = 512;
+  std::string           head(mostBytes, '\0');
+  head.resize(bytes.ReadSome(0, head.data(), head.size()));
+  return head;
+}
+
+const FrameFormat *
+FindFrameFormat(const std::string & head, const std::string & name)
+{
+  const auto & formats = FrameFormats();
+  const auto   found = std::find_if(
+    formats.begin(), formats.end(), [&](const FrameFormat & format) { return format.isItsHead(head, name); });
+  return found == formats.end() ? nullptr : &*found;
+}
+
+std::vector<std::string>
+DataFilesOf(const std::string & name)
+{
+  try
+  {
+    FileBytes                 bytes(name);
+    const FrameFormat * const format = FindFrameFormat(HeadOf(bytes), name);
+    return format == nullptr || format->dataFiles == nullptr ? std::vector<std::string>()
+                                                             : format->dataFiles(bytes, name);
+  }
+  catch (const FileError &)
+  {
+    return {};
+  }
+}
+
+bool
+HasEnding(const std::string & name, std::initializer_list<const char *> endings)
+{
+  return std::any_of(endings.begin(), endings.end(), [&](const std::string & ending) {
+    return name.size() >= ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+  });
+}
+
+std::string
+NamesOfFrameFormats()
+{
+  const auto & formats = FrameFormats();
+  std::string  names = formats.front().name;
+  for (std::size_t k = 1; k < formats.size(); ++k)
+  {
+    names += std::string(k + 1 < formats.size() ? ", " : " or ") + formats[k].name;
+  }
+  return names;
 }
 
 } // namespace sensornoise

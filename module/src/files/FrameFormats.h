@@ -14,7 +14,7 @@
 namespace sensornoise
 {
 
-/** A format that is read: a line of the table in FrameFormats.cxx, which with its functions below is all that knows of
+/** A format that is read: a line of the table in FrameFile.cxx, which with its functions below is all that knows of
  * it but its own files. */
 struct FrameFormat
 {
