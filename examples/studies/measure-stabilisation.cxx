@@ -7,7 +7,7 @@
 //   measure-stabilisation
 
 #include "sensornoise/NoiseModel.h"
-#include "stabilise/PoissonGaussianLaw.h"
+#include "stabilise/NoiseModelCheck.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/NoiseModel.h"
 
-#include "stabilise/PoissonGaussianLaw.h"
+#include "stabilise/NoiseModelCheck.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 #include "base/Quantiles.h"
 #include "base/Text.h"
 #include "stabilise/NoiseModelCheck.h"
-#include "stabilise/PoissonGaussianLaw.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "stabilise/PoissonGaussianLaw.h"
+#include "stabilise/NoiseModelCheck.h"
 
 #include "base/Text.h"
 
