@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "browser/GainPlan.h"
 
-#include "limits/PrecisionLimit.h"
+#include "limits/CramerRaoBound.h"
 
 #include <cmath>
 #include <cstddef>

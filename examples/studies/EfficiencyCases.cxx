@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "limits/CramerRaoBound.h"
-#include "limits/PrecisionLimit.h"
 #include "mosaic/MosaicGeometry.h"
 #include "sensornoise/ChannelReports.h"
 #include "sensornoise/FrameGeometry.h"

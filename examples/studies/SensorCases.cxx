@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/Quantiles.h"
 #include "moments/DarkFrames.h"
-#include "moments/DarkMaps.h"
 #include "moments/StackMoments.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Settings.h"

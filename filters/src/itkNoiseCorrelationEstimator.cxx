@@ -20,9 +20,9 @@
 #include "itkSensorNoiseErrors.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
-#include "correlation/CorrelationEstimate.h"
 #include "correlation/FrameSample.h"
 #include "sensornoise/Settings.h"
+#include "correlation/NoiseCorrelation.h"
 #include "moments/StackMaps.h"
 #include "moments/TemporalMoments.h"
 

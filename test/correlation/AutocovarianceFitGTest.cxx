@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "correlation/AutocovarianceFit.h"
 #include "base/Eigen.h"
+#include "correlation/TotalCovariance.h"
 #include "simulation/Random.h"
 
 #include <algorithm>

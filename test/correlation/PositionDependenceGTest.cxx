@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "correlation/PositionDependence.h"
 #include "correlation/NoiseCorrelation.h"
+#include "correlation/ProcessingSigns.h"
 #include "helpers/CorrelationTestHelper.h"
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "correlation/NoiseResiduals.h"
 #include "base/Eigen.h"
-#include "correlation/NoiseKurtosis.h"
+#include "correlation/ProcessingSigns.h"
 #include "correlation/NoiseCorrelation.h"
 #include "simulation/Random.h"
 #include "helpers/CorrelationTestHelper.h"

@@ -3,11 +3,11 @@
 #ifndef sensornoise_test_LeftOutTestHelper_h
 #define sensornoise_test_LeftOutTestHelper_h
 
-#include "moments/UnlikeFrames.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/ReportText.h"
 #include "helpers/ReportTestHelper.h"
 #include "helpers/StackTestHelper.h"
+#include "moments/FrameThumbnails.h"
 
 #include <algorithm>
 #include <cmath>

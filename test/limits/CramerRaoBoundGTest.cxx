@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "limits/CramerRaoBound.h"
 #include "base/Eigen.h"
+#include "limits/CramerRaoBound.h"
 #include "sensornoise/Parallel.h"
-#include "limits/PrecisionLimit.h"
 #include "sensornoise/Simulator.h"
 #include "sensornoise/SimulationSettings.h"
 

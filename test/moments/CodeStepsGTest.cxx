@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/ExtremeLevels.h"
 #include "moments/Codes.h"
 
 #include <cmath>

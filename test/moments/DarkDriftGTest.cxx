@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "moments/DarkFrames.h"
-#include "moments/DarkMaps.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Settings.h"
 #include "simulation/Random.h"

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "base/ChiSquare.h"
-#include "moments/DarkFrames.h"
-#include "moments/DarkMaps.h"
 #include "sensornoise/Settings.h"
 #include "helpers/DarkPixelsTestHelper.h"
+#include "moments/DarkFrames.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/ExposureFit.h"
 #include "base/ChiSquare.h"
+#include "moments/Exposures.h"
 #include "simulation/Random.h"
 
 #include <cmath>

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/Codes.h"
 #include "sensornoise/StepResults.h"
 #include "sensornoise/Settings.h"
-#include "moments/ExtremeLevels.h"
+#include "moments/Codes.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

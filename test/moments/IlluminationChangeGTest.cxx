@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/FrameFit.h"
-#include "moments/Constants.h"
 #include "moments/FrameThumbnails.h"
+#include "moments/Constants.h"
 #include "helpers/ThumbnailTestHelper.h"
 #include "simulation/Random.h"
 

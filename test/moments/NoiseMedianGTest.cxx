@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/NoiseMedian.h"
+#include "moments/DarkFrames.h"
 #include "sensornoise/Settings.h"
 #include "simulation/Random.h"
 #include "helpers/DarkPixelsTestHelper.h"

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/DarkMaps.h"
 #include "base/ChiSquare.h"
 #include "sensornoise/Settings.h"
 #include "helpers/DarkPixelsTestHelper.h"
+#include "moments/DarkFrames.h"
 
 #include <cmath>
 #include <cstddef>

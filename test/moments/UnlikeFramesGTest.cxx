@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/UnlikeFrames.h"
 #include "moments/FrameThumbnails.h"
 #include "simulation/Random.h"
 

@@ -4,7 +4,7 @@
 #include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
 #include "moments/Constants.h"
-#include "moments/DarkMaps.h"
+#include "moments/DarkFrames.h"
 #include "pixels/VarianceLine.h"
 #include "helpers/StackTestHelper.h"
 

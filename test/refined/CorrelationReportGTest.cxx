@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "correlation/CorrelationEstimate.h"
+#include "correlation/NoiseCorrelation.h"
 #include "refined/RefinedReport.h"
 #include "report/Quantities.h"
 #include "helpers/ReportTestHelper.h"

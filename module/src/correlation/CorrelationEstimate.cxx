@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "correlation/CorrelationEstimate.h"
+#include "correlation/NoiseCorrelation.h"
 
 #include "base/BytesFingerprint.h"
 #include "base/Constants.h"

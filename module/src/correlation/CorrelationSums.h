@@ -8,10 +8,8 @@
 #include "sensornoise/Parallel.h"
 #include "correlation/LagSums.h"
 #include "correlation/NoiseCorrelation.h"
-#include "correlation/PositionDependence.h"
-#include "correlation/CommonNoise.h"
+#include "correlation/ProcessingSigns.h"
 #include "correlation/Jackknife.h"
-#include "correlation/NoiseKurtosis.h"
 #include "correlation/NoiseResiduals.h"
 
 #include <array>

@@ -4,10 +4,9 @@
 
 #include "base/Eigen.h"
 #include "base/Constants.h"
-#include "correlation/AutocovarianceFit.h"
+#include "correlation/TotalCovariance.h"
 #include "correlation/Constants.h"
 #include "correlation/CorrelationSums.h"
-#include "correlation/TotalCovariance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,15 +6,18 @@
 #include "sensornoise/StepResults.h"
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
+#include "sensornoise/Report.h"
+#include "correlation/FrameSample.h"
 #include "correlation/LagSums.h"
-#include "correlation/NoiseKurtosis.h"
 #include "correlation/NoiseResiduals.h"
-#include "correlation/PositionDependence.h"
+#include "correlation/ProcessingSigns.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace sensornoise
@@ -176,6 +179,61 @@ MeasureSettledFrames(NoiseCorrelation &  correlation,
                      NoiseResiduals &    residuals,
                      double              codesDn2,
                      const ParallelFor & parallelFor);
+
+/** Returns the fraction of the mean noise variance that is caused by local motion of the scene, along both axes
+ * together [1].
+ *
+ * A small displacement d that neighbours have in common causes the covariance d^2 (grad u(p) . grad u(q)) of two
+ * pixels. It depends on the slopes of the scene u at both pixels; the covariance that a filter causes does not. The
+ * estimate uses pairs of neighbours within the tiles of the sample. Estimator.md, 3.12. */
+SensorNoise_EXPORT MeasuredNumber
+FindLocalMotion(const NoiseResiduals & residuals, const ParallelFor & parallelFor);
+
+/** Returns the mean square of a relative change of the illumination that is common to the pixels of a line (row or
+ * column) in a frame [1]. It is what the temporal components left in the residuals.
+ *
+ * It is caused by a pulsed lamp under a rolling shutter, or by interlaced frames. The covariance of pixels in a line
+ * that a change of the illumination causes grows with the squared signal. The noise of whole lines does not depend on
+ * the signal, which distinguishes both. Returns 0 with an infinite error where the signals do not differ enough.
+ * Estimator.md, 3.12. */
+SensorNoise_EXPORT MeasuredNumber
+EstimateLineIlluminationChange(const NoiseResiduals & residuals, LineAxis axis, const ParallelFor & parallelFor);
+
+/** Settings of a measurement of the noise correlation alone. */
+struct SensorNoise_EXPORT CorrelationSettings
+{
+  /** Dark offset [DN]. NaN (default): not known; the signal is measured from the darkest level if that is below 0.3 of
+   * the brightest level, else from 0. */
+  double offsetDn{ std::numeric_limits<double>::quiet_NaN() };
+  /** Quantization step [DN]; 0 (default): no quantization. At least 0 and finite. */
+  double quantisationStepDn{ 0.0 };
+  /** Temporal components: changes from frame to frame in proportion to a pattern of the scene (flicker, motion), with
+   * one value for each frame. Every linear combination of them and of the constant is removed from every pixel. */
+  std::vector<std::vector<double>> series;
+  /** Whether the means of the frames are temporal components, too, both plain and weighted with the signal. They
+   * describe flicker and a drifting offset. */
+  bool frameMeans{ true };
+
+  /** Throws std::invalid_argument if a setting is out of range, or if a series does not have \a frames finite values.
+   */
+  void
+  Validate(std::size_t frames) const;
+};
+
+/** Measures the noise correlation on \a sample, which is used up. The sample must be from the whole stack. \a mean is
+ * the mean of every pixel [DN]. Pixels whose \a take is 0 or whose mean is not finite are left out. The series of
+ * \a settings have a value for each frame of the stack. */
+SensorNoise_EXPORT CorrelationEstimate
+EstimateCorrelation(NoiseSample                       sample,
+                    const std::vector<double> &       mean,
+                    const std::vector<std::uint8_t> & take,
+                    const CorrelationSettings &       settings,
+                    const ParallelFor &               parallelFor = SerialFor);
+
+/** Returns the record of the spatial and temporal noise correlation. If it was not measured, only the noise class is
+ * filled. */
+SensorNoise_EXPORT NoiseCorrelationRecord
+RecordOf(const NoiseCorrelation & correlation);
 
 } // namespace sensornoise
 

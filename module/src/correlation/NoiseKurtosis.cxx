@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "correlation/NoiseKurtosis.h"
+#include "correlation/ProcessingSigns.h"
 
 #include "base/Simd.h"
 #include "correlation/Constants.h"

@@ -3,9 +3,7 @@
 #include "correlation/TotalCovariance.h"
 
 #include "base/Constants.h"
-#include "correlation/AutocovarianceFit.h"
 #include "correlation/Constants.h"
-#include "correlation/ShapeFits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +11,133 @@
 
 namespace sensornoise
 {
+
+namespace
+{
+/** Returns B_k times a matrix. */
+Eigen::MatrixXd
+ShiftBothWays(const Eigen::MatrixXd & matrix, Eigen::Index k)
+{
+  if (k == 0)
+  {
+    return matrix;
+  }
+  const Eigen::Index rows = matrix.rows() - k;
+  Eigen::MatrixXd    shifted = Eigen::MatrixXd::Zero(matrix.rows(), matrix.cols());
+  shifted.topRows(rows) += matrix.bottomRows(rows);
+  shifted.bottomRows(rows) += matrix.topRows(rows);
+  return shifted;
+}
+
+/** Returns sum_t a_t' b_(t+d) over the rows of two matrices. */
+double
+DiagonalOf(const Eigen::MatrixXd & a, const Eigen::MatrixXd & b, Eigen::Index d)
+{
+  const Eigen::Index rows = a.rows() - d;
+  return a.topRows(rows).cwiseProduct(b.bottomRows(rows)).sum();
+}
+
+/** Returns the lag after which a tail of the largest ratio has less than 0.1 % of its sum left [frames]. */
+std::size_t
+LongestTail()
+{
+  return static_cast<std::size_t>(std::ceil(std::log(1e-3) / std::log(InCorrelation.largestTailRatio)));
+}
+
+/** Returns the sums of the autocovariances q^k of the lags k from \a first on; q is \a ratio. */
+Eigen::VectorXd
+SumsOfTail(const Eigen::MatrixXd & mixing, double ratio, Eigen::Index first)
+{
+  const Eigen::Index    lags = mixing.cols() - first;
+  const Eigen::VectorXd powers =
+    Eigen::VectorXd::NullaryExpr(lags, [=](Eigen::Index k) { return std::pow(ratio, static_cast<double>(first + k)); });
+  return mixing.rightCols(lags) * powers;
+}
+
+/** Returns the sums of white noise, and of q^k, k = 1, 2, ..., as columns. */
+Eigen::MatrixXd
+ColumnsOf(const Eigen::MatrixXd & mixing, double ratio)
+{
+  Eigen::MatrixXd columns(mixing.rows(), 2);
+  columns << mixing.col(0), SumsOfTail(mixing, ratio, 1);
+  return columns;
+}
+} // namespace
+
+Eigen::MatrixXd
+TemporalMixing(const Eigen::MatrixXd & basis, std::size_t lags, std::size_t furthest)
+{
+  const auto      rows = static_cast<Eigen::Index>(lags) + 1;
+  const auto      columns = static_cast<Eigen::Index>(furthest) + 1;
+  Eigen::MatrixXd mixing(rows, columns);
+  for (Eigen::Index k = 0; k < columns; ++k)
+  {
+    // P B P = B - Q (B Q)' - (B Q) Q' + Q (Q' B Q) Q'
+    const Eigen::MatrixXd shifted = ShiftBothWays(basis, k);
+    const Eigen::MatrixXd both = basis * (basis.transpose() * shifted);
+    for (Eigen::Index d = 0; d < rows; ++d)
+    {
+      const double own = d == k ? static_cast<double>(basis.rows() - d) : 0.0;
+      mixing(d, k) = own - DiagonalOf(basis, shifted, d) - DiagonalOf(shifted, basis, d) + DiagonalOf(both, basis, d);
+    }
+  }
+  return mixing;
+}
+
+AutocovarianceFit::AutocovarianceFit(const Eigen::MatrixXd & basis, std::size_t lags)
+  : m_Basis(basis)
+  , m_Mixing(TemporalMixing(basis, lags, lags))
+{
+  this->Solve();
+}
+
+void
+AutocovarianceFit::FindTail(const Eigen::VectorXd & sums)
+{
+  const auto frames = static_cast<std::size_t>(m_Basis.rows());
+  const auto lags = static_cast<std::size_t>(m_Mixing.rows()) - 1;
+  m_Mixing = TemporalMixing(m_Basis, lags, std::max(lags, std::min(frames - 1, lags + LongestTail())));
+  const Eigen::VectorXd white = m_Mixing.col(0);
+  const double          ofWhite = (sums - white * (white.dot(sums) / white.squaredNorm())).squaredNorm();
+  double                best = 0.0;
+  double                least = ofWhite;
+  const auto            search = [&](double low, double high, double step) {
+    for (double ratio = std::max(step, low); ratio < std::min(high, InCorrelation.largestTailRatio); ratio += step)
+    {
+      const Eigen::MatrixXd columns = ColumnsOf(m_Mixing, ratio);
+      const Eigen::VectorXd terms = columns.colPivHouseholderQr().solve(sums);
+      const double          misfit = (sums - columns * terms).squaredNorm();
+      if (terms(1) > 0.0 && misfit < least)
+      {
+        least = misfit;
+        best = ratio;
+      }
+    }
+  };
+  constexpr double coarse = 0.02;
+  search(coarse, 1.0, coarse);
+  search(best - coarse, best + coarse, coarse / 20.0);
+  m_Ratio = least < InCorrelation.largestTailMisfit * InCorrelation.largestTailMisfit * ofWhite ? best : 0.0;
+  this->Solve();
+}
+
+/** Sets the matrices of the results, which are linear in the sums. */
+void
+AutocovarianceFit::Solve()
+{
+  const Eigen::Index size = m_Mixing.rows();
+  m_Autocovariances = m_Mixing.leftCols(size).fullPivLu().inverse();
+  m_Total = 2.0 * m_Autocovariances.colwise().sum() - m_Autocovariances.row(0);
+  if (this->HasTail())
+  {
+    // The tail is A q^k, and the amplitude A is linear in the sums, too.
+    const Eigen::MatrixXd    identity = Eigen::MatrixXd::Identity(size, size);
+    const Eigen::RowVectorXd amplitude = ColumnsOf(m_Mixing, m_Ratio).colPivHouseholderQr().solve(identity).row(1);
+    m_Autocovariances *= identity - SumsOfTail(m_Mixing, m_Ratio, size) * amplitude;
+    const double beyond = std::pow(m_Ratio, static_cast<double>(size)) / (1.0 - m_Ratio);
+    m_Total = 2.0 * (m_Autocovariances.colwise().sum() + beyond * amplitude) - m_Autocovariances.row(0);
+  }
+}
 
 namespace
 {

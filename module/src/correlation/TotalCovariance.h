@@ -6,12 +6,118 @@
 #include "SensorNoiseExport.h"
 #include "base/Eigen.h"
 #include "correlation/CorrelationSums.h"
+#include "correlation/Jackknife.h"
 #include "correlation/NoiseCorrelation.h"
 
+#include <array>
 #include <cstddef>
+
+/** \file
+ * The total covariance of the noise over lags in space and in time, and the fits from which it follows. */
 
 namespace sensornoise
 {
+
+/** Returns the matrix M by which the projection mixes the autocovariances R_k of a series. With P = I - Q Q', for
+ * orthonormal \a basis Q,
+ *
+ *     E[sum_t r_t r_(t+d)] = sum_k M_dk R_k,   M_dk = sum_t (P B_k P)_(t, t+d),   d = 0 ... lags, k = 0 ... furthest,
+ *
+ * where B_0 = I and B_k is the shift by k frames both ways. Exact for any distribution of the noise. */
+SensorNoise_EXPORT Eigen::MatrixXd
+TemporalMixing(const Eigen::MatrixXd & basis, std::size_t lags, std::size_t furthest);
+
+/** \class AutocovarianceFit
+ * \brief Autocovariances of the noise, from the sums of products of frames after the projection.
+ *
+ * The autocovariances R_0 ... R_K are free, and solve the system of TemporalMixing(). Those of larger lags are 0, or
+ * they decrease by a constant ratio, as behind a recursive filter (FindTail()). Without them the sum over all lags of
+ * a short burst is too small: the projection removes slow noise. Estimator.md, 3.12.
+ *
+ * The arguments \a sums of the functions are sum_t r_t r_(t+d), d = 0 ... K, in any unit. Their results are linear in
+ * the sums, and have the same unit. */
+class SensorNoise_EXPORT AutocovarianceFit
+{
+public:
+  /** \param basis orthonormal temporal components that were projected out
+   * \param lags number K of lags */
+  AutocovarianceFit(const Eigen::MatrixXd & basis, std::size_t lags);
+
+  /** Finds the tail: white noise and R_k = A q^k, with the ratio q for which both describe \a sums best. The tail
+   * stays 0 if these two terms leave more than InCorrelation.largestTailMisfit of what white noise alone leaves, as
+   * after means over several frames. */
+  void
+  FindTail(const Eigen::VectorXd & sums);
+  bool
+  HasTail() const
+  {
+    return m_Ratio > 0.0;
+  }
+  /** Returns R_0 ... R_K. */
+  Eigen::VectorXd
+  Autocovariances(const Eigen::VectorXd & sums) const
+  {
+    return m_Autocovariances * sums;
+  }
+  /** Returns R_0 + 2 (R_1 + R_2 + ...), with the tail. */
+  double
+  Total(const Eigen::VectorXd & sums) const
+  {
+    return m_Total * sums;
+  }
+
+private:
+  void
+  Solve();
+
+  Eigen::MatrixXd    m_Basis;
+  Eigen::MatrixXd    m_Mixing; // columns from lag 0 on
+  double             m_Ratio{ 0.0 };
+  Eigen::MatrixXd    m_Autocovariances; // what the sums are multiplied by
+  Eigen::RowVectorXd m_Total;
+};
+
+/** Returns an estimated value with its standard error. */
+inline MeasuredNumber
+NumberAt(const JackknifeEstimate & estimate, std::size_t k)
+{
+  const auto index = static_cast<Eigen::Index>(k);
+  return { estimate.value(index), estimate.StandardError(index) };
+}
+
+/** Returns the coefficients of all shapes, and then their chi-squares. \a covarianceInBins(tiles) is the covariance in
+ * the bins, relative to the variance, with its standard \a errors. \a unfilteredDn2 is the variance of quantization and
+ * line noise [DN^2]. */
+template <typename TFunction>
+JackknifeEstimate
+FitAllShapes(const CorrelationSums & sums,
+             TFunction               covarianceInBins,
+             const Eigen::VectorXd & errors,
+             double                  unfilteredDn2)
+{
+  return Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
+    const CovarianceShapes predicted = sums.ShapesOf(tiles, unfilteredDn2);
+    const auto             shapes = FitShapes(predicted.InBins(), covarianceInBins(tiles), errors);
+    Eigen::VectorXd        figures(2 * NumberOfShapes);
+    for (std::size_t k = 0; k < NumberOfShapes; ++k)
+    {
+      figures(static_cast<Eigen::Index>(k)) = shapes[k].coefficient;
+      figures(static_cast<Eigen::Index>(NumberOfShapes + k)) = shapes[k].chi2;
+    }
+    return figures;
+  });
+}
+
+/** Returns the probabilities of the shapes from their chi-squares. \a mayBeCharge: the covariance is weak and short, so
+ * that coupled charge may cause it. */
+std::array<double, NumberOfShapes>
+ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge);
+
+/** Returns the shapes with the coefficients of \a fits and their probabilities. */
+std::array<WeightedShape, NumberOfShapes>
+WeighShapes(const JackknifeEstimate &                  fits,
+            const std::array<double, NumberOfShapes> & probabilities,
+            const CovarianceShapes &                   predicted);
 
 /** Returns whether the spatial noise correlation exceeds the reporting threshold: the nearest neighbours together
  * exceed InCorrelation.leastEffect, or one of \a coefficients exceeds InCorrelation.leastCoefficient, both

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/Text.h"
 #include "emva1288/EmvaText.h"
-#include "page/HtmlText.h"
 #include "page/PageSections.h"
 #include "page/SvgPanel.h"
 #include "sensornoise/Emva1288.h"

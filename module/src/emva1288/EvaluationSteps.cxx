@@ -5,7 +5,7 @@
 #include "base/ChiSquare.h"
 #include "emva1288/Constants.h"
 #include "emva1288/LevelLines.h"
-#include "moments/ExposureFit.h"
+#include "moments/Exposures.h"
 #include "report/Quantities.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #define sensornoise_emva1288_EvaluationSteps_h
 
 #include "sensornoise/Emva1288.h"
-#include "moments/ExposureFit.h"
+#include "moments/Exposures.h"
 #include "report/Quantities.h"
 
 #include <array>

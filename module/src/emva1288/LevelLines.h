@@ -5,7 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/Emva1288.h"
-#include "moments/ExposureFit.h"
+#include "moments/Exposures.h"
 
 #include <cstddef>
 #include <vector>

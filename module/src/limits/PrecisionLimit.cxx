@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "limits/PrecisionLimit.h"
+#include "limits/CramerRaoBound.h"
 
 #include <cmath>
 #include <stdexcept>

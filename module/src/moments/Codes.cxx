@@ -5,7 +5,6 @@
 #include "sensornoise/Settings.h"
 #include "base/Text.h"
 #include "sensornoise/StepResults.h"
-#include "moments/ExtremeLevels.h"
 #include "moments/Constants.h"
 
 #include <algorithm>

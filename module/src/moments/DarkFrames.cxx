@@ -9,8 +9,6 @@
 #include "base/Text.h"
 #include "sensornoise/StepResults.h"
 #include "sensornoise/Settings.h"
-#include "moments/DarkMaps.h"
-#include "moments/NoiseMedian.h"
 #include "moments/StackMaps.h"
 #include "moments/TemporalMoments.h"
 

@@ -6,14 +6,99 @@
 #include "sensornoise/Parallel.h"
 #include "SensorNoiseExport.h"
 #include "sensornoise/Settings.h"
+#include "base/ChiSquare.h"
+#include "moments/Constants.h"
 #include "moments/TemporalMoments.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace sensornoise
 {
+
+/** Maps of every pixel from dark frames; the variance needs two or more frames. */
+struct DarkMaps
+{
+  std::vector<double> offsetDn;            ///< mean over time [DN]; NaN: not finite, clipped or masked
+  std::vector<double> varianceDn2;         ///< variance over time, without the common drift of the frames, with
+                                           ///< quantization noise [DN^2]; NaN as above
+  std::vector<std::uint8_t> usable;        ///< 0: not finite, clipped, masked or defective, see DefectiveVarianceDn2()
+  std::size_t               frames{ 0 };   ///< number of frames; the degrees of freedom of a variance are one less
+  double                    stepDn{ 0.0 }; ///< quantization step [DN]; 0: the data have no codes
+};
+
+/** Returns the ratio of the median of the variances of pixels with the same noise to their expectation [1].
+ * \param freedom degrees of freedom of a variance, above 0 */
+inline double
+MedianToMeanOfVariance(double dof)
+{
+  return ChiSquareQuantile(0.5, dof) / dof;
+}
+
+/** Returns the variance above which a pixel is defective [DN^2].
+ *
+ * The limit is the variance of InMoments.defectiveNoiseFactor times the typical noise, times 1 + 2/freedom. Of the
+ * pixels whose noise is near the limit, some stay below it by chance and some exceed it; the excluded ones have the
+ * larger variances. With this factor the gained and the lost variance are equal, exactly so where the density of the
+ * true variances falls as their third power. For other tails they agree to some per cent of the variance near the
+ * limit.
+ * \param medianDn2 median of the variances of the pixels [DN^2]
+ * \param freedom degrees of freedom of a variance, above 0 */
+inline double
+DefectiveVarianceDn2(double medianDn2, double dof)
+{
+  const double typicalDn2 = medianDn2 / MedianToMeanOfVariance(dof);
+  return InMoments.defectiveNoiseFactor * InMoments.defectiveNoiseFactor * typicalDn2 * (1.0 + 2.0 / dof);
+}
+
+/** Returns the largest shift by rounding to codes of the mean of values with the variance \a varianceDn2, quantization
+ * noise included [DN]. It is step/pi exp(-2 pi^2 variance/step^2), the first harmonic, where the variance is without
+ * quantization noise. The shift is negligible if the standard deviation is half a step or more. Without any noise the
+ * shift is up to half a step, pi/2 times this value. */
+inline double
+RoundingErrorDn(double stepDn, double varianceDn2)
+{
+  if (stepDn == 0.0)
+  {
+    return 0.0;
+  }
+  constexpr double pi = 3.14159265358979323846;
+  const double     hidden = std::max(0.0, varianceDn2 / (stepDn * stepDn) - 1.0 / 12.0);
+  return stepDn / pi * std::exp(-2.0 * pi * pi * hidden);
+}
+
+/** A quantity of every pixel of the frame and the bounds of its 95 % interval; NaN: not known. */
+struct IntervalMapDn
+{
+  std::vector<double> value; ///< values [DN]
+  std::vector<double> low;   ///< lower bounds [DN]
+  std::vector<double> high;  ///< upper bounds [DN]
+};
+
+/** Offset and read noise of each pixel: the camera calibration of single-molecule microscopy. */
+struct PixelCalibration
+{
+  IntervalMapDn offset;
+  IntervalMapDn readNoise; ///< without quantization noise
+};
+
+/** Computes the offset and the read noise of each pixel from dark frames.
+ *
+ * For a pixel with Gaussian noise each interval contains the true value with a probability of 95 %. Student's
+ * distribution is used for the offset and the chi-square distribution for the read noise. (The mean plus and minus
+ * 1.96 standard errors would cover 90 % of the offsets of 8 frames.) The error of the offset by rounding widens the
+ * interval of a pixel with hardly any noise by up to half a step. Read noise that rounding may hide has an interval
+ * from 0 to half a step or more. The common drift of the frames is in none of the intervals. Defective pixels have
+ * values, too. Pixels that are not finite, clipped or masked have none.
+ *
+ * Throws std::invalid_argument if there are fewer than two frames, or not as many variances as offsets. */
+SensorNoise_EXPORT PixelCalibration
+MakePixelCalibration(const DarkMaps & dark, const ParallelFor & parallelFor = SerialFor);
 
 /** \class DarkDrift
  * \brief Common level of the pixels of dark frames, frame by frame, and the variance that its drift adds to a pixel.
@@ -115,6 +200,87 @@ MeasureDarkFrames(TemporalMoments<TPixel>           moments,
                   const std::vector<std::uint8_t> & mask = {},
                   const ParallelFor &               parallelFor = SerialFor,
                   const DarkDrift &                 drift = {});
+
+// Estimates the distribution of the true variances of pixels from the distribution of the variances measured over a
+// few frames.
+
+inline constexpr std::size_t NumberOfLogBins = 121;
+
+/** A number for each bin of the logarithm of a variance. */
+using LogBins = std::array<double, NumberOfLogBins>;
+
+/** Equal bins of the logarithm. The middle bin lies about the median; the last bin also holds all larger values. */
+struct LogBinning
+{
+  double      low;   ///< lower end of the first bin: logarithm of a variance in DN^2
+  double      width; ///< width of a bin, in the same logarithm
+  std::size_t first; ///< lowest bin in use; also holds all smaller values
+
+  /** Returns the bin of a variance [DN^2]. */
+  std::size_t
+  BinOf(double variance) const;
+
+  /** Adds a variance, uniformly distributed from \a begin to \a end, once to each of two histograms. */
+  void
+  Add(double begin, double end, LogBins & one, LogBins & other) const;
+};
+
+/** Returns the bins for \a variances.
+ * \param variances above 0 for half of the pixels [DN^2]
+ * \param cellDn2 half the distance of two variances of rounded frames [DN^2] */
+SensorNoise_EXPORT LogBinning
+MakeLogBinning(std::vector<double> variances, double cellDn2);
+
+/** Returns the probability of each bin of the measured variances, for each bin of the true variances. The first index
+ * is the true one. */
+SensorNoise_EXPORT std::vector<LogBins>
+ChiSquareKernel(double dof, const LogBinning & binning);
+
+/** \class LogDeconvolution
+ * \brief Iterations of Richardson and Lucy, which begin with the measured distribution.
+ *
+ * J. Opt. Soc. Am. 62, 1972, p. 55, DOI 10.1364/JOSA.62.000055; Astron. J. 79, 1974, p. 745, DOI 10.1086/111605. */
+class SensorNoise_EXPORT LogDeconvolution
+{
+public:
+  /** \param counts histogram of the measured variances, with a sum above 0
+   * \param kernel see ChiSquareKernel(); it is kept by reference and must outlive this object */
+  LogDeconvolution(const LogBins & counts, const std::vector<LogBins> & kernel);
+
+  /** Performs \a times iterations. */
+  void
+  Iterate(int times);
+
+  /** Returns the median of the distribution of the true variances, in bins from the lower end of the first bin. */
+  double
+  GetMedianBin() const;
+
+private:
+  const std::vector<LogBins> & m_Kernel;
+  LogBins                      m_Measured{};
+  LogBins                      m_True{};
+};
+
+/** Returns the median read noise of the pixels, estimated from their variances over a few frames.
+ *
+ * The median of the variances equals the median for noise alone only if all pixels have the same noise. The chi-square
+ * distribution is skewed: its median lies below its mean. The fraction is another one if the true variances have a
+ * wide distribution (by 2 % for 8 frames and log-normal noise of standard deviation 0.6). The distribution of the
+ * logarithm of the true variances is therefore estimated first, for any shape, see LogDeconvolution, and its median is
+ * taken.
+ *
+ * The standard error combines a jackknife over 20 groups of pixels, twice the change by further iterations, and the
+ * error by rounding to codes. It was tested with equal pixels and with log-normal noise of standard deviation 0.3 to
+ * 0.6, also with tails. For 8 frames the error is below 0.4 % if the noise is one code or more, and 2.5 % for noise of
+ * 0.6 codes.
+ *
+ * \param variancesDn2 variances of the pixels, quantization noise included [DN^2]
+ * \param freedom degrees of freedom of a variance
+ * \param stepDn quantization step [DN], whose noise step^2/12 is subtracted; 0: none
+ * \return null: fewer than 5 degrees of freedom or 100 pixels, or a median so small that rounding hides it (below half
+ * a step) */
+SensorNoise_EXPORT std::optional<MedianReadNoise>
+MedianReadNoiseOf(const std::vector<double> & variancesDn2, double dof, double stepDn);
 
 } // namespace sensornoise
 

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/ExposureFit.h"
+#include "moments/Exposures.h"
 
 #include "base/ChiSquare.h"
 #include "base/Eigen.h"
 #include "base/Text.h"
 #include "moments/Constants.h"
-#include "moments/Exposures.h"
 #include "moments/StackMaps.h"
 
 #include <algorithm>

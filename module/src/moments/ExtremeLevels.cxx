@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/ExtremeLevels.h"
+#include "moments/Codes.h"
 
 #include "moments/Constants.h"
 #include "base/Quantiles.h"

@@ -6,7 +6,6 @@
 #include "sensornoise/FrameGeometry.h"
 #include "base/Quantiles.h"
 #include "moments/Constants.h"
-#include "moments/FrameFit.h"
 #include "moments/StackFrames.h"
 
 #include <algorithm>

@@ -6,13 +6,18 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
+#include "sensornoise/Report.h"
 #include "base/PixelLayout.h"
+#include "moments/Constants.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <istream>
 #include <ostream>
 #include <vector>
+
+/** \file
+ * Thumbnails of the frames, and the frames that are unlike the others by them. */
 
 namespace sensornoise
 {
@@ -147,6 +152,71 @@ private:
   std::vector<double>       m_Noise; // variance of these means by noise and texture, mean over the cells [DN^2]
   std::vector<double>       m_UniformFractions;
 };
+
+/** Fit of a frame by a level plus a factor times the mean frame, from its means over cells. */
+struct FrameFit
+{
+  double centre{ 0.0 };     ///< mean over the cells of the mean frame [DN]
+  double level{ 0.0 };      ///< mean over the cells of the frame [DN]
+  double factor{ 0.0 };     ///< factor of the mean frame [1]
+  double meanSquare{ 0.0 }; ///< mean square over the cells of the deviation from the fit [DN^2]
+
+  /** Returns the deviation of a cell from the fit [DN]. */
+  double
+  DifferenceOf(double mean, double frame) const
+  {
+    return frame - level - factor * (mean - centre);
+  }
+};
+
+/** Fits the cells \a used of \a frame to \a mean by least squares [DN]. */
+SensorNoise_EXPORT FrameFit
+FitCells(const std::vector<double> & mean, const std::vector<double> & frame, const std::vector<std::size_t> & used);
+
+/** Fits all cells, then again without the fraction InMoments.fewCells of them that deviates most. */
+SensorNoise_EXPORT FrameFit
+FitMostCells(const std::vector<double> & mean, const std::vector<double> & frame);
+
+/** Returns the numbers 0 ... count - 1. */
+SensorNoise_EXPORT std::vector<std::size_t>
+AllBelow(std::size_t count);
+
+/** Returns the relative standard deviation over time of the illumination factor of frames [1], from the means of each
+ * frame over some cells.
+ *
+ * \a frames holds the cells of each frame [DN], \a mean the same cells of the mean frame [DN]. Under another
+ * illumination a frame is the mean frame times a factor, plus a level. Where the cells differ enough, this factor is
+ * the illumination factor, for any offset. In a flat field the factor is not identifiable, but the change of the level
+ * is. It counts as InMoments.strongIlluminationChange where its variance is InMoments.strongChangeOfFlat times
+ * \a noiseDn2, an upper bound of the noise variance of the pixels [DN^2]. A frame counts as unchanged if most of its
+ * difference from the mean frame is neither a level nor a factor, but noise or another scene. */
+SensorNoise_EXPORT double
+ComputeIlluminationChange(const std::vector<double> &              mean,
+                          const std::vector<std::vector<double>> & frames,
+                          double                                   noiseDn2);
+
+class FrameThumbnails;
+
+/** Finds the frames that are unlike the others, in ascending order. The list is empty if fewer than MinimumFrames would
+ * be left, or if more than a fifth of the frames with content are unlike.
+ *
+ * A frame of the burst is a level plus a factor times the mean frame, except for noise, vibration and local changes of
+ * the illumination. These are as large in the other frames. A dark frame has the factor 0: it belongs to the burst.
+ * Estimator.md, 3.1. */
+SensorNoise_EXPORT std::vector<LeftOutFrame>
+FindUnlikeFrames(const FrameThumbnails & thumbnails);
+
+/** Joins the unlike frames of several parts of \a frames, such as the planes of a mosaic. The list is empty if the
+ * unlike frames with content are more than the fraction \a largestFraction [1], or if fewer than MinimumFrames would be
+ * left. */
+SensorNoise_EXPORT std::vector<LeftOutFrame>
+JoinUnlikeFrames(const std::vector<std::vector<LeftOutFrame>> & ofParts,
+                 std::size_t                                    frames,
+                 double                                         largestFraction = InMoments.largestLeftOutFraction);
+
+/** Returns the numbers of the frames. */
+SensorNoise_EXPORT std::vector<std::size_t>
+NumbersOf(const std::vector<LeftOutFrame> & frames);
 
 } // namespace sensornoise
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/NoiseMedian.h"
+#include "moments/DarkFrames.h"
 
 #include "base/ChiSquare.h"
 #include "base/Quantiles.h"

@@ -10,7 +10,6 @@
 #include "sensornoise/Settings.h"
 #include "moments/Codes.h"
 #include "moments/Constants.h"
-#include "moments/ExtremeLevels.h"
 #include "moments/TemporalMoments.h"
 
 #include <algorithm>

@@ -8,10 +8,9 @@
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Report.h"
 #include "base/PixelLayout.h"
+#include "moments/FrameThumbnails.h"
 #include "moments/StackFrames.h"
 #include "moments/StackMoments.h"
-#include "moments/FrameThumbnails.h"
-#include "moments/UnlikeFrames.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/UnlikeFrames.h"
+#include "moments/FrameThumbnails.h"
 
 #include "base/Eigen.h"
 #include "base/Quantiles.h"
 #include "moments/Constants.h"
-#include "moments/FrameFit.h"
-#include "moments/FrameThumbnails.h"
 #include "moments/StackFrames.h"
 
 #include <algorithm>

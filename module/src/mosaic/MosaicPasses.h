@@ -5,8 +5,8 @@
 
 #include "base/FreeMemory.h"
 #include "sensornoise/Parallel.h"
+#include "moments/FrameThumbnails.h"
 #include "mosaic/MosaicGeometry.h"
-#include "moments/UnlikeFrames.h"
 #include "mosaic/PlaneWork.h"
 #include "sensornoise/Report.h"
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page/Comparison.h"
 
-#include "page/HtmlText.h"
 #include "page/PageSections.h"
 #include "page/SvgPanel.h"
 #include "report/ReportParts.h"

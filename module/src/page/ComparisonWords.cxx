@@ -3,7 +3,7 @@
 #include "page/Comparison.h"
 
 #include "base/Text.h"
-#include "page/HtmlText.h"
+#include "page/PageSections.h"
 #include "report/ReportParts.h"
 
 #include <algorithm>

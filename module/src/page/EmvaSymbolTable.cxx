@@ -3,7 +3,6 @@
 #include "page/PageSections.h"
 
 #include "base/Text.h"
-#include "page/HtmlText.h"
 #include "sensornoise/ReportText.h"
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page/Figures.h"
 
-#include "page/HtmlText.h"
+#include "page/PageSections.h"
 #include "report/JsonWriter.h"
 #include "report/ReportParts.h"
 #include "sensornoise/ReportPage.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "page/HtmlText.h"
+#include "page/PageSections.h"
 
 #include "base/Text.h"
 

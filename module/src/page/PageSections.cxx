@@ -3,7 +3,6 @@
 #include "page/PageSections.h"
 
 #include "base/Text.h"
-#include "page/HtmlText.h"
 #include "page/SvgPanel.h"
 #include "report/ReportParts.h"
 #include "sensornoise/ReportText.h"

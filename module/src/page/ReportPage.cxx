@@ -4,7 +4,6 @@
 
 #include "base/Text.h"
 #include "page/Figures.h"
-#include "page/HtmlText.h"
 #include "sensornoise/ReportText.h"
 #include "page/PageSections.h"
 #include "report/ReportParts.h"

@@ -3,7 +3,7 @@
 #include "page/SvgPanel.h"
 
 #include "base/Text.h"
-#include "page/HtmlText.h"
+#include "page/PageSections.h"
 
 #include <algorithm>
 #include <cmath>

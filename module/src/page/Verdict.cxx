@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page/PageSections.h"
 
-#include "page/HtmlText.h"
 #include "sensornoise/ReportText.h"
 
 #include <algorithm>

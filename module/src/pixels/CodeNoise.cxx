@@ -3,7 +3,7 @@
 #include "pixels/CodeNoise.h"
 
 #include "base/Quantiles.h"
-#include "moments/ExtremeLevels.h"
+#include "moments/Codes.h"
 #include "pixels/Constants.h"
 #include "pixels/StaticVariance.h"
 #include "pixels/VarianceLine.h"

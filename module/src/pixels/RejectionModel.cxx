@@ -6,7 +6,7 @@
 #include "sensornoise/Parallel.h"
 #include "base/Quantiles.h"
 #include "moments/Constants.h"
-#include "moments/DarkMaps.h"
+#include "moments/DarkFrames.h"
 #include "pixels/Constants.h"
 #include "pixels/FixedPatternEstimate.h"
 #include "pixels/ProjectedVariance.h"

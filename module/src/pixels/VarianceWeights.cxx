@@ -7,7 +7,7 @@
 #include "base/Quantiles.h"
 #include "sensornoise/Parallel.h"
 #include "moments/Constants.h"
-#include "moments/DarkMaps.h"
+#include "moments/DarkFrames.h"
 #include "pixels/Constants.h"
 #include "pixels/VarianceLine.h"
 

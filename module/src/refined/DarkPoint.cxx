@@ -5,8 +5,8 @@
 #include "base/Constants.h"
 #include "base/Eigen.h"
 #include "sensornoise/Report.h"
-#include "moments/DarkMaps.h"
 #include "sensornoise/Settings.h"
+#include "moments/DarkFrames.h"
 #include "pixels/VarianceCurve.h"
 #include "refined/Constants.h"
 

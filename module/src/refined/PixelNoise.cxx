@@ -4,9 +4,9 @@
 
 #include "correlation/FrameEnergies.h"
 #include "correlation/Interference.h"
+#include "correlation/NoiseCorrelation.h"
 #include "correlation/NoiseResiduals.h"
-#include "correlation/RemainingSceneChange.h"
-#include "moments/DarkMaps.h"
+#include "moments/DarkFrames.h"
 #include "refined/Constants.h"
 #include "refined/FrameComparison.h"
 #include "refined/FramePhotonTransfer.h"

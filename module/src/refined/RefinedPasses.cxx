@@ -5,7 +5,7 @@
 #include "base/BinaryStream.h"
 #include "sensornoise/FrameGeometry.h"
 #include "moments/Constants.h"
-#include "moments/DarkMaps.h"
+#include "moments/DarkFrames.h"
 #include "moments/StackMaps.h"
 #include "pixels/NarrowSums.h"
 #include "refined/RefinedResults.h"

@@ -7,7 +7,7 @@
 #include "sensornoise/FrameGeometry.h"
 #include "base/NothingToMeasure.h"
 #include "sensornoise/Parallel.h"
-#include "moments/ExposureFit.h"
+#include "moments/Exposures.h"
 #include "moments/StackMaps.h"
 #include "moments/StackPasses.h"
 #include "refined/PixelNoise.h"

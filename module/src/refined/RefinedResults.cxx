@@ -5,7 +5,7 @@
 #include "base/Constants.h"
 #include "base/Eigen.h"
 #include "correlation/Jackknife.h"
-#include "moments/DarkMaps.h"
+#include "moments/DarkFrames.h"
 #include "pixels/IlluminationResponses.h"
 #include "refined/Constants.h"
 #include "scene/ReferenceFrame.h"

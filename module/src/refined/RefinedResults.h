@@ -6,7 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "correlation/NoiseCorrelation.h"
 #include "correlation/NoiseResiduals.h"
-#include "moments/ExposureFit.h"
+#include "moments/Exposures.h"
 #include "pixels/IlluminationResponses.h"
 #include "pixels/ProjectedSquares.h"
 #include "pixels/ProjectionSums.h"

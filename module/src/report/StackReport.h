@@ -10,9 +10,8 @@
 #include "moments/StackMaps.h"
 #include "sensornoise/Report.h"
 #include "moments/StackFrames.h"
-#include "moments/UnlikeFrames.h"
-#include "moments/ExposureFit.h"
 #include "moments/FrameThumbnails.h"
+#include "moments/Exposures.h"
 
 #include <cstddef>
 #include <cstdint>
