@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/JointMotion.h"
+#include "report/JointChannels.h"
 
 #include "sensornoise/FrameGeometry.h"
 #include "report/Quantities.h"

@@ -5,8 +5,7 @@
 #include "base/ChiSquare.h"
 #include "base/Constants.h"
 #include "base/Text.h"
-#include "report/Constants.h"
-#include "report/JointMotion.h"
+#include "report/JointChannels.h"
 #include "report/Quantities.h"
 #include "sensornoise/FrameGeometry.h"
 
