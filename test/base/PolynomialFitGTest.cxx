@@ -77,7 +77,7 @@ TEST(SensorNoisePolynomialFit, LineIsRecoveredExactly)
 
 TEST(SensorNoisePolynomialFit, ParabolaIsRecoveredExactly)
 {
-  const PolynomialFit fit = FitParabola(ExactScatter(1000, 100.0, 4000.0, -50.0, 1.25, 0.0025).Data());
+  const PolynomialFit fit = FitLineAndParabola(ExactScatter(1000, 100.0, 4000.0, -50.0, 1.25, 0.0025).Data()).parabola;
   EXPECT_TRUE(fit.isDetermined);
   EXPECT_NEAR(fit.curvature, 0.0025, 1e-10 * 0.0025);
   EXPECT_NEAR(fit.slope, 1.25, 1e-10 * 1.25);
@@ -89,7 +89,7 @@ TEST(SensorNoisePolynomialFit, LineAndParabolaOfOneWalkAreThoseOfTwo)
   const auto scatter = ExactScatter(40000, 100.0, 4000.0, -50.0, 1.25, 0.0025);
   const auto both = FitLineAndParabola(scatter.Data());
   const auto line = FitLine(scatter.Data());
-  const auto parabola = FitParabola(scatter.Data());
+  const auto parabola = FitLineAndParabola(scatter.Data()).parabola;
   EXPECT_EQ(both.line.pixels, line.pixels);
   EXPECT_EQ(both.line.slope, line.slope);
   EXPECT_EQ(both.line.intercept, line.intercept);
@@ -110,7 +110,7 @@ TEST(SensorNoisePolynomialFit, LargeOffsetsOfTheMeanKeepTheDigits)
   {
     mean += 1e6;
   }
-  const PolynomialFit parabola = FitParabola(curved.Data());
+  const PolynomialFit parabola = FitLineAndParabola(curved.Data()).parabola;
   EXPECT_NEAR(parabola.curvature, 0.01, 1e-9 * 0.01); // sums of 500 means, each rounded to 1e-10 of 100
   EXPECT_NEAR(parabola.slope + 2.0 * parabola.curvature * 1e6, 2.0, 1e-6);
 }
@@ -136,7 +136,7 @@ TEST(SensorNoisePolynomialFit, OneIntensityDoesNotDetermineALine)
 {
   Scatter scatter = ExactScatter(100, 500.0, 500.0, 10.0, 2.0, 0.0);
   EXPECT_FALSE(FitLine(scatter.Data()).isDetermined);
-  EXPECT_FALSE(FitParabola(scatter.Data()).isDetermined);
+  EXPECT_FALSE(FitLineAndParabola(scatter.Data()).parabola.isDetermined);
   scatter.mask.assign(100, 0);
   EXPECT_FALSE(FitLine(scatter.Data()).isDetermined);
   EXPECT_EQ(FitLine(scatter.Data()).pixels, 0u);

@@ -160,12 +160,6 @@ FitLine(const RegressionData & data, const ParallelFor & parallelFor)
   return Solve<1>(SumNormal<1>(data, parallelFor, WeighAlike));
 }
 
-PolynomialFit
-FitParabola(const RegressionData & data, const ParallelFor & parallelFor)
-{
-  return Solve<2>(SumNormal<2>(data, parallelFor, WeighAlike));
-}
-
 LineAndParabola
 FitLineAndParabola(const RegressionData & data, const ParallelFor & parallelFor)
 {

@@ -46,17 +46,15 @@ struct PolynomialFit
 SensorNoise_EXPORT PolynomialFit
 FitLine(const RegressionData & data, const ParallelFor & parallelFor = SerialFor);
 
-/** Fits a parabola by ordinary regression: (2.21), whose curvature is sigma_gamma^2 where the variance is not
- * corrected. */
-SensorNoise_EXPORT PolynomialFit
-FitParabola(const RegressionData & data, const ParallelFor & parallelFor = SerialFor);
-
-/** Line and parabola, from one pass over the maps. */
+/** The line of FitLine(), and the parabola by ordinary regression: (2.21), whose curvature is sigma_gamma^2 where the
+ * variance is not corrected. */
 struct LineAndParabola
 {
   PolynomialFit line;
   PolynomialFit parabola;
 };
+
+/** Fits both in one pass over the maps. */
 SensorNoise_EXPORT LineAndParabola
 FitLineAndParabola(const RegressionData & data, const ParallelFor & parallelFor = SerialFor);
 

@@ -179,14 +179,7 @@ ApplyGradient(const double * map, std::size_t width, std::size_t p)
 }
 
 /** Returns the squared effect of a motion of about one pixel: the squared gradient, plus a quarter of the squared
- * second derivatives along x and y. */
-inline double
-StencilEnergy(const std::array<double, NumberOfStencils> & d)
-{
-  return d[StencilX] * d[StencilX] + d[StencilY] * d[StencilY] +
-         0.25 * (d[StencilXX] * d[StencilXX] + d[StencilYY] * d[StencilYY]);
-}
-/** Returns the StencilEnergy() of pixel \a p of a map. Only the derivatives that it needs are computed. */
+ * second derivatives along x and y, at pixel \a p of a map. */
 inline double
 StencilEnergyAt(const double * map, std::size_t width, std::size_t p)
 {

@@ -63,13 +63,6 @@ public:
     return m_Pass;
   }
 
-  /** Number of the frame that is to be added next. */
-  std::size_t
-  GetNext() const
-  {
-    return m_Next;
-  }
-
   /** Marks the next \a count frames as added and returns the first. Throws std::logic_error if fewer are left, or if
    * one has been added before. */
   std::size_t
