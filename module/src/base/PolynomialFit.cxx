@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <vector>
 
 namespace sensornoise
 {

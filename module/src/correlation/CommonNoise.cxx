@@ -5,12 +5,10 @@
 #include "base/Simd.h"
 #include "correlation/Constants.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdlib>
 #include <numeric>
-#include <vector>
 
 namespace sensornoise
 {

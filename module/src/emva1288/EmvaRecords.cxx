@@ -7,7 +7,6 @@
 #include "sensornoise/Emva1288.h"
 #include "sensornoise/Version.h"
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>

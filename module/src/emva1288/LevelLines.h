@@ -7,7 +7,6 @@
 #include "sensornoise/Emva1288.h"
 #include "moments/Exposures.h"
 
-#include <cstddef>
 #include <vector>
 
 /** \file

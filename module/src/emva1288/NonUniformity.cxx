@@ -4,7 +4,6 @@
 
 #include "emva1288/LevelLines.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>

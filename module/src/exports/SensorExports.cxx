@@ -5,7 +5,6 @@
 #include "base/Text.h"
 #include "report/JsonWriter.h"
 
-#include <cmath>
 #include <iomanip>
 #include <optional>
 #include <sstream>

@@ -7,8 +7,6 @@
 #include "sensornoise/ChannelReports.h"
 #include "sensornoise/ReportPage.h"
 
-#include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>

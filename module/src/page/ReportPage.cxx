@@ -9,7 +9,6 @@
 #include "report/ReportParts.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <optional>
 #include <string>
 

@@ -10,7 +10,6 @@
 
 #include <array>
 #include <optional>
-#include <vector>
 
 /** \file
  * What the channels of a mosaic have in common: their motion, and the numbers by which they are compared. */

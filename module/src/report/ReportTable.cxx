@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdarg>
-#include <cstdio>
 #include <iterator>
 #include <optional>
 #include <string>

@@ -8,12 +8,9 @@
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Report.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace sensornoise

@@ -5,7 +5,6 @@
 
 #include "SensorNoiseExport.h"
 
-#include <cstddef>
 #include <limits>
 #include <vector>
 

@@ -7,9 +7,7 @@
 #include "single/ImageNoise.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
