@@ -172,7 +172,7 @@ DrawSeries(SvgPanel & panel, const std::vector<double> & series, const char * st
 }
 
 PlotAxis
-FrameAxis(const FigureData & data)
+AxisOfFrames(const FigureData & data)
 {
   const std::size_t frames = std::max({ data.flicker.size(), data.motionX.size(), std::size_t{ 2 } });
   return MakeAxis(0.0, static_cast<double>(frames - 1), 6);
@@ -231,13 +231,13 @@ SeriesFigure(const FigureData & data)
   motion.Add(0.0);
   motion.Add(data.motionX);
   motion.Add(data.motionY);
-  const PanelPlace place(FrameAxis(data), { flicker.Axis(5), motion.Axis(5) });
+  const PanelPlace place(AxisOfFrames(data), { flicker.Axis(5), motion.Axis(5) });
   double           top = 26.0;
   if (hasFlicker)
   {
     SvgPanel panel(svg,
                    { place.left, top, place.width, 140.0 },
-                   FrameAxis(data),
+                   AxisOfFrames(data),
                    flicker.Axis(5),
                    hasMotion ? "" : "frame",
                    "flicker \u03B3 [1], relative to the mean");
@@ -250,7 +250,7 @@ SeriesFigure(const FigureData & data)
     const double next = LegendEntry(svg, 150.0, top - 13.0, LineSign("third"), "along x");
     LegendEntry(svg, next, top - 13.0, LineSign("before dashed"), "along y");
     SvgPanel panel(
-      svg, { place.left, top, place.width, 140.0 }, FrameAxis(data), motion.Axis(5), "frame", "motion [pixel]");
+      svg, { place.left, top, place.width, 140.0 }, AxisOfFrames(data), motion.Axis(5), "frame", "motion [pixel]");
     panel.Level(0.0, "zero");
     DrawSeries(panel, data.motionX, "third");
     DrawSeries(panel, data.motionY, "before dashed");
