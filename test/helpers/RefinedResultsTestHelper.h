@@ -93,7 +93,7 @@ struct HandMadeResults
   MakeLocal()
   {
     series.local.series = Eigen::MatrixXd::Ones(20, 1);
-    reestimated.localOffset = LocalOffset{ -998.0, 1.0, -1000.0, -996.0, 1.0, 16 };
+    reestimated.localOffset = LocalOffset{ -998.0, 1.0, -1000.0, -996.0, 1.0, 16, true };
   }
   RefinedResults
   Get() const

@@ -113,7 +113,7 @@ TEST(SensorNoiseOffsetEstimate, ResponsesToLocalIlluminationDetermineIt)
   EXPECT_TRUE(offset.IsIdentified());
   EXPECT_DOUBLE_EQ(offset.valueDn, 102.0);
   EXPECT_DOUBLE_EQ(offset.standardErrorDn, 1.0);
-  results.reestimated.localOffset->phi = 4.1;
+  results.reestimated.localOffset->doLinesMeet = false;
   EXPECT_TRUE(results.IsRefused("the lamps do not agree on one offset"));
   results.reestimated.localOffset.reset();
   EXPECT_TRUE(results.IsRefused("the illumination changes differently over the frame"));

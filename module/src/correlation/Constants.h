@@ -47,15 +47,14 @@ struct CorrelationConstants
   /** \name Periodic interference */
   ///@{
   /** Number of spectra of a tile in a frame that are averaged: a line of 0.15 % of the noise variance doubles the power
-   * of its frequency, and chance changes the power by 4 %. More spectra cost time in proportion. */
-  std::size_t spectra{ 512 };
+   * of its frequency, and chance changes the power by 6 %. More spectra cost time in proportion. */
+  std::size_t spectra{ 256 };
   /** Smallest ratio of the power of a line to the largest power at a distance of two frequencies [1]. Filters that
    * smooth by up to 1.2 pixels change it by 1.25 at most; 2 % of the power of a line leak to that distance. */
   double leastPeak{ 2.0 };
   /** Largest number of waves: a pulse of the power supply has some harmonics. */
   std::size_t mostWaves{ 8 };
-  /** Smallest number of pixels of a tile in which a wave is subtracted: 16 for each of two amplitudes and each pair of
-   * lines that leave them uncertain by 25 %. */
+  /** Smallest number of pixels of a tile in which a wave is subtracted: both amplitudes then take 3 % of the noise. */
   std::size_t leastPixelsOfWave{ 64 };
   ///@}
 

@@ -22,26 +22,26 @@ TileSpectrum::TileSpectrum(std::size_t side)
     for (Eigen::Index x = 0; x < m_Transform.cols(); ++x)
     {
       const double angle = step * static_cast<double>(k * x);
-      m_Transform(k, x) = static_cast<float>(std::cos(angle) + std::sin(angle));
+      m_Transform(k, x) = std::cos(angle) + std::sin(angle);
     }
   }
 }
 
-Eigen::ArrayXXf
-TileSpectrum::PowerOf(const Eigen::MatrixXf & values) const
+Eigen::ArrayXXd
+TileSpectrum::PowerOf(const Eigen::MatrixXd & values) const
 {
   // With cas = cos + sin, cas(a) cas(b) = cos(a - b) + sin(a + b). The frequency -k is Size() - k.
   const Eigen::Index    size = this->Size();
-  const Eigen::MatrixXf both = m_Transform * values * m_Transform.transpose();
+  const Eigen::MatrixXd both = m_Transform * values * m_Transform.transpose();
   const auto            minus = [size](Eigen::Index k) { return k == 0 ? 0 : size - k; };
-  Eigen::ArrayXXf       power(size, size);
+  Eigen::ArrayXXd       power(size, size);
   for (Eigen::Index u = 0; u < size; ++u)
   {
     for (Eigen::Index v = 0; v < size; ++v)
     {
-      const float sine = both(v, u) - both(minus(v), minus(u));
-      const float cosine = both(v, minus(u)) + both(minus(v), u);
-      power(v, u) = 0.25F * (sine * sine + cosine * cosine);
+      const double sine = both(v, u) - both(minus(v), minus(u));
+      const double cosine = both(v, minus(u)) + both(minus(v), u);
+      power(v, u) = 0.25 * (sine * sine + cosine * cosine);
     }
   }
   return power;
@@ -73,7 +73,7 @@ MeanSpectrum(const NoiseResiduals & residuals, const ParallelFor & parallelFor, 
       const std::size_t t = k * sample.frames / frames;
       const auto values = Eigen::Map<const Eigen::ArrayXXf>(residuals.OfTile(i) + t * sample.Pixels(), side, side);
       // A row of pixels is a column of the map.
-      ofTiles[i] += spectrum.PowerOf((root * values).matrix().transpose()).cast<double>() / pixels;
+      ofTiles[i] += spectrum.PowerOf((root * values).cast<double>().matrix().transpose()) / pixels;
     }
   });
   Eigen::ArrayXXd sum = Eigen::ArrayXXd::Zero(spectrum.Size(), spectrum.Size());

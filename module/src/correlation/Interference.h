@@ -33,11 +33,11 @@ public:
   }
   /** Returns the power of \a values, side x side: the squared modulus of their Fourier transform. The row is the
    * frequency along y and the column the frequency along x, in units of 1 / Size(). */
-  Eigen::ArrayXXf
-  PowerOf(const Eigen::MatrixXf & values) const;
+  Eigen::ArrayXXd
+  PowerOf(const Eigen::MatrixXd & values) const;
 
 private:
-  Eigen::MatrixXf m_Transform; // cos + sin of frequency times place
+  Eigen::MatrixXd m_Transform; // cos + sin of frequency times place
 };
 
 /** Frequency of a wave [cycles/pixel]. */

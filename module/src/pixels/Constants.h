@@ -188,8 +188,11 @@ struct PatternConstants
   double leastLeakagePixels{ 20.0 };
   double leastTilePixels{ 12.0 };
   double leastTileContrast{ 30.0 };
+  /** Dispersion of the lines of tiles about one zero, above 1, that counts in the error alone, however significant it
+   * is [1]. Chosen by its effect: it widens the error by 12 %. */
+  double smallDispersion{ 0.25 };
   /** Limits for local illumination to be a drift of the offset: side of a tile [pixel], largest chi-square about one
-   * line (or one offset), relative to the number of tiles [1], and the smallest chi-square that the line explains,
+   * line, relative to the number of tiles [1], and the smallest chi-square that the line explains,
    * relative to that chi-square [1]. Chosen empirically. */
   std::size_t driftTileSide{ 32 };
   double      largestDriftChi2{ 4.0 };

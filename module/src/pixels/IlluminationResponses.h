@@ -76,7 +76,8 @@ struct LocalOffset
   double high{ std::numeric_limits<double>::infinity() };
   /** Dispersion of the lines about the common zero, over their noise [1]; 1 if only noise separates them. */
   double      phi{ 1.0 };
-  std::size_t tiles{ 0 }; ///< number of tiles that determine a line
+  std::size_t tiles{ 0 };           ///< number of tiles that determine a line
+  bool        doLinesMeet{ false }; ///< whether they cross zero at one level, up to a small dispersion
 };
 
 /** Estimates the dark offset where the illumination is local. The response of a pixel to an illumination component is

@@ -14,7 +14,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -135,6 +134,8 @@ FitTiles(const std::vector<TileSums> & tiles, const IlluminationResponses & data
   const double     top = Explained(tiles, result.offset);
   result.phi = errors.number > 1.0 ? (errors.full - top) / (errors.number - 1.0) : 1.0;
   const double widening = std::max(1.0, result.phi);
+  result.doLinesMeet =
+    result.phi - 1.0 < std::max(InPattern.smallDispersion, Significance.oneTest * std::sqrt(2.0 / errors.number));
   if (!(errors.information > 0.0))
   {
     return std::nullopt;
@@ -244,43 +245,33 @@ SumTiles(const IlluminationResponses &            data,
   return good;
 }
 
-/** Returns the first of \a fits, of increasing errors, that agrees with the weighted mean of those behind it, within
- * three errors of this mean. */
+/** Returns the fit of the smallest standard error of those whose lines meet, and whose offset agrees with the weighted
+ * mean of such fits of larger errors, within three errors of this mean. Where the lines of no partition meet, returns
+ * the fit whose lines disperse least. Null: there is no fit. */
 std::optional<LocalOffset>
-FirstThatAgrees(const std::vector<LocalOffset> & fits)
+ChoosePartition(std::vector<LocalOffset> fits)
 {
+  std::sort(fits.begin(), fits.end(), [](const LocalOffset & a, const LocalOffset & b) {
+    return a.standardError < b.standardError;
+  });
   for (auto fit = fits.begin(); fit != fits.end(); ++fit)
   {
     double weights = 0.0;
     double difference = 0.0; // to the weighted mean, times the weights
     for (auto other = fit + 1; other != fits.end(); ++other)
     {
-      const double weight = 1.0 / (other->standardError * other->standardError);
+      const double weight = other->doLinesMeet ? 1.0 / (other->standardError * other->standardError) : 0.0;
       weights += weight;
       difference += weight * (fit->offset - other->offset);
     }
-    if (std::abs(difference) <= Significance.oneTest * std::sqrt(weights))
+    if (fit->doLinesMeet && std::abs(difference) <= Significance.oneTest * std::sqrt(weights))
     {
       return *fit;
     }
   }
-  return std::nullopt;
-}
-
-/** Returns the fit of the smallest standard error that agrees with fits of larger errors: of those whose lines cross
- * zero at one level, or of all if there are none of these. Null: there is no fit. \a factors is the number of lines of
- * a tile. */
-std::optional<LocalOffset>
-ChoosePartition(std::vector<LocalOffset> fits, std::size_t factors)
-{
-  std::sort(fits.begin(), fits.end(), [](const LocalOffset & a, const LocalOffset & b) {
-    return a.standardError < b.standardError;
-  });
-  std::vector<LocalOffset> meeting;
-  std::copy_if(fits.begin(), fits.end(), std::back_inserter(meeting), [factors](const LocalOffset & fit) {
-    return fit.phi - 1.0 < Significance.oneTest * std::sqrt(2.0 / static_cast<double>(fit.tiles * factors));
-  });
-  return FirstThatAgrees(meeting.empty() ? fits : meeting);
+  const auto least =
+    std::min_element(fits.begin(), fits.end(), [](const auto & a, const auto & b) { return a.phi < b.phi; });
+  return least == fits.end() ? std::nullopt : std::optional<LocalOffset>(*least);
 }
 } // namespace
 
@@ -310,7 +301,7 @@ FindLocalOffset(const IlluminationResponses & data, const ParallelFor & parallel
       found.push_back(*fit);
     }
   }
-  return ChoosePartition(std::move(found), responses.size());
+  return ChoosePartition(std::move(found));
 }
 
 } // namespace sensornoise

@@ -145,7 +145,7 @@ FindFailure(const RefinedResults & found,
   {
     return OffsetFailure::OutOfLimits;
   }
-  return isLocal && local->phi > InPattern.largestDriftChi2 ? OffsetFailure::OffsetsDisagree : OffsetFailure::None;
+  return isLocal && !local->doLinesMeet ? OffsetFailure::OffsetsDisagree : OffsetFailure::None;
 }
 
 /** Returns the dark offset as the illumination determines it. */
