@@ -225,6 +225,10 @@ struct PartsConstants
   /** Number of pixels from which the effect of the parts on the line is computed: it is an error, and the sampling
    * noise of its derivatives is below 1 %. */
   std::size_t pixelsOfDerivatives{ 65536 };
+  /** Prior odds of a sensor whose halves, or quadrants, have unlike variances without signal, against a uniform sensor
+   * [1]: a judgement, one sensor of ten. With odds of 1, differences by chance make the errors of the gain up to 1.7
+   * times as large. */
+  double priorOfUnlikeParts{ 0.1 };
   /** Prior standard deviations of the coefficients [1]: gains agree within a factor of 2, the variances without signal
    * (read noise, offset) within 30 %, and a curve deviates from its line by a few per cent. */
   double priorOfGain{ 1.0 };

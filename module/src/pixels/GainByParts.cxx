@@ -286,8 +286,8 @@ FindPossibleParts(const std::vector<TileExcess> & tiles)
     {
       const Eigen::VectorXd dark = fit.theta.segment(fit.gains, fit.darks);
       possible.push_back(GainsOf(fit, tiles));
-      possible.back().darkCovariance = dark * dark.transpose();
-      odds.push_back(std::exp(0.5 * std::min(more, InCommon.strongEvidence)));
+      possible.back().darkCovariance = dark * dark.transpose() - possible.back().darkCovariance;
+      odds.push_back(InParts.priorOfUnlikeParts * std::exp(0.5 * std::min(more, InCommon.strongEvidence)));
     }
   }
   const double all = std::accumulate(odds.begin(), odds.end(), 1.0);

@@ -159,7 +159,10 @@ CovarianceByOne(const PartGains &     own,
   Eigen::Matrix2d toLine; // gain and intercept, from the value at the pivot and the gain
   toLine << 0.0, 1.0, 1.0, -line.pivotDn;
   derivatives = toLine * weights.cwiseInverse().asDiagonal() * derivatives;
-  return derivatives * own.darkCovariance * derivatives.transpose();
+  const Eigen::Matrix2d covariance = derivatives * own.darkCovariance * derivatives.transpose();
+  // The square of differences less its chance may be negative.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(covariance);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();
 }
 } // namespace
 
