@@ -193,8 +193,7 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
     "periodic-interference",
     Severity::Note,
     "The frames contain sine waves with a phase of their own in each frame: pickup from a power supply or a clock. "
-    "Gain, "
-    "intercept and read noise are without them." },
+    "Gain, intercept and read noise are without them." },
   { WarningCode::NoiseCorrelated,
     "noise-correlated",
     Severity::Warning,

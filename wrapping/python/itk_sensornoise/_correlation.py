@@ -25,7 +25,7 @@ from ._update import update
 class NoiseCorrelation(Record):
     """The result of noise_correlation_estimator(): the record "itk-sensornoise-correlation/1", the names of its JSON.
 
-        found["noise_correlation"]    kind, space, time, covariance_lines, row_noise, column_noise,
+        found["noise_correlation"]    kind, space, time, covariance_lines, interference, row_noise, column_noise,
                                       excess_kurtosis: as in the report of estimate_sensor_noise()
         found["sum_over_lags"]        value, standard_error, interval95, status [1]
         found["lights"]               quarters of the pixels, dark to bright: light [DN], variance [DN^2] and its
