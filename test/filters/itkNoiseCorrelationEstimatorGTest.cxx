@@ -141,7 +141,8 @@ TEST(NoiseCorrelationEstimator, SeriesAreTakenOut)
     series[t] = t % 3 == 0 ? 2.0 : -1.0;
   }
   const auto stack = FlatStack({}, [&](std::size_t x, std::size_t y, std::size_t t) {
-    return 3.0 * std::sin(0.5 * static_cast<double>(x)) * std::cos(0.4 * static_cast<double>(y)) * series[t];
+    // A wave of less than 1/32 cycle per pixel, which is not taken for interference.
+    return 3.0 * std::sin(0.1 * static_cast<double>(x)) * std::cos(0.08 * static_cast<double>(y)) * series[t];
   });
   const auto estimator = CorrelationOf<FloatStack>(stack);
   estimator->Update();

@@ -224,7 +224,7 @@ struct PartsConstants
   double largestScatter{ 3.0 };
   /** Number of pixels from which the effect of the parts on the line is computed: it is an error, and the sampling
    * noise of its derivatives is below 1 %. */
-  std::size_t pixelsOfDerivatives{ 65536 };
+  std::size_t pixelsOfDerivatives{ std::size_t{ 1 } << 18 };
   /** Prior odds of a sensor whose halves, or quadrants, have unlike variances without signal, against a uniform sensor
    * [1]: a judgement, one sensor of ten. With odds of 1, differences by chance make the errors of the gain up to 1.7
    * times as large. */

@@ -42,19 +42,16 @@ PartGains::RatioAt(double x, double y, std::size_t phase, double shotFraction) c
                   1.0 + shotFraction * at(field, excess) + (1.0 - shotFraction) * at(darkField, dark));
 }
 
-Eigen::VectorXd
-PartGains::DarkDerivativesAt(double x, double y, std::size_t phase, double shotFraction) const
+void
+PartGains::AddDarkTerms(double x, double y, std::size_t phase, const Eigen::Vector2d & weights, Eigen::MatrixXd & sums)
+  const
 {
-  Eigen::VectorXd terms = -meanOfTerms;
   if (darkField.size() > 0)
   {
-    terms += PartRegression::FieldAt(x, y);
+    sums += weights * PartRegression::FieldAt(x, y).transpose();
+    return;
   }
-  else
-  {
-    terms(terms.size() == 1 ? 0 : static_cast<Eigen::Index>(PartOf(partition, x, y, phase))) += 1.0;
-  }
-  return (1.0 - shotFraction) * terms;
+  sums.col(sums.cols() == 1 ? 0 : static_cast<Eigen::Index>(PartOf(partition, x, y, phase))) += weights;
 }
 
 bool
@@ -106,6 +103,14 @@ MapOfRatios(const GainByParts &         parts,
 
 namespace
 {
+/** Sums over pixels for the line's value at the pivot and for its gain. */
+struct LineSums
+{
+  Eigen::MatrixXd terms;                           ///< terms of the variance without signal, over the variance
+  Eigen::Vector2d dark{ Eigen::Vector2d::Zero() }; ///< fraction of the variance without signal, over the variance
+  Eigen::Vector2d weights{ Eigen::Vector2d::Zero() };
+};
+
 /** Computes CovarianceByRatios() of one partition. */
 Eigen::Matrix2d
 CovarianceByOne(const PartGains &     own,
@@ -117,48 +122,45 @@ CovarianceByOne(const PartGains &     own,
   const VarianceLine & line = reference.line;
   const auto           width = static_cast<double>(geometry.width);
   const auto           height = static_cast<double>(geometry.height);
-  // The derivatives of the line's value at the pivot and of its gain, by rows, so that no sum depends on the threads.
-  std::vector<Eigen::MatrixXd> ofRows(geometry.height, Eigen::MatrixXd::Zero(2, own.darkCovariance.rows()));
-  std::vector<Eigen::Vector2d> weightsOfRows(geometry.height, Eigen::Vector2d::Zero());
-  const std::size_t every = std::max<std::size_t>(1, geometry.Pixels() / (LargestPeriod * InParts.pixelsOfDerivatives));
+  // By rows, so that no sum depends on the threads. Groups of rows with all phases are left out of large frames.
+  LineSums none;
+  none.terms = Eigen::MatrixXd::Zero(2, own.darkCovariance.rows());
+  std::vector<LineSums> ofRows(geometry.height, none);
+  const std::size_t     every = std::max<std::size_t>(1, geometry.Pixels() / InParts.pixelsOfDerivatives);
   parallelFor(geometry.height, [&](std::size_t row) {
-    if (row / LargestPeriod % every != 0)
-    {
-      return;
-    }
+    LineSums &   sums = ofRows[row];
     const double y = (static_cast<double>(row) + 0.5) / height;
-    // Every fourth pixel of a row; sixteen rows have all phases.
-    for (std::size_t column = (row + row / LargestPeriod) % LargestPeriod; column < geometry.width;
-         column += LargestPeriod)
+    for (std::size_t column = 0; column < geometry.width && row / LargestPeriod % every == 0; ++column)
     {
       const std::size_t p = row * geometry.width + column;
       if (data.mask[p] != 0)
       {
         const double          x = (static_cast<double>(column) + 0.5) / width;
-        const double          shot = ShotFractionAt(reference, data.mean[p]);
-        const double          variance = line.At(data.mean[p]);
+        const double          inverse = 1.0 / line.At(data.mean[p]);
         const double          beside = data.mean[p] - line.pivotDn;
-        const Eigen::VectorXd change = own.DarkDerivativesAt(x, y, PhaseOf(column, row), shot) / variance;
-        ofRows[row].row(0) += change.transpose();
-        ofRows[row].row(1) += beside * change.transpose();
-        weightsOfRows[row] += Eigen::Vector2d(1.0, beside * beside) / (variance * variance);
+        const Eigen::Vector2d dark =
+          (1.0 - ShotFractionAt(reference, data.mean[p])) * inverse * Eigen::Vector2d(1.0, beside);
+        own.AddDarkTerms(x, y, PhaseOf(column, row), dark, sums.terms);
+        sums.dark += dark;
+        sums.weights += Eigen::Vector2d(1.0, beside * beside) * inverse * inverse;
       }
     }
   });
-  Eigen::MatrixXd derivatives = Eigen::MatrixXd::Zero(2, own.darkCovariance.rows());
-  Eigen::Vector2d weights = Eigen::Vector2d::Zero();
-  for (std::size_t row = 0; row < geometry.height; ++row)
+  LineSums all = none;
+  for (const LineSums & sums : ofRows)
   {
-    derivatives += ofRows[row];
-    weights += weightsOfRows[row];
+    all.terms += sums.terms;
+    all.dark += sums.dark;
+    all.weights += sums.weights;
   }
-  if (!(weights.minCoeff() > 0.0))
+  if (!(all.weights.minCoeff() > 0.0))
   {
     return Eigen::Matrix2d::Zero();
   }
   Eigen::Matrix2d toLine; // gain and intercept, from the value at the pivot and the gain
   toLine << 0.0, 1.0, 1.0, -line.pivotDn;
-  derivatives = toLine * weights.cwiseInverse().asDiagonal() * derivatives;
+  const Eigen::MatrixXd derivatives =
+    toLine * all.weights.cwiseInverse().asDiagonal() * (all.terms - all.dark * own.meanOfTerms.transpose());
   const Eigen::Matrix2d covariance = derivatives * own.darkCovariance * derivatives.transpose();
   // The square of differences less its chance may be negative.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(covariance);

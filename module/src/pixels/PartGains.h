@@ -37,9 +37,10 @@ struct SensorNoise_EXPORT PartGains
   Eigen::MatrixXd darkCovariance;
   Eigen::VectorXd meanOfTerms; ///< mean over the pixels of what these coefficients are multiplied by [1]
 
-  /** Returns the derivatives of RatioAt() with respect to the coefficients of dark [1]. */
-  Eigen::VectorXd
-  DarkDerivativesAt(double x, double y, std::size_t phase, double shotFraction) const;
+  /** Adds to \a sums, 2 x coefficients, the terms that the coefficients of dark are multiplied by at a place, each
+   * times both \a weights. The place is that of RatioAt(). */
+  void
+  AddDarkTerms(double x, double y, std::size_t phase, const Eigen::Vector2d & weights, Eigen::MatrixXd & sums) const;
   /** Returns the variance of a pixel over the variance by the common line [1]. \a x and \a y are the place in units of
    * the frame's width and height [1]; \a shotFraction is the fraction of the common line's variance there that is shot
    * noise [1]. */
