@@ -42,7 +42,7 @@ StaticVariance
 Find(const ProjectedSquares & projected, const std::vector<std::uint8_t> & usable)
 {
   return FitStaticVariance(
-    projected, usable, std::vector<std::uint8_t>(Pixels, Unknown), OffsetDn, OffsetDn, SerialFor);
+    projected, usable, std::vector<std::uint8_t>(Pixels, Unknown), Gain, OffsetDn, OffsetDn, SerialFor);
 }
 } // namespace
 

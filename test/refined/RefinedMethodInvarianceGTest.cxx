@@ -53,8 +53,9 @@ ScalarsOf(const Report & report)
     scalars[name] = { value, std::max(std::abs(value), size) };
     if (quantity.standardError)
     {
-      // The part of the noise is subtracted from a standard error, which has fewer digits.
-      scalars[name + " se"] = { *quantity.standardError, 1e3 * *quantity.standardError };
+      // The part of the noise is subtracted from a standard error, and the odds of unlike parts multiply its rounding:
+      // it has fewer digits.
+      scalars[name + " se"] = { *quantity.standardError, 1e4 * *quantity.standardError };
     }
   };
   const double gain = ValueOf(report.gain);

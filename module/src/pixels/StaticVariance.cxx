@@ -220,6 +220,7 @@ CorrectForNoisyMeans(VarianceLine & line, double offsetDn, std::size_t frames)
 /** Levels and variance inflation that FitStaticVariance() is called with, see there. */
 struct FitPremises
 {
+  double firstGain;
   double offsetDn;
   double blackDn;
   double varianceInflation;
@@ -254,8 +255,7 @@ SelectStaticPixels(const ProjectedSquares &          squares,
   found.varianceInflation = premises.varianceInflation;
   found.pixelUse = std::move(pixelUse);
   found.mask = MaskOfFlatClasses(squares, usable, parallelFor);
-  // A gain that is too small changes the variances little, one that is too large makes them negative.
-  FittedLine                 drawn = FitFirstLine({ squares, 0.0 }, usable, found.mask, parallelFor);
+  FittedLine                 drawn = FitFirstLine({ squares, premises.firstGain }, usable, found.mask, parallelFor);
   std::optional<GainByParts> dividedBy;
   if (mayDivide && drawn.line.isDetermined)
   {
@@ -299,7 +299,7 @@ FitOnce(const ProjectedSquares &          squares,
         bool                              mayDivide,
         const ParallelFor &               parallelFor)
 {
-  const auto [offsetDn, blackDn, varianceInflation] = premises;
+  const auto [firstGain, offsetDn, blackDn, varianceInflation] = premises;
   auto [drawn, found, dividedBy] =
     SelectStaticPixels(squares, usable, std::move(pixelUse), premises, mayDivide, parallelFor);
   const bool isDivided = drawn.projected.HasRatios();
@@ -365,12 +365,13 @@ StaticVariance
 FitStaticVariance(const ProjectedSquares &          squares,
                   const std::vector<std::uint8_t> & usable,
                   std::vector<std::uint8_t>         pixelUse,
+                  double                            firstGain,
                   double                            offsetDn,
                   double                            blackDn,
                   const ParallelFor &               parallelFor,
                   double                            varianceInflation)
 {
-  const FitPremises premises{ offsetDn, blackDn, varianceInflation };
+  const FitPremises premises{ firstGain, offsetDn, blackDn, varianceInflation };
   StaticFit         found = FitOnce(squares, usable, pixelUse, premises, true, parallelFor);
   if (found.isDivided && found.variance.parts.Larger() == nullptr)
   {

@@ -63,14 +63,17 @@ struct StaticVariance
  * ones. Neighbourhoods are tested before classes, because an object that moves across the frame has pixels in all
  * classes.
  *
- * \a pixelUse is the use of the pixels as known before; the use of the \a usable pixels is set. \a offsetDn is the dark
- * offset, or the darkest level if the offset is not known [DN]; \a blackDn is the dark offset, or a level that it is
- * not below [DN]. \a varianceInflation is the variance inflation by the spatial noise correlation, see RejectionModel
- * [1]. If too few pixels are left, the line is not determined, and the results that depend on it are missing. */
+ * \a pixelUse is the use of the pixels as known before; the use of the \a usable pixels is set. \a firstGain is
+ * the gain by which the variances are corrected before the first line [DN/e-]; 0 where it is not known nearly. \a
+ * offsetDn is the dark offset, or the darkest level if the offset is not known [DN];
+ * \a blackDn is the dark offset, or a level that it is not below [DN]. \a varianceInflation is the variance inflation
+ * by the spatial noise correlation, see RejectionModel [1]. If too few pixels are left, the line is not determined, and
+ * the results that depend on it are missing. */
 SensorNoise_EXPORT StaticVariance
 FitStaticVariance(const ProjectedSquares &          squares,
                   const std::vector<std::uint8_t> & usable,
                   std::vector<std::uint8_t>         pixelUse,
+                  double                            firstGain,
                   double                            offsetDn,
                   double                            blackDn,
                   const ParallelFor &               parallelFor,

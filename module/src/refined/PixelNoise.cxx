@@ -245,9 +245,12 @@ MeasurePixelNoise(ResidualSquares                          squares,
   }
   ProjectedSquares projected =
     ProjectSquares(std::move(squares), scene, *series, allowed.replaced, codeNoise, parallelFor);
-  const auto fit = [&](double varianceInflation) {
+  // The initial model contains the variance of local illumination: its gain may be a hundred times too large, and would
+  // make the corrected variances negative. A gain of 0 changes them by a few per cent.
+  const double firstGain = series->local.IsLocal() ? 0.0 : scene.model.slopeDn;
+  const auto   fit = [&](double varianceInflation) {
     StaticVariance variance =
-      FitStaticVariance(projected, chosen, pixelUse, offsetDn, blackDn, parallelFor, varianceInflation);
+      FitStaticVariance(projected, chosen, pixelUse, firstGain, offsetDn, blackDn, parallelFor, varianceInflation);
     variance.codeNoise = codeNoise;
     return variance;
   };
