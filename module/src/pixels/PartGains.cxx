@@ -104,7 +104,7 @@ MapOfRatios(const GainByParts &         parts,
 namespace
 {
 /** Sums over pixels for the line's value at the pivot and for its gain. */
-struct LineSums
+struct SumsOfParts
 {
   Eigen::MatrixXd terms;                           ///< terms of the variance without signal, over the variance
   Eigen::Vector2d dark{ Eigen::Vector2d::Zero() }; ///< fraction of the variance without signal, over the variance
@@ -123,13 +123,13 @@ CovarianceByOne(const PartGains &     own,
   const auto           width = static_cast<double>(geometry.width);
   const auto           height = static_cast<double>(geometry.height);
   // By rows, so that no sum depends on the threads. Groups of rows with all phases are left out of large frames.
-  LineSums none;
+  SumsOfParts none;
   none.terms = Eigen::MatrixXd::Zero(2, own.darkCovariance.rows());
-  std::vector<LineSums> ofRows(geometry.height, none);
-  const std::size_t     every = std::max<std::size_t>(1, geometry.Pixels() / InParts.pixelsOfDerivatives);
+  std::vector<SumsOfParts> ofRows(geometry.height, none);
+  const std::size_t        every = std::max<std::size_t>(1, geometry.Pixels() / InParts.pixelsOfDerivatives);
   parallelFor(geometry.height, [&](std::size_t row) {
-    LineSums &   sums = ofRows[row];
-    const double y = (static_cast<double>(row) + 0.5) / height;
+    SumsOfParts & sums = ofRows[row];
+    const double  y = (static_cast<double>(row) + 0.5) / height;
     for (std::size_t column = 0; column < geometry.width && row / LargestPeriod % every == 0; ++column)
     {
       const std::size_t p = row * geometry.width + column;
@@ -146,8 +146,8 @@ CovarianceByOne(const PartGains &     own,
       }
     }
   });
-  LineSums all = none;
-  for (const LineSums & sums : ofRows)
+  SumsOfParts all = none;
+  for (const SumsOfParts & sums : ofRows)
   {
     all.terms += sums.terms;
     all.dark += sums.dark;
