@@ -81,9 +81,9 @@ private:
  * Estimator.md, 3.12. */
 struct PeriodicInterference
 {
-  double         cyclesPerColumn; ///< frequency along x [cycles/pixel]
-  double         cyclesPerRow;    ///< frequency along y [cycles/pixel]
-  MeasuredNumber varianceDn2;     ///< mean square of the wave [DN^2]
+  double         cyclesPerColumn{ 0.0 }; ///< frequency along x [cycles/pixel]
+  double         cyclesPerRow{ 0.0 };    ///< frequency along y [cycles/pixel]
+  MeasuredNumber varianceDn2;            ///< mean square of the wave [DN^2]
 };
 
 /** Properties of the pixels of a frame whose noise is sampled. */
