@@ -23,8 +23,6 @@ namespace
 constexpr std::size_t Derivatives = 5;
 constexpr std::size_t Side = 8; // of a tile [pixel]
 
-using Surface = Eigen::Matrix<double, 6, 1>;
-
 /** Division of the frame into bands, each one row of tiles. The variables of a pixel are its derivatives and its
  * responses to the illumination. */
 class Bands
@@ -55,8 +53,7 @@ public:
   Surface
   SurfaceAt(std::size_t p, double centred) const
   {
-    const Eigen::Vector2d place = sensornoise::Tiles{ Side, Side, this->Tiles() }.PlaceOf(p, m_Frame.geometry.width);
-    return (Surface() << 1.0, centred, place, centred * place).finished();
+    return sensornoise::Tiles{ Side, Side, this->Tiles() }.SurfaceAt(p, m_Frame.geometry.width, centred);
   }
   std::size_t
   Variables() const

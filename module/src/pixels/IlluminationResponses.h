@@ -33,6 +33,9 @@ struct IlluminationResponses
   double                            rangeDn;   ///< brightest minus darkest quantile of the means [DN]
 };
 
+/** Terms of a surface in a tile: 1 and I, the mean minus the centre, and both times the place (x, y) in the tile. */
+using Surface = Eigen::Matrix<double, 6, 1>;
+
 /** Division of the frame into tiles within which local illumination has one pattern. */
 struct Tiles
 {
@@ -54,6 +57,13 @@ struct Tiles
       return (static_cast<double>(at % size) + 0.5) / static_cast<double>(size) - 0.5;
     };
     return { part(p % frameWidth, width), part(p / frameWidth, height) };
+  }
+  /** Returns the terms of a surface at pixel \a p, whose mean minus the centre is \a centred [DN]. */
+  Surface
+  SurfaceAt(std::size_t p, std::size_t frameWidth, double centred) const
+  {
+    const Eigen::Vector2d place = this->PlaceOf(p, frameWidth);
+    return (Surface() << 1.0, centred, place, centred * place).finished();
   }
 };
 

@@ -152,16 +152,15 @@ FitTiles(const std::vector<TileSums> & tiles, const IlluminationResponses & data
   return result;
 }
 
-/** Number of the terms 1, I, x, y, I x and I y of a tile: 1 and I with slopes along the place (x, y). */
-constexpr int Terms = 6;
-using TermProducts = Eigen::Matrix<double, Terms, 1>;
+/** Number of the terms of a Surface. */
+constexpr int Terms = Surface::SizeAtCompileTime;
 
-/** Sums over a tile of the products of its terms, and of these terms with each response. */
+/** Sums over a tile of the products of the terms of its surface, and of these terms with each response. */
 struct TileMoments
 {
   double                              n{ 0.0 };
   Eigen::Matrix<double, Terms, Terms> gram{ Eigen::Matrix<double, Terms, Terms>::Zero() };
-  std::vector<TermProducts>           products;
+  std::vector<Surface>                products;
 
   /** Returns the sums of 1 and I after the regression of both on the other terms (Frisch & Waugh 1933). Null if the
    * contrast of the tile does not determine I x and I y: they differ from x and y by no more than the noise of the
@@ -182,7 +181,7 @@ struct TileMoments
       gram.bottomRightCorner<Terms - 2, Terms - 2>().ldlt().solve(gram.bottomLeftCorner<Terms - 2, 2>());
     const Eigen::Matrix2d left = gram.topLeftCorner<2, 2>() - gram.topRightCorner<2, Terms - 2>() * slopes;
     TileSums              sums{ n, left(0, 0), left(0, 1), left(1, 1), {}, {} };
-    for (const TermProducts & product : products)
+    for (const Surface & product : products)
     {
       const Eigen::Vector2d own = product.head<2>() - slopes.transpose() * product.tail<Terms - 2>();
       sums.r1.push_back(own(0));
@@ -208,18 +207,17 @@ SumTiles(const IlluminationResponses &            data,
   std::vector<TileMoments> moments(tiles.across * ((frame.geometry.height + tileHeight - 1) / tileHeight));
   for (TileMoments & own : moments)
   {
-    own.products.assign(factors, TermProducts::Zero());
+    own.products.assign(factors, Surface::Zero());
   }
   for (std::size_t p = 0; p < data.mask.size(); ++p)
   {
     if (data.mask[p] != 0)
     {
-      const double          w = 1.0 / data.line.At(frame.neighbourMean[p]);
-      const double          centred = frame.mean[p] - data.centreDn;
-      const Eigen::Vector2d place = tiles.PlaceOf(p, width);
-      const TermProducts    terms = (TermProducts() << 1.0, centred, place, centred * place).finished();
-      const TermProducts    ofMean = (TermProducts() << 0.0, 1.0, 0.0, 0.0, place).finished(); // derivative to I
-      TileMoments &         own = moments[tiles.Of(p, width)];
+      const double  w = 1.0 / data.line.At(frame.neighbourMean[p]);
+      const double  centred = frame.mean[p] - data.centreDn;
+      const Surface terms = tiles.SurfaceAt(p, width, centred);
+      const Surface ofMean = (Surface() << 0.0, 1.0, 0.0, 0.0, terms.segment<2>(2)).finished(); // derivative to I
+      TileMoments & own = moments[tiles.Of(p, width)];
       own.n += 1.0;
       own.gram += w * terms * terms.transpose() - ofMean * ofMean.transpose() / frames; // the noise of the mean
       for (std::size_t j = 0; j < factors; ++j)
