@@ -80,9 +80,10 @@ MapOfRatios(const GainByParts &         parts,
             const PartReference &       reference,
             const ParallelFor &         parallelFor)
 {
-  std::vector<float> ratios(mean.size(), 1.0F);
-  const auto         width = static_cast<double>(geometry.width);
-  const auto         height = static_cast<double>(geometry.height);
+  std::vector<float>           ratios(mean.size(), 1.0F);
+  const std::vector<PartGains> ofPixels = parts.OfPixels();
+  const auto                   width = static_cast<double>(geometry.width);
+  const auto                   height = static_cast<double>(geometry.height);
   parallelFor(geometry.height, [&](std::size_t row) {
     const double y = (static_cast<double>(row) + 0.5) / height;
     for (std::size_t column = 0; column < geometry.width; ++column)
@@ -91,9 +92,9 @@ MapOfRatios(const GainByParts &         parts,
       const double      x = (static_cast<double>(column) + 0.5) / width;
       const double      shot = ShotFractionAt(reference, mean[p]);
       double            ratio = 1.0;
-      for (const auto * const own : { &parts.places, &parts.phases })
+      for (const PartGains & own : ofPixels)
       {
-        ratio *= *own ? (*own)->RatioAt(x, y, PhaseOf(column, row), shot) : 1.0;
+        ratio *= own.RatioAt(x, y, PhaseOf(column, row), shot);
       }
       ratios[p] = static_cast<float>(ratio);
     }
