@@ -165,9 +165,9 @@ TEST(SensorNoiseInterference, WavesAreFoundAndSubtracted)
   {
     // A wave equals the wave of both opposite frequencies, and 0.5 equals -0.5.
     const auto isThis = [&](const PeriodicInterference & wave) {
-      const double sign = wave.cyclesPerColumn * waves[k].cyclesPerColumn < 0.0 ? -1.0 : 1.0;
-      return std::abs(sign * wave.cyclesPerColumn - waves[k].cyclesPerColumn) < 5e-4 &&
-             std::abs(sign * wave.cyclesPerRow - waves[k].cyclesPerRow) < 5e-4;
+      const double sign = wave.frequency.cyclesPerColumn * waves[k].cyclesPerColumn < 0.0 ? -1.0 : 1.0;
+      return std::abs(sign * wave.frequency.cyclesPerColumn - waves[k].cyclesPerColumn) < 5e-4 &&
+             std::abs(sign * wave.frequency.cyclesPerRow - waves[k].cyclesPerRow) < 5e-4;
     };
     const auto wave = std::find_if(found.interference.begin(), found.interference.end(), isThis);
     ASSERT_NE(wave, found.interference.end()) << k;
@@ -184,7 +184,7 @@ TEST(SensorNoiseInterference, SubtractionLeavesWhiteNoiseWhite)
   NoiseResiduals residuals = ResidualsOf(WhiteNoise(Geometry, 9));
   for (int k = 0; k < 8; ++k)
   {
-    residuals.SubtractWave(0.1 + 0.002 * k, 0.2, SerialFor); // nearly the same in a tile
+    residuals.SubtractWave({ 0.1 + 0.002 * k, 0.2 }, SerialFor); // nearly the same in a tile
   }
   EXPECT_NEAR(VarianceOf(residuals), 1.0, 4.0 * ErrorOfVariance(residuals));
   const NoiseCorrelation found = MeasureNoiseCorrelation(residuals, 0.0, SerialFor);
@@ -212,7 +212,7 @@ TEST(SensorNoiseInterference, StructuredNoiseIsTheSumOfWhatIsSignificant)
   NoiseCorrelation correlation;
   correlation.rowsDn2 = { 2.0, 0.1 };
   correlation.columnsDn2 = { 0.2, 0.1 };
-  correlation.interference = { { 0.1, 0.2, { 5.0, 0.3 } }, { 0.3, 0.2, { 0.5, 0.4 } } };
+  correlation.interference = { { { 0.1, 0.2 }, { 5.0, 0.3 } }, { { 0.3, 0.2 }, { 0.5, 0.4 } } };
   EXPECT_DOUBLE_EQ(correlation.LineNoise().value, 2.0);
   EXPECT_DOUBLE_EQ(correlation.StructuredNoise().value, 7.0);
   EXPECT_DOUBLE_EQ(correlation.StructuredNoise().standardError, std::hypot(0.1, 0.3));

@@ -210,7 +210,7 @@ TEST(SensorNoiseCorrelationReport, NormalNoiseThatIsNotLinearIsInterferenceOrRou
 TEST(SensorNoiseCorrelationReport, InterferenceIsInTheRecord)
 {
   NoiseCorrelation correlation = CorrelationOf(NoiseKind::White);
-  correlation.interference = { { 0.1, 0.2, { 4.0, 0.4 } } };
+  correlation.interference = { { { 0.1, 0.2 }, { 4.0, 0.4 } } };
   const NoiseCorrelationRecord record = RecordOf(correlation);
   ASSERT_EQ(record.interference.size(), 1U);
   EXPECT_DOUBLE_EQ(record.interference.front().rmsDn, 2.0);
@@ -220,7 +220,7 @@ TEST(SensorNoiseCorrelationReport, InterferenceIsInTheRecord)
 TEST(SensorNoiseCorrelationReport, TheStrongestWaveIsNamed)
 {
   NoiseCorrelation correlation = CorrelationOf(NoiseKind::White);
-  correlation.interference = { { 0.1, 0.2, { 4.0, 0.4 } }, { 0.173, -0.091, { 9.0, 0.6 } } };
+  correlation.interference = { { { 0.1, 0.2 }, { 4.0, 0.4 } }, { { 0.173, -0.091 }, { 9.0, 0.6 } } };
   Report report;
   report.noiseCorrelation = RecordOf(correlation);
   WarnOfCorrelation(report, correlation);

@@ -34,7 +34,8 @@ struct CorrelationConstants
    * Chosen for its computing time: a thousandth of the time for 100 frames of 512 x 512 pixels. */
   std::size_t mostTilesOfLineIllumination{ 32 };
   /** Smallest variance of the signal along a line, relative to its mean square, for which the signal is a regressor
-   * beside the constant [1]. It guards against rounding errors, as both regressors are subtracted together. */
+   * beside the constant [1]. It guards against rounding errors, as both regressors are subtracted together. Also of
+   * cosine and sine of a wave along a tile. */
   double leastVarianceOfLine{ 1e-4 };
   /** Smallest fraction of a pixel's variance that may remain after the regression along its line [1]. A pixel that
    * makes up half of its line determines the regression, and little of its own noise remains. */

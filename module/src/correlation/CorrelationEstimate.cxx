@@ -317,7 +317,7 @@ RecordOf(const NoiseCorrelation & correlation)
   {
     const double rms = std::sqrt(std::max(0.0, wave.varianceDn2.value));
     const double error = rms > 0.0 ? wave.varianceDn2.standardError / (2.0 * rms) : 0.0;
-    record.interference.push_back({ wave.cyclesPerColumn, wave.cyclesPerRow, rms, error });
+    record.interference.push_back({ wave.frequency.cyclesPerColumn, wave.frequency.cyclesPerRow, rms, error });
   }
   record.rowNoise = LineNoise(correlation.rowsDn2);
   record.columnNoise = LineNoise(correlation.columnsDn2);

@@ -169,7 +169,7 @@ MeasureWithoutInterference(NoiseResiduals & residuals, double codesDn2, const Pa
     {
       break;
     }
-    residuals.SubtractWave(line->alongX, line->alongY, parallelFor);
+    residuals.SubtractWave(*line, parallelFor);
   }
   return residuals.GetInterference().size() > before ? MeasureNoiseCorrelation(residuals, codesDn2, parallelFor)
                                                      : found;

@@ -40,13 +40,6 @@ private:
   Eigen::MatrixXd m_Transform; // cos + sin of frequency times place
 };
 
-/** Frequency of a wave [cycles/pixel]. */
-struct WaveFrequency
-{
-  double alongX;
-  double alongY;
-};
-
 /** Returns the frequency of the strongest narrow line in a mean power spectrum of \a tiles tiles that TileSpectrum
  * made, between its frequencies by a parabola; null: it has none. White noise has the power 1. */
 SensorNoise_EXPORT std::optional<WaveFrequency>

@@ -124,8 +124,7 @@ namespace
  * and to \a before: pixels x 2. A column is 0 where the pixels do not determine it, as the sine of a wave that
  * alternates from pixel to pixel. */
 Eigen::ArrayX2d
-OrthonormalWave(double                             cyclesPerColumn,
-                double                             cyclesPerRow,
+OrthonormalWave(const WaveFrequency &              frequency,
                 std::size_t                        side,
                 const Eigen::ArrayXd &             w,
                 const std::vector<const float *> & before)
@@ -134,9 +133,9 @@ OrthonormalWave(double                             cyclesPerColumn,
   for (Eigen::Index p = 0; p < w.size(); ++p)
   {
     const auto   place = static_cast<std::size_t>(p);
-    const double angle =
-      2.0 * std::acos(-1.0) *
-      (cyclesPerColumn * static_cast<double>(place % side) + cyclesPerRow * static_cast<double>(place / side));
+    const double angle = 2.0 * std::acos(-1.0) *
+                         (frequency.cyclesPerColumn * static_cast<double>(place % side) +
+                          frequency.cyclesPerRow * static_cast<double>(place / side));
     wave.row(p) << std::cos(angle), std::sin(angle);
   }
   const double least = InCorrelation.leastVarianceOfLine * w.sum();
@@ -176,8 +175,7 @@ MeanOfTiles(std::vector<double> numbers)
 
 double
 NoiseResiduals::SubtractWaveOfTile(std::size_t                    i,
-                                   double                         cyclesPerColumn,
-                                   double                         cyclesPerRow,
+                                   const WaveFrequency &          frequency,
                                    const std::array<float *, 2> & projections)
 {
   const SampleTiles &  tiles = this->GetTiles();
@@ -188,7 +186,7 @@ NoiseResiduals::SubtractWaveOfTile(std::size_t                    i,
     return std::numeric_limits<double>::quiet_NaN();
   }
   const std::vector<const float *> before = this->WaveProjectionsOf(i);
-  const Eigen::ArrayX2d            wave = OrthonormalWave(cyclesPerColumn, cyclesPerRow, tiles.side, w, before);
+  const Eigen::ArrayX2d            wave = OrthonormalWave(frequency, tiles.side, w, before);
   const Eigen::ArrayXd             rest = 1.0 - w * wave.square().rowwise().sum();
   const Eigen::ArrayXd             scale = (rest > InCorrelation.leastLeftOfLine).select(rest.max(1e-9).rsqrt(), 1.0);
   const Eigen::Vector2d            meanSquares = wave.square().colwise().mean().transpose();
@@ -210,7 +208,7 @@ NoiseResiduals::SubtractWaveOfTile(std::size_t                    i,
 }
 
 void
-NoiseResiduals::SubtractWave(double cyclesPerColumn, double cyclesPerRow, const ParallelFor & parallelFor)
+NoiseResiduals::SubtractWave(const WaveFrequency & frequency, const ParallelFor & parallelFor)
 {
   const SampleTiles &               tiles = this->GetTiles();
   std::vector<double>               squares(tiles.origins.size());
@@ -220,13 +218,13 @@ NoiseResiduals::SubtractWave(double cyclesPerColumn, double cyclesPerRow, const 
   parallelFor(tiles.origins.size(), [&](std::size_t i) {
     const std::size_t            first = i * tiles.Pixels();
     const std::array<float *, 2> ofTile{ projections[0].data() + first, projections[1].data() + first };
-    squares[i] = this->SubtractWaveOfTile(i, cyclesPerColumn, cyclesPerRow, ofTile);
+    squares[i] = this->SubtractWaveOfTile(i, frequency, ofTile);
     this->SumSquares(i);
   });
   std::transform(m_Weight.begin(), m_Weight.end(), take.begin(), [](float weight) { return weight > 0.0F ? 1 : 0; });
   this->Weigh(take);
   std::move(projections.begin(), projections.end(), std::back_inserter(m_WaveProjections));
-  m_Interference.push_back({ cyclesPerColumn, cyclesPerRow, MeanOfTiles(squares) });
+  m_Interference.push_back({ frequency, MeanOfTiles(squares) });
 }
 
 } // namespace sensornoise

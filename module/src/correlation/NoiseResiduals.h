@@ -77,13 +77,19 @@ private:
   double          m_OffsetDn{ 0.0 };
 };
 
+/** Frequency of a sine wave across the frame. */
+struct WaveFrequency
+{
+  double cyclesPerColumn{ 0.0 }; ///< along x [cycles/pixel]
+  double cyclesPerRow{ 0.0 };    ///< along y [cycles/pixel]
+};
+
 /** Periodic interference: a sine wave across the frame, whose amplitude and phase are free in each tile of each frame.
  * Estimator.md, 3.12. */
 struct PeriodicInterference
 {
-  double         cyclesPerColumn{ 0.0 }; ///< frequency along x [cycles/pixel]
-  double         cyclesPerRow{ 0.0 };    ///< frequency along y [cycles/pixel]
-  MeasuredNumber varianceDn2;            ///< mean square of the wave [DN^2]
+  WaveFrequency  frequency;
+  MeasuredNumber varianceDn2; ///< mean square of the wave [DN^2]
 };
 
 /** Properties of the pixels of a frame whose noise is sampled. */
@@ -144,11 +150,11 @@ public:
   std::vector<float>
   TakeOffLines(LineAxis axis, const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor);
 
-  /** Subtracts a sine wave of these frequencies [cycles/pixel] from each tile of each frame, by least squares over the
+  /** Subtracts a sine wave of this frequency from each tile of each frame, by least squares over the
    * pixels that are used. Their values are divided by sqrt(1 - h) as in TakeOffLines(), and the weights and bins are
    * computed again. */
   void
-  SubtractWave(double cyclesPerColumn, double cyclesPerRow, const ParallelFor & parallelFor);
+  SubtractWave(const WaveFrequency & frequency, const ParallelFor & parallelFor);
   /** Returns the waves that were subtracted. */
   const std::vector<PeriodicInterference> &
   GetInterference() const
@@ -290,10 +296,7 @@ private:
   /** Does the regression of SubtractWave() in tile \a i, and stores its two projections in \a projections. Returns the
    * mean square of the wave [DN^2]; NaN if the tile has too few pixels. */
   double
-  SubtractWaveOfTile(std::size_t                    i,
-                     double                         cyclesPerColumn,
-                     double                         cyclesPerRow,
-                     const std::array<float *, 2> & projections);
+  SubtractWaveOfTile(std::size_t i, const WaveFrequency & frequency, const std::array<float *, 2> & projections);
   /** Sets the weights by averaging the variance along the signal, and the intensity bins. */
   void
   Weigh(const std::vector<std::uint8_t> & take);

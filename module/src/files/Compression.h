@@ -115,7 +115,7 @@ LengthOfLzw(FileBytes &     bytes,
             unsigned char * out = nullptr);
 
 /** Returns the number of samples that the lossless JPEG (ITU-T T.81, Annex H: SOF3) in these bytes declares. Throws
- * FileError, of which \a piece begins the sentence, where it is another JPEG, which loses something, or none, or where
+ * FileError, whose sentence begins with \a piece, where the bytes are no JPEG or a JPEG that loses something, or where
  * its only scan does not go on to the end of the image within these bytes. */
 std::uint64_t
 SamplesOfLosslessJpeg(const std::string & piece, FileBytes & bytes, std::uint64_t offset, std::uint64_t count);

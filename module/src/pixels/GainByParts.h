@@ -19,9 +19,8 @@ SensorNoise_EXPORT GainByParts
 CompareParts(const PartTiles & tiles);
 
 /** Returns the partitions by place that may have unlike variances without signal, where CompareParts() finds no places.
- * The covariance of each is that of its differences as an error: their square beyond chance, times the probability of
- * the partition.
- * Estimator.md, 3.15. */
+ * The covariance of each has its differences as an error: their square beyond chance, times the probability of the
+ * partition. Estimator.md, 3.15. */
 SensorNoise_EXPORT std::vector<PartGains>
 FindPossibleParts(const std::vector<TileExcess> & tiles);
 

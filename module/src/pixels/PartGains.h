@@ -38,7 +38,7 @@ struct SensorNoise_EXPORT PartGains
   Eigen::VectorXd meanOfTerms; ///< mean over the pixels of what these coefficients are multiplied by [1]
 
   /** Adds to \a sums, 2 x coefficients, the terms that the coefficients of dark are multiplied by at a place, each
-   * times both \a weights. The place is that of RatioAt(). */
+   * times both \a weights. The place is given as in RatioAt(). */
   void
   AddDarkTerms(double x, double y, std::size_t phase, const Eigen::Vector2d & weights, Eigen::MatrixXd & sums) const;
   /** Returns the variance of a pixel over the variance by the common line [1]. \a x and \a y are the place in units of
