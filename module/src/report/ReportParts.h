@@ -37,7 +37,12 @@ WriteJson(JsonWriter & json, const NoiseCorrelationRecord::Lag & lag);
 /** Writes the line of the covariance at one lag as an object. Its `lag` is [x, y] in pixels. */
 SensorNoise_EXPORT void
 WriteJson(JsonWriter & json, const NoiseCorrelationRecord::Line & line);
-/** Writes the noise correlation as an object: noise class (`kind`), coefficients, covariance lines and quantities. */
+/** Writes a wave of periodic interference as an object: its frequency along both axes, its root mean square and error.
+ */
+SensorNoise_EXPORT void
+WriteJson(JsonWriter & json, const NoiseCorrelationRecord::Interference & wave);
+/** Writes the noise correlation as an object: noise class (`kind`), coefficients, covariance lines, interference and
+ * quantities. */
 SensorNoise_EXPORT void
 WriteJson(JsonWriter & json, const NoiseCorrelationRecord & correlation);
 
