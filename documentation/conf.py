@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Configuration of Sphinx for the documentation: `bash documentation/build.sh` builds it into build/site."""
 
+import os
 import pathlib
 import re
 import subprocess
@@ -69,8 +70,10 @@ def _with_page_links(text: str, folder: pathlib.Path, page_folder: pathlib.Path)
     def link(match: re.Match[str]) -> str:
         words, target, anchor = match.groups()
         path = (folder / target).resolve()
-        if path.is_relative_to(SOURCE / "documentation") or not path.exists():
+        if not path.exists():
             return match[0]
+        if path.is_relative_to(SOURCE / "documentation"):
+            return f"[{words}]({os.path.relpath(path, page_folder.resolve())}{anchor or ''})"
         name = str(path.relative_to(SOURCE))
         if page := PAGES.get(name):
             steps = len(page_folder.resolve().relative_to(SOURCE / "documentation").parts)
