@@ -194,7 +194,7 @@ FindLocalMotion(const NoiseResiduals & residuals, const ParallelFor & parallelFo
  * It is caused by a pulsed lamp under a rolling shutter, or by interlaced frames. The covariance of pixels in a line
  * that a change of the illumination causes grows with the squared signal. The noise of whole lines does not depend on
  * the signal, which distinguishes both. Returns 0 with an infinite error where the signals do not differ enough.
- * Estimator.md, 3.12. */
+ * Estimator.md, 3.18. */
 SensorNoise_EXPORT MeasuredNumber
 EstimateLineIlluminationChange(const NoiseResiduals & residuals, LineAxis axis, const ParallelFor & parallelFor);
 
