@@ -41,9 +41,9 @@ struct FrameList
   std::size_t            width{ 0 };  // pixels
   std::size_t            height{ 0 }; // pixels
   std::size_t            frames{ 0 };
-  std::uint64_t          bytes{ 0 }; // of the pixels of all frames, uncompressed
+  std::uint64_t          bytes{ 0 }; // bytes of the pixels of all frames, uncompressed
   FrameListGeometry      geometry;
-  CameraSettings         camera; // from the first file
+  CameraSettings         camera; // settings of the camera, from the first file
 
   std::vector<std::string>
   Names() const;

@@ -42,7 +42,7 @@ NeedOf(const Burst & burst, const BurstOptions & options)
   const std::size_t pixels = burst.geometry.Pixels();
   if (options.method != "refined")
   {
-    constexpr double bytesPerPixel = 40.0; // of the published method; the single-image method needs less
+    constexpr double bytesPerPixel = 40.0; // need of the published method; the single-image method needs less
     const double     bytes = bytesPerPixel * static_cast<double>(pixels);
     return { bytes, bytes };
   }

@@ -35,7 +35,8 @@ LEVELS = (0.03, 0.1, 0.3)  # of green, from black to white
 SCALES = (3e-5, 6e-4)  # S of a camera with 33000 electrons at base ISO, and at 20 times this ISO
 OFFSETS = (4e-8, 2e-6)  # O of the same: a read noise of 7 electrons, and of 2
 ILLUMINANTS = {"grey": (1.0, 1.0, 1.0), "daylight": (0.5, 1.0, 0.65), "tungsten": (0.8, 1.0, 0.35)}  # R, G, B over G
-METHODS = {"ppg": 0, "amaze": 1, "vng4": 2, "monochrome": 3, "rcd": 5, "lmmse": 6}  # of darktable's demosaicing
+# Numbers of darktable's demosaicing methods.
+METHODS = {"ppg": 0, "amaze": 1, "vng4": 2, "monochrome": 3, "rcd": 5, "lmmse": 6}
 MAD = 0.6745  # median of the absolute value of a normal variable
 
 

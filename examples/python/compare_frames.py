@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 from typing import NamedTuple
 
-LAST_LINE = b"ElementDataFile = LOCAL\n"  # of the header of a MetaImage; the pixels follow
+LAST_LINE = b"ElementDataFile = LOCAL\n"  # last line of the header of a MetaImage; the pixels follow
 METAIMAGE_TYPES = {"MET_UCHAR": "|u1", "MET_USHORT": "<u2"}
 NPY_MAGIC = b"\x93NUMPY\x01\x00"
 NPY_ALIGNMENT = 64  # the header of an .npy file ends at a multiple of it [bytes]

@@ -17,7 +17,7 @@ from paper_tables import CAMERAS, CANON, CANON_BITS, CANON_MOTION, CANON_OFFSET,
 PAPER_SIZE = 512  # [pixels]
 PAPER_BITS = 12
 MOSAIC_SIZE = (512, 384)  # width and height [pixels]
-FRAMES = 100  # of each burst, as in the paper
+FRAMES = 100  # number of frames of each burst, as in the paper
 # Brightest pixel behind a clear filter, in fractions of the range of the converter above the offset: the frames do not
 # clip under the strongest flicker of the settings.
 MOSAIC_EXPOSURE = 0.6
@@ -33,7 +33,7 @@ CANON_SPEEDS = {"EOS 350D": (100, 200, 400, 800, 1600), "EOS 6D": (100, 400, 160
 # those of the EOS 350D at similar exposure times [1].
 EOS_6D_FLICKERS = {100: 0.0088, 400: 0.0088, 1600: 0.058, 3200: 0.15, 6400: EOS_6D_FLICKER}
 EOS_6D_VIBRATION = (0.04, 0.06)  # about those of the EOS 350D, along x and y [pixels of the channel]
-FLAT_LEVELS = 11  # of the exposure series of flats, from a tenth of the range of the converter to a tenth above it
+FLAT_LEVELS = 11  # exposures of the flats, from a tenth of the converter's range to a tenth above it
 FLAT_SIZE = 256  # [pixels]
 
 

@@ -23,7 +23,7 @@ from situations import (
 
 BITS = 12
 HIGHEST = 2**BITS - 1  # highest digital number [DN]
-OTHER_GAIN, OTHER_OFFSET_DN = 1.5, 40.0  # of frames read differently: factor [1], and increase of the offset [DN]
+OTHER_GAIN, OTHER_OFFSET_DN = 1.5, 40.0  # frames read differently: factor of the gain [1], increase of the offset [DN]
 DIP_DEPTH, DIP_RADIUS = 0.12, 0.3  # decrease of the illumination [1], standard deviation over the frame width [1]
 SHADOW = 0.6  # illumination factor in a shadow that covers a quarter of the frame [1]
 

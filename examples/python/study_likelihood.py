@@ -29,7 +29,7 @@ from situations_good import shifted
 from situations_parts import stereo
 from situations_shared import filtered
 
-HIGHEST = 4095  # of 12 bits; no burst of 16 bits comes near its own limit [DN]
+HIGHEST = 4095  # limit of 12 bits; no burst of 16 bits comes near its limit [DN]
 QUANTITIES = ("gain", "intercept", "offset")
 NORMAL95 = 1.96  # half width of a 95 % interval of a normal error [standard errors]
 METHODS = ("refined", "projected", "variance")

@@ -20,10 +20,10 @@ from acceptance_programs import run
 
 ISO_SPEEDS = (100, 200, 400, 800, 1600, 3200, 6400, 12800)
 GAIN_PER_ISO = 0.002  # [DN/e-]
-FIRST_ISO = 800  # behind the switch
+FIRST_ISO = 800  # first setting behind the switch of the conversion gain
 OFFSET = 1000  # [DN]: above the read noise of every ISO speed, so that no dark frame is cut off
 BRIGHTEST = 14000  # signal [DN]
-LARGEST_ERROR = 0.01  # of a gain, relative
+LARGEST_ERROR = 0.01  # largest relative error of a gain [1]
 LARGEST_Z = 3.0  # [standard errors]
 
 

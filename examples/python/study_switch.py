@@ -23,7 +23,7 @@ import numpy as np
 ISO_SPEEDS = (100, 200, 400, 800, 1600, 3200, 6400, 12800)
 GAIN_PER_ISO = 0.002  # [DN/e-]
 PIXEL_NOISE = 2.0  # before the amplifier [e-]
-AMPLIFIER_NOISE = 600.0  # behind the amplifier [e-] times the ISO speed
+AMPLIFIER_NOISE = 600.0  # noise behind the amplifier [e-], times the ISO speed
 GAIN_ERROR, READ_NOISE_ERROR = 0.004, 0.015  # relative
 # name, last setting before the switch, factor of the noise before the amplifier behind the switch
 CASES = (

@@ -27,9 +27,9 @@ namespace
 /** Pixels that are evaluated together: of a region, or of each plane of a region. */
 struct EmvaParts
 {
-  FrameGeometry               size; ///< of each part
+  FrameGeometry               size; ///< size of each part
   std::vector<PixelLayout>    layouts;
-  std::optional<BayerPattern> pattern; ///< of the region; null: monochrome
+  std::optional<BayerPattern> pattern; ///< pattern of the region; null: monochrome
 };
 
 /** Returns the pattern of the whole frame; null: it is monochrome. */
@@ -176,7 +176,7 @@ private:
 EmvaMeasured
 EvaluateFrames(const EstimateOptions & options, const EmvaSourceList & all)
 {
-  std::vector<std::vector<EmvaSeries>> series; // of each part
+  std::vector<std::vector<EmvaSeries>> series; // series of each part
   std::vector<std::string>             opened;
   FrameList                            list;
   EmvaParts                            parts;

@@ -27,7 +27,7 @@ struct EmvaSourceList
 {
   std::vector<EmvaSource> sources;
   std::string             exposureUnit;  ///< "s", or "": not known
-  unsigned int            bitDepth{ 0 }; ///< of the digital numbers [bit]; 0: not known
+  unsigned int            bitDepth{ 0 }; ///< bit depth of the digital numbers [bit]; 0: not known
   std::size_t             width{ 0 };    ///< columns that the list says [pixel]; 0: it says none
   std::size_t             height{ 0 };   ///< rows that the list says [pixel]; 0: it says none
 };

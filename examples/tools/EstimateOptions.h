@@ -42,25 +42,25 @@ struct EstimateOptions
   double                                   step{ 0.0 };   ///< quantization step [DN]; 0: estimated
   std::optional<std::pair<double, double>> levelRange;    ///< low, high [DN]; none: all levels
   std::string                              exposuresText; ///< list of numbers, or file name; empty: none
-  std::vector<double>                      exposures; ///< of each measured frame, see SelectExposures(); empty: none
-  double                                   excessNoiseFactor{ 1.0 }; ///< F [1]: the gain is the variance slope over F
-  double                                   offset{ std::numeric_limits<double>::quiet_NaN() };
-  double                                   offsetStandardError{ 0.0 };
-  std::vector<std::string>                 dark;
-  bool                                     hasCheck{ false };
+  std::vector<double>                exposures; ///< exposure of each measured frame, see SelectExposures(); empty: none
+  double                             excessNoiseFactor{ 1.0 }; ///< F [1]: the gain is the variance slope over F
+  double                             offset{ std::numeric_limits<double>::quiet_NaN() };
+  double                             offsetStandardError{ 0.0 };
+  std::vector<std::string>           dark;
+  bool                               hasCheck{ false };
   std::vector<std::string>           check; ///< frames that the model is compared with; empty: the measured frames
   std::string                        checkProfile;  ///< noise profile of another program; empty: none
   ExportSettings                     profileLevels; ///< black and white level of the frames, and analogue gain
   RollingShutter                     rollingShutter{ RollingShutter::Auto };
   double                             sigmaRows{ 50.0 };
   std::optional<std::array<long, 4>> roi;                    ///< x, y, width, height [pixel]
-  std::optional<std::pair<std::size_t, std::size_t>> frames; ///< first, one past the last
+  std::optional<std::pair<std::size_t, std::size_t>> frames; ///< first frame, and one past the last; none: all frames
   std::optional<std::pair<std::size_t, std::size_t>> cut;    ///< frames to be cut out of the stack, see SelectFiles()
   std::string                                        mask;
   std::uint64_t                                      memoryLimit{ 0 }; ///< [bytes]; 0: no limit
   unsigned int                                       threads{ 0 };     ///< 0: all cores
   std::string                                        json;
-  std::string                                        xml; ///< of the method emva1288; empty: none
+  std::string                                        xml; ///< file of the method emva1288; empty: none
   std::string                                        maps;
   std::string                                        plot;          ///< .html: page; .svg, .png: its first figure
   bool                                               hash{ false }; ///< the report has the hash even without a page

@@ -21,7 +21,7 @@ inline constexpr const char * PassportSchema = "itk-sensornoise-passport/1";
 /** One setting of a passport. */
 struct PassportEntry
 {
-  std::string           name; ///< of the burst: its folder or its file
+  std::string           name; ///< name of the burst: its folder or its file
   std::optional<double> setting;
   std::string           reason;  ///< why it could not be measured; "": it was measured
   std::string           options; ///< the options that change numbers, as they were given
@@ -31,9 +31,9 @@ struct PassportEntry
 /** The noise of a camera at all its settings. */
 struct Passport
 {
-  std::string                              name; ///< of the file, for messages; "": it is not read from one
-  SettingKind                              kind{ SettingKind::Iso };
-  std::vector<PassportEntry>               entries;
+  std::string                name; ///< name of the file, for messages; "": the passport is not from a file
+  SettingKind                kind{ SettingKind::Iso };
+  std::vector<PassportEntry> entries;
   std::optional<std::pair<double, double>> switchBetween;
 };
 

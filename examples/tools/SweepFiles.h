@@ -16,7 +16,7 @@ struct EstimateOptions;
 /** The burst of one setting of a camera. */
 struct SweepBurst
 {
-  std::string              name; ///< of its folder or file
+  std::string              name; ///< name of the folder or file of the burst
   std::vector<std::string> files;
   std::vector<std::string> dark;    ///< dark frames at the same setting; empty: none
   std::optional<double>    setting; ///< ISO speed, gain as a factor, or exposure [s]; none: not known

@@ -22,11 +22,11 @@ namespace
 /** The places of the columns of a table. */
 struct SweepTableColumns
 {
-  std::size_t                setting{ 0 };
-  SettingKind                kind{ SettingKind::Iso };
-  bool                       isDecibels{ false };
-  double                     unit{ 1.0 }; ///< of the numbers: 0.001 for milliseconds
-  std::size_t                frames{ 0 };
+  std::size_t setting{ 0 };
+  SettingKind kind{ SettingKind::Iso };
+  bool        isDecibels{ false };
+  double      unit{ 1.0 }; ///< factor of the settings to seconds, 0.001 for milliseconds; 1 for other kinds
+  std::size_t frames{ 0 };
   std::optional<std::size_t> dark;
 };
 

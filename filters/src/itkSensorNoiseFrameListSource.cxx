@@ -202,7 +202,7 @@ SensorNoiseFrameListSource<TOutputStack>::GenerateData()
       return file.reader->IsSequential();
     });
   const std::size_t parts = isSequential ? 1 : this->GetNumberOfWorkUnits();
-  // of a list, frame by frame: each may be the last before an abort
+  // A list is read frame by frame, because an abort may follow each frame.
   const std::size_t partFrames = m_FrameList.isStack ? std::max<std::size_t>(1, (frames + parts - 1) / parts) : 1;
   const std::size_t step = parts * partFrames;
   try

@@ -9,7 +9,7 @@ const part = (id) => document.getElementById(id);
 const library = {
   worker: null,
   number: 0,
-  waiting: new Map(), // by the number of their request: functions that take the answer
+  waiting: new Map(), // functions that take the answer, by the number of their request
 
   start() {
     const inline = part("worker-source"); // only in the single file
@@ -72,7 +72,7 @@ const library = {
 const NO_FRAMES = /(^|\/)(\.[^/]*|thumbs\.db|desktop\.ini)$|\.(json|txt|html?|csv|md|pdf|xml|jpe?g)$/i;
 const HEADERS = /\.(mhd|nhdr|cihx?)$/i; // files that name their data files
 
-let frames = []; // of { name, file }
+let frames = []; // objects { name, file }
 let dark = [];
 
 /** Returns the files with names that are unique, in the order of their names. */

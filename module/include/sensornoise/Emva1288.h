@@ -86,11 +86,11 @@ public:
 private:
   std::size_t         m_Width;
   std::size_t         m_Height;
-  std::vector<double> m_Sum;                    // over the frames, of each pixel [DN]
-  std::vector<double> m_SquareSum;              // over the frames, of each pixel [DN^2]
+  std::vector<double> m_Sum;                    // sum of each pixel over the frames [DN]
+  std::vector<double> m_SquareSum;              // sum of the squares of each pixel over the frames [DN^2]
   std::vector<double> m_Frame;                  // the last frame [DN]
-  std::vector<double> m_FrameMeans;             // of each frame [DN]
-  double              m_HighpassSquares{ 0.0 }; // over frames and pixels, of the filtered frames [DN^2]
+  std::vector<double> m_FrameMeans;             // mean of each frame [DN]
+  double              m_HighpassSquares{ 0.0 }; // sum of squares of the filtered frames over frames and pixels [DN^2]
   double              m_HighestDn{ -std::numeric_limits<double>::infinity() };
   double              m_AtHighest{ 0.0 }; // number of values that equal m_HighestDn
 };

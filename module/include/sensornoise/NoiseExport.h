@@ -32,7 +32,7 @@ public:
  * have no entry. */
 struct StoredReport
 {
-  std::string                        name; ///< of the file, for messages
+  std::string                        name; ///< name of the file, for messages
   std::map<std::string, double>      numbers;
   std::map<std::string, std::string> texts;
 };
@@ -82,13 +82,13 @@ struct NoiseMaps
 /** The noise of a camera at one setting: all that exports use. */
 struct CameraNoise
 {
-  std::string                 name; ///< of the report, for messages
+  std::string                 name; ///< name of the report, for messages
   std::string                 camera;
   std::vector<ChannelNoise>   channels; ///< one, or R, G1, G2, B
   std::optional<double>       blackLevelDn;
   std::optional<double>       whiteLevelDn;
   std::optional<double>       isoSpeed;
-  std::optional<unsigned int> bitDepth; ///< of the digital numbers [bit]
+  std::optional<unsigned int> bitDepth; ///< bit depth of the digital numbers [bit]
   double                      analogueGain{ 1.0 };
   std::optional<double>       maxAnalogueIso;
   NoiseMaps                   maps;

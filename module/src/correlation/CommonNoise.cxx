@@ -28,7 +28,7 @@ using CellSums = std::array<double, Segments * Segments>;
 template <std::size_t VSide>
 struct SegmentSums
 {
-  static constexpr std::size_t Length = VSide / Segments; // of a segment [pixels]
+  static constexpr std::size_t Length = VSide / Segments; // length of a segment [pixels]
   using Line = std::array<double, VSide>;
 
   LineSums<VSide> rows;

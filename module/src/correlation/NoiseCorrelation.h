@@ -62,7 +62,7 @@ VarianceInflation(const std::vector<LagCoefficient> & lags);
 /** Dependence of the spatial noise covariance on the signal. */
 enum class CovarianceShape : std::uint8_t
 {
-  Variance, ///< as the variance without quantization noise: a filter after the read-out
+  Variance, ///< proportional to the variance without quantization noise: a filter after the read-out
   Signal,   ///< proportional to the signal: charge coupling
   Square,   ///< proportional to the squared signal: brighter-fatter effect
   Constant, ///< constant

@@ -203,7 +203,7 @@ NoiseResiduals::SubtractWaveOfTile(std::size_t                    i,
   {
     Eigen::Map<Eigen::ArrayXf>(projections[static_cast<std::size_t>(k)], size) = (scale * wave.col(k)).cast<float>();
   }
-  // Of the energy of each amplitude, the noise has 1 for each degree of freedom.
+  // The noise contributes 1 for each degree of freedom to the energy of each amplitude.
   return (energies / this->GetDof() - Eigen::Vector2d::Ones()).dot(meanSquares);
 }
 

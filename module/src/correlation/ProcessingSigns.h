@@ -115,7 +115,7 @@ struct BlockPhases
   static constexpr std::size_t Period = 8;
 
   /** Sums over pairs at each phase: first the 8 phases of the frame's columns, then the 8 phases of its rows. */
-  std::array<double, 2 * Period> covariance{}; ///< of the relative covariance y / V, as in PairSums [1]
+  std::array<double, 2 * Period> covariance{}; ///< sums of the relative covariance y / V, as in PairSums [1]
   std::array<double, 2 * Period> pairs{};      ///< number of pairs
 
   BlockPhases &

@@ -22,7 +22,7 @@ namespace
  * relative to the variance. */
 struct SlopeSums
 {
-  double xx{ 0.0 }; ///< of x, less its mean for a lag in a tile
+  double xx{ 0.0 }; ///< sum of the squares of x, less the mean of x for a lag in a tile
   double xy{ 0.0 };
   double pixels{ 0.0 };
   double roughness{ 0.0 }; ///< squared slope over the variance

@@ -20,7 +20,7 @@ namespace sensornoise
 namespace
 {
 constexpr double PanelTop = 68.0;     ///< below a legend of two lines [unit of the figure]
-constexpr double PanelHeight = 260.0; ///< of the upper panel [unit of the figure]
+constexpr double PanelHeight = 260.0; ///< height of the upper panel [unit of the figure]
 constexpr double AxisBelow = 48.0;    ///< ticks and name of an axis [unit of the figure]
 
 using Numbers = std::vector<double>;

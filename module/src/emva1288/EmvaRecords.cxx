@@ -138,7 +138,7 @@ NumberAsText(const Value & value)
 {
   if (!value || !std::isfinite(*value))
   {
-    return "nan"; // as the package writes what is not known
+    return "nan"; // the package emva1288 writes unknown numbers so
   }
   char text[32];
   std::snprintf(text, sizeof(text), "%.17g", *value);

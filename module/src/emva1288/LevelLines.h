@@ -20,7 +20,7 @@ struct LevelValue
 {
   double x{ 0.0 };
   double y{ 0.0 };
-  double variance{ 0.0 }; ///< of the error of y; 0: not known
+  double variance{ 0.0 }; ///< variance of the error of y; 0: not known
 };
 
 /** Line y = intercept + slope x. */

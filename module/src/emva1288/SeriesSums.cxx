@@ -128,10 +128,10 @@ MeasureSpatialVariance(const std::vector<double> & mean,
       ofRows[y] += value / static_cast<double>(columns);
     }
   }
-  const auto          width = static_cast<double>(columns);
-  const auto          height = static_cast<double>(rows);
-  const double        centre = std::accumulate(ofRows.begin(), ofRows.end(), 0.0) / height;
-  const double        noise = stackDn2 / static_cast<double>(frames); // of a pixel of the mean image
+  const auto   width = static_cast<double>(columns);
+  const auto   height = static_cast<double>(rows);
+  const double centre = std::accumulate(ofRows.begin(), ofRows.end(), 0.0) / height;
+  const double noise = stackDn2 / static_cast<double>(frames); // noise variance of a pixel of the mean image [DN^2]
   EmvaSpatialVariance result;
   result.columns = columns;
   result.rows = rows;

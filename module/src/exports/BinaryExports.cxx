@@ -36,7 +36,7 @@ LittleEndian(std::uint64_t number, std::size_t bytes)
 std::string
 NpyBytes(const NpzArray & array)
 {
-  constexpr std::size_t alignment = 64; // of the values in the file
+  constexpr std::size_t alignment = 64; // alignment of the values in the file [bytes]
   std::string           shape;
   for (const std::size_t size : array.shape)
   {

@@ -90,7 +90,7 @@ FitAndroidChannel(const std::vector<CameraNoise> & settings, std::size_t channel
   AndroidChannel model{ SolveRelative(scales, false), SolveRelative(offsets, true) };
   for (std::size_t i = 0; i < settings.size(); ++i)
   {
-    for (const double level : { 0.0, 0.1, 1.0 }) // of the range: dark, dim and bright
+    for (const double level : { 0.0, 0.1, 1.0 }) // fractions of the range: dark, dim and bright
     {
       const double fitted = (scales[i].first * model.scale[0] + model.scale[1]) * level +
                             offsets[i].first * model.offset[0] + offsets[i].second * model.offset[1];
@@ -151,7 +151,7 @@ ExportAndroid(const std::vector<CameraNoise> & settings)
 
 namespace
 {
-constexpr int          levels = 4096;  // of the fit, at even distances of the root of the signal
+constexpr int          levels = 4096;  // number of levels of the fit, at even distances of the root of the signal
 constexpr unsigned int scaleBits = 16; // libcamera's levels
 
 /** The standard deviation c + s r at the root r of the signal, on libcamera's scale. */
@@ -229,7 +229,7 @@ struct FitError
 {
   double rms{ 0.0 };
   double largest{ 0.0 };
-  double signal{ 0.0 }; ///< of the largest, on libcamera's scale
+  double signal{ 0.0 }; ///< signal of the largest deviation, on libcamera's scale
 };
 
 FitError

@@ -67,7 +67,7 @@ struct DarktableNumbers
 struct NoiseProfile
 {
   std::string                   file;   ///< its name, for messages
-  std::string                   format; ///< of ExportFormats(), or "report"
+  std::string                   format; ///< a name of ExportFormats(), or "report"
   ProfileForm                   form{ ProfileForm::Line };
   std::vector<ProfileChannel>   channels;
   std::optional<double>         blackLevelDn;         ///< the file's own; none: the camera's

@@ -41,7 +41,7 @@ struct ProfileVariance
    */
   bool           isOffsetTested{ true };
   LibcameraNoise root;   ///< in place of slope and darkDn2, if the form is Root
-  CameraNoise    camera; ///< of the burst: the levels of libcamera's model
+  CameraNoise    camera; ///< camera of the burst, which has the levels of libcamera's model
 
   /** Returns the variance at a level [DN^2]. */
   double

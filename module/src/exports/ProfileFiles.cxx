@@ -200,7 +200,7 @@ ReadBytes(const std::string & file, const std::string & bytes)
   {
     return ProfileOfCareamics(bytes);
   }
-  const std::string start = WithoutBlanks(bytes.substr(0, 64)); // of the first line
+  const std::string start = WithoutBlanks(bytes.substr(0, 64)); // beginning of the first line
   const auto        numbers = NumbersOf(InOneLine(bytes));
   return !start.empty() && start.front() == '<' ? ProfileOfEmva1288(bytes)
          : has("Camera setup")                  ? ProfileOfThunderstorm(bytes)

@@ -17,7 +17,7 @@ constexpr unsigned    EndCode = 257;
 constexpr unsigned    FirstString = 258;
 constexpr unsigned    MinimumBits = 9;
 constexpr unsigned    MaximumBits = 12;
-constexpr std::size_t MaximumStrings = 5119; // of libtiff's table
+constexpr std::size_t MaximumStrings = 5119; // size of libtiff's table
 
 /** Codes of a growing number of bits, the highest first. */
 class LzwCodes

@@ -15,7 +15,7 @@
 /** \file
  * Raw files of cameras: the check of those that are TIFFs, and the frame that LibRaw decodes. */
 
-class LibRaw; // of libraw/libraw.h, which defines macros with short names
+class LibRaw; // declared in libraw/libraw.h, which defines macros with short names
 
 namespace sensornoise
 {

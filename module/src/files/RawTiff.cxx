@@ -18,9 +18,9 @@ namespace sensornoise
 namespace
 {
 constexpr std::size_t   MaximumDirectories = 64;
-constexpr std::uint64_t Mosaic = 32803;    // of PhotometricInterpretation
+constexpr std::uint64_t Mosaic = 32803;    // value of PhotometricInterpretation
 constexpr std::uint64_t LinearRaw = 34892; // the same
-constexpr std::uint64_t LossyJpeg = 34892; // of Compression
+constexpr std::uint64_t LossyJpeg = 34892; // value of Compression
 constexpr std::uint64_t MaximumChunks = 1U << 20;
 
 /** The directories below one: SubIFDs. */

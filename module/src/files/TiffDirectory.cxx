@@ -12,7 +12,7 @@ namespace sensornoise
 {
 namespace
 {
-// as many as libtiff believes
+// libtiff reads at most this number of entries
 constexpr std::uint64_t MaximumEntries = 4096;
 
 bool

@@ -20,7 +20,7 @@ struct TiffEntry
   unsigned      tag{ 0 };
   unsigned      type{ 0 };
   std::uint64_t count{ 0 };
-  std::uint64_t offset{ 0 };     // of its first value, in the file
+  std::uint64_t offset{ 0 };     // offset of the first value in the file [bytes]
   bool          inside{ false }; // the values are in the directory itself
 };
 

@@ -250,12 +250,12 @@ private:
   TiffBytes                         m_Tiff;
   TiffStrips                        m_Strips;
   std::unordered_set<std::uint64_t> m_Seen{};
-  std::vector<std::uint64_t>        m_Directories{}; // of the pages
+  std::vector<std::uint64_t>        m_Directories{}; // offsets of the directories of the pages [bytes]
   TiffPage                          m_First{};
-  std::string                       m_Description{};  // of the first page
+  std::string                       m_Description{};  // description of the first page
   std::uint64_t                     m_Described{ 0 }; // frames that are no pages
   std::uint64_t                     m_Planes{ 0 };
-  std::uint64_t                     m_Pages{ 0 };  // of the chain
+  std::uint64_t                     m_Pages{ 0 };  // number of pages in the chain of directories
   std::uint64_t                     m_Frames{ 0 }; // pages that are no thumbnails
   std::uint64_t                     m_Reduced{ 0 };
 };

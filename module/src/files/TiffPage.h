@@ -26,8 +26,8 @@ namespace sensornoise
 struct TiffChunks
 {
   bool          isTiled{ false };
-  std::uint64_t width{ 0 };   // of a strip or tile [pixels]
-  std::uint64_t rows{ 0 };    // of a whole strip or tile
+  std::uint64_t width{ 0 };   // width of a strip or tile [pixels]
+  std::uint64_t rows{ 0 };    // rows of a whole strip or tile
   std::uint64_t across{ 0 };  // number of tiles from left to right; 1 for strips
   std::uint64_t down{ 0 };    // number of strips or tiles from top to bottom
   TiffEntry     offsets{};    // place of each one in the file; set by FindTiffChunks()
@@ -65,10 +65,10 @@ struct TiffChunk
 {
   std::uint64_t index{ 0 };
   std::uint64_t offset{ 0 };     // in the file
-  std::uint64_t count{ 0 };      // of bytes in the file
-  std::uint64_t rows{ 0 };       // that it stores
-  std::uint64_t bytes{ 0 };      // of these rows, without compression
-  std::uint64_t wholeBytes{ 0 }; // the same where a writer has filled up the last strip
+  std::uint64_t count{ 0 };      // number of bytes in the file
+  std::uint64_t rows{ 0 };       // rows of pixels in the strip or tile
+  std::uint64_t bytes{ 0 };      // bytes of these rows, without compression
+  std::uint64_t wholeBytes{ 0 }; // bytes of a whole strip, to which some writers fill up the last one
 };
 
 /** Lists the strips or tiles of an image in the order of the file. */
@@ -173,11 +173,11 @@ public:
 private:
   TiffBytes &   m_Tiff;
   ByteRanges    m_Ranges{};
-  std::uint64_t m_PixelBytes{ 0 };            // of all strips and tiles so far
+  std::uint64_t m_PixelBytes{ 0 };            // bytes of all strips and tiles so far
   std::uint64_t m_SmallestPage{ UINT64_MAX }; // bytes of the strips or tiles of a page
   std::uint64_t m_Width{ 0 };
   bool          m_HasSubDirectories{ false };
-  std::uint64_t m_DirectoryBytes{ 0 }; // of all directories so far
+  std::uint64_t m_DirectoryBytes{ 0 }; // bytes of all directories so far
 };
 
 /** The text of the tag ImageDescription, at most its first MiB; empty where there is none. */

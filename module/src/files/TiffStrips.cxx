@@ -203,7 +203,7 @@ TiffStrips::RequireAllBytes(const std::string & file)
   }
   if (m_HasSubDirectories)
   {
-    return; // whose pages may be anywhere
+    return; // the pages of subdirectories may be anywhere
   }
   std::uint64_t unused = 0;
   bool          hasDirectory = false;

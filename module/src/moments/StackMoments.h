@@ -187,7 +187,7 @@ private:
   TemporalMoments<TPixel> m_Own;
   std::size_t             m_First{ std::numeric_limits<std::size_t>::max() }; // number of the first frame in m_Own
 
-  std::map<std::size_t, TemporalMoments<TPixel>> m_Others; // by the numbers of their first frames
+  std::map<std::size_t, TemporalMoments<TPixel>> m_Others; // keys: numbers of their first frames
 };
 
 #define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT StackMoments<TPixel>

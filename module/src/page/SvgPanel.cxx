@@ -123,7 +123,7 @@ MakeAxis(double low, double high, int mostTicks)
 PlotAxis
 MakeLogarithmicAxis(double low, double high)
 {
-  constexpr std::size_t fewTicks = 8; // whose labels do not touch
+  constexpr std::size_t fewTicks = 8; // largest number of ticks whose labels do not touch
   constexpr std::size_t mostTicks = 20;
   PlotAxis              axis = MakeAxis(low, high, 4);
   const PlotAxis        even = axis;

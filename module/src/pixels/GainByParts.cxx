@@ -59,8 +59,8 @@ CoefficientsOf(Partition partition, const std::vector<TileExcess> & tiles)
 /** Deviations of a quantity of the parts, d or h of PartRegression, from its pixel-weighted mean. */
 struct Deviations
 {
-  Eigen::VectorXd ofParts;    ///< of each part [1]
-  Eigen::MatrixXd covariance; ///< of ofParts [1]
+  Eigen::VectorXd ofParts;    ///< deviation of each part [1]
+  Eigen::MatrixXd covariance; ///< covariance of ofParts [1]
   Eigen::VectorXd field;      ///< coefficients of a smooth field [1]; otherwise empty
   double          size{ 0 };  ///< rms over the pixels, beyond chance [1]
   double          z{ 0 };     ///< significance, in standard deviations of chi-square [1]
@@ -277,7 +277,7 @@ FindPossibleParts(const std::vector<TileExcess> & tiles)
   const PartRegression   uniform = FitUniform(tiles);
   const double           criterion = uniform.Criterion(tiles, uniform.scale);
   std::vector<PartGains> possible;
-  std::vector<double>    odds; // of the partition against one part
+  std::vector<double>    odds; // odds of each partition against one part
   for (const Partition partition : { Partition::LeftRight, Partition::UpperLower, Partition::Quadrants })
   {
     const PartRegression fit = FitParts(partition, PartsDiffer::InTheDark, tiles);

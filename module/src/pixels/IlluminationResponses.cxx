@@ -21,7 +21,7 @@ namespace sensornoise
 namespace
 {
 constexpr std::size_t Derivatives = 5;
-constexpr std::size_t Side = 8; // of a tile [pixel]
+constexpr std::size_t Side = 8; // side of a tile [pixel]
 
 /** Division of the frame into bands, each one row of tiles. The variables of a pixel are its derivatives and its
  * responses to the illumination. */
@@ -101,8 +101,8 @@ ProductsOfBand(const Bands & bands, std::size_t band)
   struct TileSums
   {
     double          pixels{ 0.0 };
-    Eigen::MatrixXd gram;     // of the terms of the surface
-    Eigen::MatrixXd products; // of these terms and the variables
+    Eigen::MatrixXd gram;     // products of the terms of the surface
+    Eigen::MatrixXd products; // products of these terms and the variables
   };
   constexpr Eigen::Index terms = Surface::SizeAtCompileTime;
   const auto             variables = static_cast<Eigen::Index>(bands.Variables());

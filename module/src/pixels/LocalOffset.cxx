@@ -171,7 +171,7 @@ struct TileMoments
     const Eigen::Matrix2d ofPlace = gram.block<2, 2>(2, 2);
     const Eigen::Matrix2d both = gram.block<2, 2>(2, 4);
     const Eigen::Matrix2d contrast = gram.block<2, 2>(4, 4) - both.transpose() * ofPlace.ldlt().solve(both);
-    const double          noise = n / (12.0 * frames); // of I x, as the mean square of x is 1/12
+    const double          noise = n / (12.0 * frames); // noise of the coefficient of I x: the mean square of x is 1/12
     if (!(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(contrast).eigenvalues()(0) >
           InPattern.leastTileContrast * noise))
     {

@@ -31,7 +31,7 @@ struct SensorNoise_EXPORT PartRegression
   std::vector<double>   knotsDn;      ///< levels of the coefficients of the curve, which follow [DN]
   std::optional<double> stepDn;       ///< level of a step of the curve, the last coefficient [DN]; null: no step
   Eigen::VectorXd       theta;        ///< the coefficients [1]
-  Eigen::MatrixXd       covariance;   ///< of theta, scaled by the dispersion of the tiles [1]
+  Eigen::MatrixXd       covariance;   ///< covariance of theta, scaled by the dispersion of the tiles [1]
   double                scale{ 1.0 }; ///< dispersion of the tiles over their sampling error, 1 or more [1]
   bool                  isDetermined{ false };
 

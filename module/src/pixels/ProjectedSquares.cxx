@@ -54,7 +54,7 @@ public:
 private:
   const ReferenceFrame &               m_Frame;
   const MotionSeries &                 m_Motion;
-  std::array<double, NumberOfStencils> m_Weights{}; // of the squared derivatives in the bound
+  std::array<double, NumberOfStencils> m_Weights{}; // weights of the squared derivatives in the bound
 };
 
 /** Adds the squares of a derivative along a row, times \a weight. Both pointers are at the first pixel that has a

@@ -27,7 +27,7 @@ struct ReferenceFrame;
 struct ReplacedSquares
 {
   std::vector<std::size_t> pixels;
-  std::vector<double>      squares;    ///< of each of \a pixels [DN^2]
+  std::vector<double>      squares;    ///< sum of squares of each of \a pixels [DN^2]
   double                   dof{ 0.0 }; ///< expectation of the squares over the variance of their pixel
 };
 

@@ -77,7 +77,7 @@ struct VarianceLine
   double          gain{ 0.0 };                           ///< system gain [DN/e-]
   double          intercept{ 0.0 };                      ///< variance at mean 0 [DN^2]
   double          lowestDn2{ 0.0 };                      ///< lower limit of At() [DN^2]
-  Eigen::Matrix2d covariance{ Eigen::Matrix2d::Zero() }; ///< of (gain, intercept), sandwich estimate
+  Eigen::Matrix2d covariance{ Eigen::Matrix2d::Zero() }; ///< covariance of (gain, intercept), sandwich estimate
   double          weightSum{ 0.0 };                      ///< sum of the weights [1/DN^4]
   double          pivotDn{ 0.0 };       ///< weighted mean of the means, where value and slope are uncorrelated [DN]
   double          spreadDn2{ 0.0 };     ///< weighted sum of the squared deviations of the means from the pivot [1/DN^2]

@@ -165,7 +165,7 @@ private:
   WeightedPixels             m_Bright;
   WeightedPixels             m_Dark;
   WeightedPixels             m_RowSet;
-  std::vector<std::uint32_t> m_RowOf; // for each pixel of the row set
+  std::vector<std::uint32_t> m_RowOf; // row of each pixel of the row set
 };
 
 /** v^*(y, t) of every frame and row, (3.28), where the row set has pixels. */

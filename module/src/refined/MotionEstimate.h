@@ -17,9 +17,9 @@ namespace sensornoise
 /** Motion of the scene. */
 struct SeriesOfMotion
 {
-  std::vector<std::array<double, 2>> shifts;     ///< of every frame [pixel]; NaN: too dark. Empty: not identifiable
-  Quantity                           sdX;        ///< [pixel]
-  Quantity                           sdY;        ///< [pixel]
+  std::vector<std::array<double, 2>> shifts; ///< shift of every frame [pixel]; NaN: too dark. Empty: not identifiable
+  Quantity                           sdX;    ///< [pixel]
+  Quantity                           sdY;    ///< [pixel]
   Quantity                           covariance; ///< [pixel^2]
 };
 

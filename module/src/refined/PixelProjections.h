@@ -153,7 +153,7 @@ private:
 
   FrameGeometry    m_Geometry;
   PixelLayout      m_Layout;
-  TemporalBasis    m_Basis; // of the current pass
+  TemporalBasis    m_Basis; // basis of the current pass
   Options          m_Options;
   ParallelFor      m_ParallelFor;
   std::size_t      m_NextSlab{ 0 };

@@ -240,12 +240,12 @@ private:
   std::optional<ExposureFit> m_ExposureFit; // from the first pass; none: no exposures were given
 
   // The sums of the passes, and their results. The scene must not move in memory: FrameSums points to its frame.
-  std::unique_ptr<StaticScene>               m_Scene;
-  std::unique_ptr<LevelProjection>           m_Levels;    // of the pass after the first one, if there is one
-  std::unique_ptr<FrameSums>                 m_FrameSums; // null in that pass, or if the stack cannot be measured
-  std::optional<const SceneSeries>           m_Series;
-  std::optional<PixelProjections>            m_Projections;
-  std::optional<PixelNoise>                  m_Noise;
+  std::unique_ptr<StaticScene>     m_Scene;
+  std::unique_ptr<LevelProjection> m_Levels;    // levels of the pass after the first pass; null: there is no such pass
+  std::unique_ptr<FrameSums>       m_FrameSums; // null in that pass, or if the stack cannot be measured
+  std::optional<const SceneSeries> m_Series;
+  std::optional<PixelProjections>  m_Projections;
+  std::optional<PixelNoise>        m_Noise;
   std::optional<const ReestimatedComponents> m_Reestimated;
   std::vector<double>                        m_Mean; // for display, when the report is made
   std::vector<double>                        m_CorrectedVariance;

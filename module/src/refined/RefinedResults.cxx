@@ -108,7 +108,7 @@ struct TileIllumination
 {
   double frames{ 0.0 };
   double pixels{ 0.0 };
-  double square{ 0.0 }; ///< of the tile's signal over the frames, in units of its noise
+  double square{ 0.0 }; ///< sum over the frames of the squared signal of the tile, in units of its noise
 
   TileIllumination &
   operator+=(const TileIllumination & other)

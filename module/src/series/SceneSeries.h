@@ -95,7 +95,7 @@ private:
   Eigen::MatrixXd    m_Series;
   Eigen::MatrixXd    m_Basis;
   Eigen::MatrixXd    m_Inverse; // inverse of the lower triangle that converts coordinates into centred sums
-  Eigen::RowVectorXd m_Sums;    // of the integer series over time
+  Eigen::RowVectorXd m_Sums;    // sums of the integer series over time
   Eigen::RowVectorXd m_Means;
 };
 

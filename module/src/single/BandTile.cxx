@@ -162,7 +162,7 @@ BandTile::MeasureWindows()
   using Window = WaveletWindow;
   constexpr auto    smooth = static_cast<float>(Window::Smooth * Window::Smooth);
   constexpr auto    size = static_cast<float>(Window::Size * Window::Size);
-  const std::size_t columns = m_Tile.width + Window::Size - 1; // of the deviations
+  const std::size_t columns = m_Tile.width + Window::Size - 1; // columns of the deviations
   const std::size_t rows = m_Tile.height + Window::Size - 1;
   m_SquaredDeviations.resize(columns * rows);
   m_Sums.resize(m_Columns);

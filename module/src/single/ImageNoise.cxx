@@ -146,7 +146,7 @@ RequireGroups(const std::vector<BandTile> & sample)
 double
 LeastVariance(const LevelLimits & limits, double unitDn)
 {
-  constexpr double rounding = 1e-12; // of the squared range: 24 bits of a float, squared, with some room
+  constexpr double rounding = 1e-12; // fraction of the squared range: 24 bits of a float, squared, with a margin
   return std::max(limits.stepDn * limits.stepDn / 12.0, rounding * unitDn * unitDn);
 }
 

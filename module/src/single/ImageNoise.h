@@ -83,7 +83,7 @@ struct SingleImageSettings;
 struct SingleImageFindings
 {
   const SingleImageSettings &            settings;
-  FrameGeometry                          geometry; ///< of the frame, or of the plane
+  FrameGeometry                          geometry; ///< size of the frame, or of the plane
   CodeRange                              codes;
   std::vector<std::optional<ImageNoise>> frames;         ///< null: the frame cannot be measured
   std::optional<NoiseLine>               meanImage;      ///< line of the mean image, times the number of frames

@@ -120,7 +120,7 @@ FitStartingLine(const StartingGroups & groups, const LevelLimits & limits, doubl
   const double     centre = w > 0.0 ? wx / w : 0.0;
   const double     spread = w > 0.0 ? wxx / w - centre * centre : 0.0;
   const double     middle = w > 0.0 ? wy / w : groups.medianVariance;
-  constexpr double leastSpread = 1e-6; // of the levels, squared: below, rounding makes the slope
+  constexpr double leastSpread = 1e-6; // least variance of the levels: below it, rounding determines the slope
   const double     slope = used >= 2 && spread > leastSpread ? (wxy / w - centre * middle) / spread : 0.0;
   return { originDn + unitDn * centre, unitDn * slope, unitDn * unitDn * middle };
 }
@@ -151,7 +151,7 @@ LevelSums::Add(const BandTile & tile, const LevelGrid & grid)
   {
     const float roughness = tile.roughness[i];
     const float place = std::min(std::max(0.0F, (tile.level[i] - low) * perLevel), last);
-    const auto  k = static_cast<std::size_t>(place); // of NaN, std::max makes 0
+    const auto  k = static_cast<std::size_t>(place); // std::max replaces NaN by 0
     const float variance = grid.variance[k];
     found += roughness >= 0.0F ? 1 : 0;
     if (!(roughness < largestRoughness * variance))

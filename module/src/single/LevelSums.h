@@ -131,8 +131,8 @@ private:
   std::size_t        m_Half{ 0 };         ///< even, or odd, pixels of a row
   std::vector<float> m_Rows;              ///< the last 6 rows of pixels: the even ones, then the odd ones
   std::vector<float> m_Mixed;             ///< sums of these rows, with the weights of approximation and details
-  std::vector<float> m_Approximation;     ///< of the tile and its surroundings
-  std::vector<float> m_SquaredDeviations; ///< of the approximation from its smooth
+  std::vector<float> m_Approximation;     ///< approximation of the tile and its surroundings
+  std::vector<float> m_SquaredDeviations; ///< squared deviations of the approximation from its local mean
   std::vector<float> m_Sums;              ///< sums of rows
 };
 
@@ -143,13 +143,13 @@ struct LevelLimits;
 struct StartingGroup
 {
   double level{ 0.0 };
-  double variance{ 0.0 }; ///< by the median of the squared diagonal details
+  double variance{ 0.0 }; ///< variance from the median of the squared diagonal details
 };
 
 /** Groups of a sample, made before any line is known. */
 struct StartingGroups
 {
-  std::vector<StartingGroup> groups;     ///< of equal count, from dark to bright; empty: nothing is finite
+  std::vector<StartingGroup> groups;     ///< groups of equal count, from dark to bright; empty: no value is finite
   double                     low{ 0.0 }; ///< levels between which nearly all positions lie
   double                     high{ 0.0 };
   double                     medianVariance{ 0.0 };
@@ -187,7 +187,7 @@ struct LevelSums
     double level{ 0.0 };
     double diagonals{ 0.0 };       ///< number of details that are not too large
     double diagonalSquares{ 0.0 }; ///< their squares
-    double sides{ 0.0 };           ///< the same of horizontal and vertical details together
+    double sides{ 0.0 };           ///< number of horizontal and vertical details that are not too large
     double sideSquares{ 0.0 };
   };
   std::vector<Set> sets;

@@ -101,7 +101,7 @@ struct NormalSums
   bool
   IsRegular() const
   {
-    constexpr double least = 1e-10; // of the product of the diagonal: rounding leaves 6 digits
+    constexpr double least = 1e-10; // fraction of the product of the diagonal: rounding leaves 6 digits
     return this->Determinant() > least * cc * ss;
   }
 };
@@ -146,9 +146,10 @@ struct LineFit
     NormalSums sums;
     fit.details = 0.0;
     const CentredLine & line = fit.line;
-    const double        stepDn2 = 1e-4 * std::max(std::abs(line.atCentreDn2), leastVarianceDn2); // of the derivatives
-    CentredLine         higher = line;
-    CentredLine         steeper = line;
+    // step of the numerical derivatives
+    const double stepDn2 = 1e-4 * std::max(std::abs(line.atCentreDn2), leastVarianceDn2);
+    CentredLine  higher = line;
+    CentredLine  steeper = line;
     higher.atCentreDn2 += stepDn2;
     steeper.slopeDn += stepDn2 / rmsDn;
     for (std::size_t i = 0; i < sets.size(); ++i)

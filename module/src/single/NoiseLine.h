@@ -54,7 +54,7 @@ ClippedAtMean(double clippedMeanDn, const CentredLine & line, const ClipLevels &
 struct LevelSet
 {
   double levelDn{ 0.0 };     ///< mean, after clipping
-  double varianceDn2{ 0.0 }; ///< of a pixel, after clipping
+  double varianceDn2{ 0.0 }; ///< variance of a pixel, after clipping
   double details{ 0.0 };     ///< independent detail coefficients that the variance is made of
 };
 
@@ -63,9 +63,9 @@ struct NoiseLine
 {
   CentredLine         line;
   double              slopeVariance{ 0.0 };   ///< squared standard error of the slope [DN^2]
-  double              centreVariance{ 0.0 };  ///< of the variance at the centre [DN^4]
-  double              slopeCovariance{ 0.0 }; ///< of both [DN^3]
-  double              reducedChi2{ 0.0 };     ///< of the level sets about the line [1]
+  double              centreVariance{ 0.0 };  ///< squared standard error of the variance at the centre [DN^4]
+  double              slopeCovariance{ 0.0 }; ///< covariance of the errors of slope and variance at the centre [DN^3]
+  double              reducedChi2{ 0.0 };     ///< reduced chi-square of the level sets about the line [1]
   double              details{ 0.0 };         ///< coefficients of the level sets that were fitted
   std::vector<double> expectedDn2;            ///< variance that the line gives every level set, after clipping
   std::vector<bool>   isFitted;               ///< which level sets were

@@ -102,7 +102,7 @@ struct SingleImageMethod<TPixel>::Planes
   std::vector<std::uint8_t>  mask;
   ParallelFor                parallelFor;
   std::vector<MeasuredPlane> planes;
-  std::vector<double>        sum; ///< of the frames [DN]; empty: there is one
+  std::vector<double>        sum; ///< sum of the frames [DN]; empty: there is one frame
   std::size_t                added{ 0 };
   std::vector<Report>        reports;
 

@@ -74,7 +74,7 @@ FillBandExcess(SingleImageRecord & record, const AllFrames & all, const NoiseLin
     }
   }
   record.bandExcess = diagonals > 0.0 ? sides / diagonals - 1.0 : 0.0;
-  // of the diagonals, and of twice as many sides
+  // relative error of the diagonals, and of twice as many sides
   record.bandExcessStandardError = weights > 0.0 ? std::sqrt(1.5 * InSingle.truncatedVariance / weights) : 0.0;
 }
 
@@ -182,7 +182,7 @@ SignsOfTexture(const SingleImageRecord & record, const NoiseLine & line)
   }
   if (record.meanImage && record.frames.size() > 1)
   {
-    // Of what does not average out, the mean image times T has T times as much as a frame.
+    // Noise that does not average out is T times as large in the mean image times T as in a frame.
     const auto   frames = static_cast<double>(record.frames.size());
     const double part = (record.meanImage->slope / line.line.slopeDn - 1.0) / (frames - 1.0);
     const double error =

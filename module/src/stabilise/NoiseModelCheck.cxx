@@ -112,7 +112,7 @@ SortingError(const NoiseModelCheck::Band & band, const VarianceModel & model, do
   {
     return 0.0;
   }
-  const double step = std::sqrt(variance); // over which the model is nearly a line
+  const double step = std::sqrt(variance); // within this step the model is nearly a line
   const double slope = std::abs(model(band.lowDn + step) - variance) / step;
   return slope / std::sqrt(variance * frames) / static_cast<double>(bins);
 }

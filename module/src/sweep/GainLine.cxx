@@ -31,7 +31,7 @@ struct ReadNoiseData
 {
   Eigen::VectorXd settings;
   Eigen::VectorXd squares; ///< sigma^2 [e-^2]
-  Eigen::VectorXd errors;  ///< of the squares [e-^2]
+  Eigen::VectorXd errors;  ///< standard errors of the squares [e-^2]
 };
 
 /** The fit sigma^2 = A + B / setting^2, or A + D before and A behind a switch. */
@@ -100,7 +100,8 @@ ReadNoiseRatio(const ReadNoiseFit & fit, const ReadNoiseData & data, Eigen::Inde
   {
     return { 0.0, 0.0 };
   }
-  const Eigen::Vector3d slope = 0.5 * ratio * (with / above - without / below); // of the ratio by A, B and D
+  const Eigen::Vector3d slope =
+    0.5 * ratio * (with / above - without / below); // derivatives of the ratio by A, B and D
   return { ratio, std::sqrt(slope.dot(fit.covariance * slope)) };
 }
 

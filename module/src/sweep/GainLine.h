@@ -32,7 +32,7 @@ struct GainLevel
   double logRatio{ 0.0 };
   double standardError{ 0.0 };
   double loss{ 0.0 }; ///< sum of squared deviations over their errors, each at most Significance.severalTests squared
-  double chi2{ 0.0 }; ///< the same of the settings on the level alone
+  double chi2{ 0.0 }; ///< chi-square of the settings on the level alone
   std::size_t settings{ 0 }; ///< settings on the level
 };
 
@@ -80,11 +80,12 @@ struct GainLine
   /** One line: settings from the lowest to the highest one. */
   struct Part
   {
-    NumberWithError scale;              ///< gain over setting [DN/e-]
-    double          lowest{ 0.0 };      ///< lowest setting of the part
-    double          highest{ 0.0 };     ///< highest setting of the part
-    std::size_t     settings{ 0 };      ///< settings on the line
-    double          reducedChi2{ 0.0 }; ///< of the settings on the line, with SweepConstants::gainRounding [1]
+    NumberWithError scale;          ///< gain over setting [DN/e-]
+    double          lowest{ 0.0 };  ///< lowest setting of the part
+    double          highest{ 0.0 }; ///< highest setting of the part
+    std::size_t     settings{ 0 };  ///< settings on the line
+    /** Reduced chi-square of the settings on the line, with SweepConstants::gainRounding [1]. */
+    double reducedChi2{ 0.0 };
   };
   std::vector<Part> parts; ///< one; two if the switch changes gain / setting; none: no line
   /** Deviation of the gain of each setting from its line, relative to it [1]; none: no gain, or no line. */

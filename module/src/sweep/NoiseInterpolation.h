@@ -18,8 +18,8 @@ namespace sensornoise
 /** The measured settings of a camera. */
 struct MeasuredRange
 {
-  std::vector<CameraNoise>                 noise;         ///< of one camera, with the same channels
-  std::vector<double>                      settings;      ///< of each of noise, in ascending order
+  std::vector<CameraNoise>                 noise; ///< noise of one camera at its settings, each with the same channels
+  std::vector<double>                      settings;      ///< setting of each of noise, in ascending order
   std::optional<std::pair<double, double>> switchBetween; ///< settings between which the conversion gain is switched
   SettingKind                              kind{ SettingKind::Iso };
 };

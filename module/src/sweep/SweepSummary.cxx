@@ -78,7 +78,7 @@ using NumberOfChannel = std::function<std::optional<NumberWithError>(const Chann
 std::set<std::string>
 CommonChannels(const MeasuredRange & range, const NumberOfChannel & of)
 {
-  std::map<std::string, std::set<double>> settings; // of each channel
+  std::map<std::string, std::set<double>> settings; // settings of each channel
   for (std::size_t i = 0; i < range.noise.size(); ++i)
   {
     for (const ChannelNoise & channel : range.noise[i].channels)
@@ -131,8 +131,8 @@ MeanOf(const CameraNoise & noise, const std::set<std::string> & channels, const 
 void
 FindCommonGains(SweepSummary & summary)
 {
-  std::vector<std::string>                         channels; // in their order
-  std::map<std::string, std::vector<SettingNoise>> settings; // of each channel
+  std::vector<std::string>                         channels; // channels in the order of the rows
+  std::map<std::string, std::vector<SettingNoise>> settings; // settings of each channel
   for (const SweepRow & row : summary.rows)
   {
     if (settings.count(row.channel) == 0)

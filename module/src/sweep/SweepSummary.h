@@ -35,7 +35,7 @@ struct SweepRow
 /** A setting whose burst could not be measured. */
 struct UnmeasuredSetting
 {
-  std::string           name;    ///< of the burst, for people
+  std::string           name;    ///< name of the burst in the table
   std::optional<double> setting; ///< none: not known
   std::string           reason;  ///< a sentence
 };
@@ -49,9 +49,9 @@ struct SweepSummary
   std::vector<UnmeasuredSetting> unmeasured;
   std::vector<SettingNoise>      settings; ///< means over the channels, see MeanOverChannels()
   std::optional<GainSwitch>      conversionSwitch;
-  GainLine                       line;          ///< no part for exposures
-  std::vector<CommonGain>        commonGains;   ///< of each channel; empty unless the settings are exposures
-  std::optional<NoiseExport>     android;       ///< ExportAndroid(); none: androidReason says why
+  GainLine                       line;        ///< without parts if the settings are exposures
+  std::vector<CommonGain>        commonGains; ///< common gain of each channel; empty unless the settings are exposures
+  std::optional<NoiseExport>     android;     ///< ExportAndroid(); none: androidReason says why
   std::string                    androidReason; ///< "" for gains, and for fewer than two ISO speeds
 };
 

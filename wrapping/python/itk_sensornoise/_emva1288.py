@@ -124,7 +124,7 @@ def evaluate_emva1288(
 class _OneSeries:
     """Frames of one exposure."""
 
-    name: str  # of the parameter, for errors
+    name: str  # name of the parameter, for errors
     exposure: float
     photons: float | None  # None: not known
     stack: Stack

@@ -31,7 +31,7 @@ def set_parameters(instance: ItkObject, parameters: dict[str, Any], function: st
             value = value.item()  # noqa: PLW2901 - SWIG takes Python's numbers alone
         try:
             setter(value)
-        except (TypeError, OverflowError) as error:  # of SWIG: the value fits no type of C++
+        except (TypeError, OverflowError) as error:  # SWIG raises these: the value fits no type of C++
             kind = InvalidTypeError if isinstance(error, TypeError) else InvalidValueError
             raise kind(f"{name} is {value!r}; {cause_of(error)}") from None
         except RuntimeError as error:

@@ -35,7 +35,7 @@ EXPECTED = (
     "list of file names or of 2-D arrays, or a file name, a pattern of names or a folder"
 )
 
-_PIECE_BYTES = 32 << 20  # of pixels that are read together
+_PIECE_BYTES = 32 << 20  # pixels that are read together [bytes]
 
 
 @dataclass

@@ -76,7 +76,7 @@ class LazyStack:
         require_shape(like, name, "t, y, x")
         require_chunks(frames, name)
         self.shape = like.shape
-        # Of a graph of dask that slices arrays of NumPy, no chunk is read as a whole.
+        # A graph of dask that only slices arrays of NumPy reads no chunk as a whole.
         arrays = [array for array in arrays_of_graph(self._frames) if isinstance(array, np.ndarray)]
         mapped = [array for array in [self._frames, *arrays] if mapping_of(array) is not None]
         self._piece = self._frames_of_piece(like.dtype.itemsize, 1 if arrays else frames_of_chunk(self._frames))
@@ -119,7 +119,7 @@ def source_of(stack: LazyStack, failed: list[BaseException]) -> tuple[ItkObject,
     kind = itk.Image[getattr(itk, PIXEL_TYPES[stack.pixel][0]), 3]
     region = itk.ImageRegion[3]()
     region.SetSize(list(stack.shape[::-1]))
-    size_only = kind.New()  # whose pixels nobody looks at
+    size_only = kind.New()  # its pixels are never read
     size_only.SetRegions(region)
     source = itk.PyImageFilter[kind, kind].New()
     source.SetInput(size_only)

@@ -96,7 +96,7 @@ def write_maps(estimator: ItkObject, folder: Path) -> None:
     written: dict[Path, Path] = {}
     try:
         for name, image in _images(estimator).items():
-            target = Path(os.path.realpath(folder / f"{name}.mha"))  # of a link, what it leads to
+            target = Path(os.path.realpath(folder / f"{name}.mha"))  # target of a link
             temporary = target.parent / f".{name}.{os.getpid()}.mha"
             written[temporary] = target
             with itk_errors(f"{target}: cannot be written; ", RuntimeError):

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-# As the tables of C++ write units.
+# Signs of units, as in the tables of the C++ library.
 _SIGNS = (("DN/e-", "DN/e⁻"), ("[e-]", "[e⁻]"), ("^2", "²"), (" +- ", " ± "))
 # Smaller errors, and decimals beyond these, are not rounded to.
 _LEAST_ERROR = 1e-300

@@ -15,7 +15,7 @@ from ._names import expand
 from ._types import FileName, ItkObject
 from ._update import update
 
-# Of a file with several channels or planes: an option of the tool, and the way of Python.
+# Errors about a file with several channels or planes name an option of the tool; Python has another way.
 _CHOICE = ": choose --"
 _ADVICE = (
     "Give the frames of one channel and one plane as an array (t, y, x), "

@@ -20,7 +20,7 @@ from ._report import Report
 from ._settings import Settings, open_dark, prepare, require_settings
 from ._types import Frame, Frames, ItkObject
 
-CHUNK_BYTES = 64 << 20  # of files and lazy frames that are read together
+CHUNK_BYTES = 64 << 20  # files and lazy frames that are read together [bytes]
 LEAST_FRAMES = 4  # read together, however large: so many are worked on at the cost of one
 _CAMERA = "SensorNoise."  # begins the keys under which an image says what is known of its camera
 

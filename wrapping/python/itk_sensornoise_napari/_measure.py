@@ -24,7 +24,7 @@ _PATTERNS = {
     "none (monochrome)": "none",
     **{name: name for name in ("RGGB", "GRBG", "GBRG", "BGGR")},
 }
-# Of an EMCCD camera it is 2, of an intensified camera up to 4.
+# The excess noise factor is 2 for an EMCCD camera, and up to 4 for an intensified camera.
 _GREATEST_EXCESS_NOISE = 10.0
 
 

@@ -57,7 +57,7 @@ class Journal:
         """Reads what is there; makes the file if there is none. Raises ValueError where a line is no entry, or another
         process writes to the file."""
         self._name = name
-        self._settings: dict[str, dict[str, Any]] = {}  # of the sources that have a report
+        self._settings: dict[str, dict[str, Any]] = {}  # settings of the sources that have a report
         self._rows: dict[str, list[Row]] = {}
         with contextlib.ExitStack() as opened:
             self._file: BinaryIO = opened.enter_context(_open(name))

@@ -17,7 +17,7 @@ _MIB = 1 << 20
 # top, whose number nobody knows before.
 _PROCESS_BYTES = 400 * _MIB  # Python, ITK and Dask before the first task [bytes]
 _BYTES_PER_PIXEL = {"u": 120, "i": 120, "f": 220}  # sums and what is made of them, by the kind of pixels [bytes]
-_BYTES_PER_FRAME = 20_000  # of the whole [bytes]
+_BYTES_PER_FRAME = 20_000  # bytes for each frame of the whole stack
 
 
 class WorkerState(NamedTuple):

@@ -18,7 +18,7 @@ class Step(NamedTuple):
 
     at: int  # the first measurement after it, counted from 0
     change: float  # mean from it to the next step less that from the last step to it [unit of the values]
-    standard_error: float  # of the change [unit of the values]
+    standard_error: float  # standard error of the change [unit of the values]
 
     @property
     def z(self) -> float:

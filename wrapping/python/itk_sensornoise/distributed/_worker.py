@@ -19,7 +19,7 @@ _STATE: dict[str, SensorNoiseSums] = {}
 # Dask may begin a task that waited here after the run is forgotten; none waits for that many runs. Chosen
 # empirically: half and twice as many differ by some kB.
 _OVER: deque[str] = deque(maxlen=256)
-_STATE_LOCK = threading.Lock()  # of _STATE and _OVER, for no longer than to look
+_STATE_LOCK = threading.Lock()  # protects _STATE and _OVER; held only while they are read or changed
 
 
 @dataclass
