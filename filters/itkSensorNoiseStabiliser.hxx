@@ -49,7 +49,7 @@ SensorNoiseStabiliser<TInputImage, TOutputImage>::SetReport(const SensorNoiseRes
 {
   if (report == nullptr)
   {
-    itkExceptionMacro("the report is null; expected that of a SensorNoiseEstimator");
+    itkExceptionMacro("the report is null; expected the report of a SensorNoiseEstimator");
   }
   this->SetReport(report->Get());
 }

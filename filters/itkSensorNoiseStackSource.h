@@ -188,8 +188,8 @@ public:
   itkSetMacro(OpticalBlur, double);
   itkGetConstMacro(OpticalBlur, double);
 
-  /** Period of a lamp's pulse in rows of a rolling shutter [row]. Default 0: global shutter, one flicker value for each
-   * frame. Above 0: gamma_t(y) = sqrt(2) FlickerSd sin(2 pi y / period + phase_t). */
+  /** Period of pulsed illumination in rows of a rolling shutter [row]. Default 0: global shutter, one flicker value for
+   * each frame. Above 0: gamma_t(y) = sqrt(2) FlickerSd sin(2 pi y / period + phase_t). */
   itkSetMacro(RollingShutterPeriod, double);
   itkGetConstMacro(RollingShutterPeriod, double);
 

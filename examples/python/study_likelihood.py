@@ -97,7 +97,7 @@ def object_crosses(random):
 
 
 def two_lamps(random):
-    """A second lamp illuminates one side of the scene and changes by 3 %, independently of the first one."""
+    """A second light source illuminates one side of the scene and changes by 3 %, independently of the first one."""
     electrons = camera.electrons_of("texture", random)
     side = np.linspace(0, 1, camera.SHAPE[1])
     first, second = camera.illumination(random), camera.illumination(random, flicker=0.03)

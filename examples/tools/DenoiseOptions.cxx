@@ -78,7 +78,7 @@ DenoiseOptions::Parse(int argc, char ** argv, const std::vector<std::string> & d
     ->capture_default_str();
   app.add_option("--strength", strength, "of the denoiser, relative to what is best for the noise")
     ->capture_default_str();
-  app.add_option("--pixel-type", pixelType, "input: that of the input, rounded and clamped; float: neither")
+  app.add_option("--pixel-type", pixelType, "input: the type of the input, rounded and clamped; float: neither")
     ->check(CLI::IsMember({ "input", "float" }))
     ->capture_default_str();
   app.add_option("--threads", threads, "number of threads; else all")->check(CLI::Range(1, 1024));

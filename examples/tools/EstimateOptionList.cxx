@@ -39,8 +39,8 @@ AddInputOptions(CLI::App & app, EstimateOptions & options, EstimateTexts & texts
     "WxH:TYPE[:SKIP[:ROW[:GAP[:END]]]]: frames without a header, for instance 640x480:uint16le, or "
     "1920x1080:Mono12p:64 behind 64 other bytes. TYPE: uint8, uint16le, uint16be, int16le, uint32le, int32le, "
     "float32le, float64le, Mono10p, Mono12p, Mono12Packed, BayerRG12p, RAW10, RAW12, SRGGB10P, uint12msb and the "
-    "like. ROW: bytes from a row to the next (0: those of its pixels). GAP: bytes behind each frame. END: bytes at "
-    "the end of the file. Dark frames and those of --check are taken for the same")
+    "like. ROW: bytes from a row to the next (0: the bytes of its pixels). GAP: bytes behind each frame. END: bytes at "
+    "the end of the file. Dark frames and the frames of --check are read in the same way")
     ->group("Input");
   app
     .add_option("--channel",
@@ -60,7 +60,7 @@ AddInputOptions(CLI::App & app, EstimateOptions & options, EstimateTexts & texts
           "LIST",
           "exposures of the frames, in their order and in any unit, 0 for dark frames: numbers with commas, or a "
           "file with one frame a line, whose exposure is the last column. With them the linearity error of EMVA "
-          "1288 is measured. Of all frames, also of those that --frames leaves out")
+          "1288 is measured. For all frames, also the frames that --frames leaves out")
     ->group("Input");
 }
 

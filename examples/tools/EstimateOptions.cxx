@@ -303,7 +303,7 @@ EstimateOptions::SelectExposures(std::size_t all)
   {
     throw std::invalid_argument("--exposures holds " + std::to_string(exposures.size()) + " numbers, but there are " +
                                 std::to_string(all) + " frames; expected one exposure for each frame" +
-                                (frames ? ", also for those that --frames leaves out" : ""));
+                                (frames ? ", also for the frames that --frames leaves out" : ""));
   }
   if (frames && frames->second <= all)
   {

@@ -48,12 +48,13 @@ RequireSweepOptions(const CLI::App & app, const EstimateOptions & options)
   {
     if (app.count(name) > 0)
     {
-      throw CLI::ValidationError("--sweep",
-                                 std::string("it measures many bursts, and ") + name +
-                                   (std::string(name) == "--dark"
-                                      ? " gives the dark frames of one setting; put those of each setting into the "
-                                        "folder dark of its folder, or into the column dark of a table"
-                                      : " is for one of them; leave it out, or measure the burst by itself"));
+      throw CLI::ValidationError(
+        "--sweep",
+        std::string("it measures many bursts, and ") + name +
+          (std::string(name) == "--dark"
+             ? " gives the dark frames of one setting; put the dark frames of each setting into the "
+               "folder dark of its folder, or into the column dark of a table"
+             : " is for one of them; leave it out, or measure the burst by itself"));
     }
   }
   if (!options.files.empty())

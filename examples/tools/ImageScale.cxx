@@ -93,7 +93,8 @@ RequireCodeStep(const std::vector<TPixel> & levels, const NoiseModelFile & repor
   if (step >= 4.0 * *report.codeStepDn || (step > 0 && 2.0 * step <= *report.codeStepDn))
   {
     Refuse(image,
-           "its codes are multiples of " + std::to_string(step) + ", the report's of " + Text(*report.codeStepDn),
+           "its digital numbers are multiples of " + std::to_string(step) + ", the report's of " +
+             Text(*report.codeStepDn),
            report);
   }
 }
@@ -116,8 +117,9 @@ RequireMedian(double median, const NoiseModelFile & report, const std::string & 
   const double lowest = zero - 0.375 * report.model.varianceSlopeDn; // below this level the transform gives 0
   if (median < lowest)
   {
-    Refuse(
-      image, "half of its pixels are at or below " + Name(median) + ", the level of no light is " + Name(zero), report);
+    Refuse(image,
+           "half of its pixels are at or below " + Name(median) + ", the level of zero signal is " + Name(zero),
+           report);
   }
   if (report.clipHighDn && median > *report.clipHighDn)
   {

@@ -88,7 +88,7 @@ FindTarget(const std::string & name)
   target.name = name;
   if (name.empty())
   {
-    throw std::runtime_error("the name of an output is empty; expected that of a file");
+    throw std::runtime_error("the name of an output is empty; expected the name of a file");
   }
   fs::path path = name;
   for (int links = 0; links < 40; ++links) // Linux follows 40 links as well

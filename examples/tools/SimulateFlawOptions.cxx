@@ -88,7 +88,7 @@ SimulateFlawOptions::AddTo(CLI::App & app)
       blockQuality,
       "JPEG-like quantisation of 8 x 8 pixels: libjpeg's quality, 1 to 100; 0: none",
       CameraGroup);
-  add("--companding", companding, "Bits of square-root codes that are expanded again; 0: none", CameraGroup);
+  add("--companding", companding, "Bits of the square-root quantization that is expanded again; 0: none", CameraGroup);
   add("--repeat", repeat, "How often each exposure is written", CameraGroup);
   add("--repeat-period", repeatPeriod, "Of so many exposures the last one alone is repeated", CameraGroup);
 }

@@ -48,7 +48,7 @@ SimulateOptions::Parse(int argc, char ** argv)
     "--optical-blur", opticalBlur, "Standard deviation of a blur of the light, before the photons [pixels]");
   app.add_option("--rolling-shutter",
                  rollingShutterPeriod,
-                 "Period of a pulsing lamp in rows of a rolling shutter; 0: the whole frame flickers");
+                 "Period of pulsed illumination in rows of a rolling shutter; 0: the whole frame flickers");
   app.add_option("--frames", frames, "Number of frames");
   app.add_option("--bit-depth", bitDepth, "Bits of the converter, at most 16; 0: no clipping below 65535");
   app.add_option("--clip", clip, "Levels LOW,HIGH between which the sensor itself is limited [DN]")

@@ -75,7 +75,7 @@ ReadNoiseMaps(const std::string & folder)
   if (size != readNoise->GetBufferedRegion().GetSize())
   {
     throw std::runtime_error("the maps in " + folder +
-                             " differ in their size; expected those of one estimate (--maps)");
+                             " differ in their size; expected the maps of one estimate (--maps)");
   }
   return { size[0], size[1], ValuesOf(offset), ValuesOf(readNoise) };
 }

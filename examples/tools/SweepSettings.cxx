@@ -108,9 +108,7 @@ RefuseRepeated(std::vector<SweepBurst> & bursts)
       });
     if (same != bursts.begin() + static_cast<std::ptrdiff_t>(i) && bursts[i].reason.empty())
     {
-      bursts[i].reason = "its setting is that of " + same->name +
-                         ", which is measured; expected one burst for each "
-                         "setting";
+      bursts[i].reason = same->name + " has the same setting and is measured; expected one burst for each setting";
     }
   }
 }

@@ -181,7 +181,7 @@ SensorNoiseImageIO::Read(void * buffer)
 void
 SensorNoiseImageIO::Write(const void *)
 {
-  itkExceptionMacro(<< "nothing is written by this class; expected that of another format, of .mha for instance");
+  itkExceptionMacro(<< "this class writes no files; expected the class of another format, of .mha for instance");
 }
 
 void

@@ -132,7 +132,7 @@ TEST_F(MrawFile, HeadersThatCannotBeTrueAreRefused)
   refused([](CihxOf & h) { h.bits = 11; }, { "says 11 bits a pixel; expected 8, 10, 12 or 16" });
   refused([](CihxOf & h) { h.width = 0; }, { "size 0 along axis 0" });
   refused([](CihxOf & h) { h.frames = 0; }, { "size 0 along axis 2" });
-  refused([](CihxOf & h) { h.width = 7; }, { "7 x 5 pixels, of which 2 are packed in 3 bytes" });
+  refused([](CihxOf & h) { h.width = 7; }, { "7 x 5 pixels, packed 2 in 3 bytes" });
   refused([](CihxOf & h) { h.frames = 3; }, { "240 bytes of pixels", "expected 180" });
   refused([](CihxOf & h) { h.more = "<frameInfo><totalFrame>5</totalFrame></frameInfo>"; },
           { "says \"two values\" for frameInfo/totalFrame" });

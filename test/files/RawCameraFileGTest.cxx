@@ -194,7 +194,7 @@ TEST_F(RawCameraFile, TruncatedAndOtherSizesAreRefused)
   dng.isJpeg = true;
   dng.tags[257] = { 4, { dng.height + 1 } };
   dng.tags[278] = { 4, { dng.height + 1 } };
-  IsRefused(dng, { "strip or tile 0: damaged: its JPEG has 1536 codes; expected 1584" });
+  IsRefused(dng, { "strip or tile 0: damaged: its JPEG has 1536 digital numbers; expected 1584" });
   dng = DngOf::Sound(12);
   dng.isJpeg = true;
   const std::string whole = dng.Bytes();

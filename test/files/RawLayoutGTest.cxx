@@ -160,7 +160,7 @@ TEST_F(RawFile, IsAWholeNumberOfFrames)
   refused(bytes.substr(1), "4x4:uint16le", "2 frames and 31 bytes more; expected a whole number of frames");
   refused(bytes, "4x4:uint16le:96", "0 bytes of pixels");
   refused(bytes, "4x4:uint16le:97", "0 bytes of pixels");
-  refused(bytes, "3x3:Mono12p", "3 x 3 pixels, of which 2 are packed in 3 bytes");
+  refused(bytes, "3x3:Mono12p", "3 x 3 pixels, packed 2 in 3 bytes");
   refused(bytes, "2000000000x2000000000:float64le", "more than can be counted");
 }
 
@@ -176,7 +176,7 @@ TEST_F(RawFile, LayoutsThatAreNoneAreRefused)
   refused("4:uint8", "its size is \"4\"");
   refused("4x4x4:uint8", "its size is \"4x4x4\"");
   refused("0x4:uint8", "a size of 0x4 pixels");
-  refused("4x-4:uint8", "the height is \"-4\", no whole number");
+  refused("4x-4:uint8", "the height is \"-4\", not a whole number");
   refused("4x99999999999:uint8", "a size of");
   refused("4x4:uint16", "does not say which byte comes first; uint16le or uint16be would");
   refused("4x4:Mono9", "the type \"Mono9\" is not known");

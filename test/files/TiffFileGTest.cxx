@@ -191,8 +191,8 @@ TEST_F(TiffFile, PagesThatAreNotAlikeAreRefused)
   };
   isRefused({ { 256, { 4, { 4 } } } }, "a.tif, page 1: 4 x 9 pixels, but the first page has 13 x 9");
   isRefused({ { 339, { 3, { 2 } } } }, "page 1: 16-bit signed samples, but the first page has 16-bit unsigned ones");
-  isRefused({ { 254, { 4, { 1 } } } }, "pages: 3, of which 1 are said to be thumbnails or masks");
-  isRefused({ { 255, { 3, { 2 } } } }, "pages: 3, of which 1 are said to be thumbnails");
+  isRefused({ { 254, { 4, { 1 } } } }, "pages: 3, 1 of them marked as thumbnails or masks");
+  isRefused({ { 255, { 3, { 2 } } } }, "pages: 3, 1 of them marked as thumbnails");
   IsRefused("a.tif",
             TiffWith({ { 270, Text("ImageJ=1.54\nimages=500\nslices=500\n") } }).Bytes(),
             { "pages: 3, but ImageJ's description of it says images=500" });
@@ -220,7 +220,7 @@ TEST_F(TiffFile, AChainOfPagesThatIsBrokenOrHasNoEndIsRefused)
   const TiffOf tiff;
   std::string  damaged = good;
   damaged.replace(linkOf(3), 4, good.substr(4, 4));
-  IsRefused("a.tif", damaged, { "a.tif, page 3: damaged: its directory is that of a page before" });
+  IsRefused("a.tif", damaged, { "a.tif, page 3: damaged: its directory is also the directory of an earlier page" });
   damaged = good;
   damaged.replace(linkOf(1), 4, tiff.Number(100000, 4));
   IsRefused("a.tif", damaged, { "truncated: 1 of its pages can be read, but the file says that more follow" });

@@ -244,7 +244,7 @@ TEST(GeneralizedAnscombeImageFilter, StabilisesWhatWasMeasured)
   const double slope = *estimator->GetReport().varianceSlope.value;
   const double intercept = *estimator->GetReport().totalIntercept.value;
   EXPECT_SAYS(estimator->GetNoiseModelCheckAsJson(slope, intercept), "\"verdict\": \"fits\"");
-  EXPECT_SAYS(estimator->GetNoiseModelCheckAsText(2.0 * slope, intercept), "this model is not that of these frames");
+  EXPECT_SAYS(estimator->GetNoiseModelCheckAsText(2.0 * slope, intercept), "this is not the model of these frames");
   EXPECT_SAYS(ErrorWhen([&] { estimator->GetNoiseModelCheckAsJson(-1.0, 0.0); }), "the variance slope is -1");
   const auto filter = ForwardType::New();
   filter->SetInput(source->GetOutput());

@@ -161,7 +161,7 @@ TEST(NoiseCorrelationEstimatorPipeline, WrongInputsAreNamed)
   EXPECT_SAYS(ErrorOf(estimator), "series 0 holds a value that is not finite");
   estimator = of();
   estimator->SetQuantisationStep(-1.0);
-  EXPECT_SAYS(ErrorOf(estimator), "the spacing of the codes is -1 DN");
+  EXPECT_SAYS(ErrorOf(estimator), "the quantization step is -1 DN");
   estimator = of();
   estimator->SetOffset(std::numeric_limits<double>::infinity());
   EXPECT_SAYS(ErrorOf(estimator), "the offset is infinite");

@@ -114,7 +114,7 @@ TEST(SensorNoiseOffsetEstimate, ResponsesToLocalIlluminationDetermineIt)
   EXPECT_DOUBLE_EQ(offset.valueDn, 102.0);
   EXPECT_DOUBLE_EQ(offset.standardErrorDn, 1.0);
   results.reestimated.localOffset->doLinesMeet = false;
-  EXPECT_TRUE(results.IsRefused("the lamps do not agree on one offset"));
+  EXPECT_TRUE(results.IsRefused("areas under different illumination give different offsets"));
   results.reestimated.localOffset.reset();
   EXPECT_TRUE(results.IsRefused("the illumination changes differently over the frame"));
   results.reestimated.isOffsetDrift = true; // then the component is no illumination, and the flicker decides

@@ -57,7 +57,7 @@ ExpectScenesChange(const Stack<Codes> & stack)
     const std::string & text = report.warnings.front().message;
     EXPECT_EQ(text.rfind("the frames do not show one static scene: ", 0), 0U) << text;
     EXPECT_NE(
-      text.find("a pulsed lamp is off in some frames (leave them out: --frames), or the bytes of each pixel are "
+      text.find("the illumination is off in some frames (leave them out: --frames), or the bytes of each pixel are "
                 "swapped (--raw WxH:uint16be)"),
       std::string::npos)
       << text;

@@ -228,7 +228,7 @@ TEST(SensorNoiseSimulator, ErrorsNameWhatWasFoundAndWhatWasExpected)
               s.bitDepth = 8;
               s.clipLowDn = 300.0;
             }),
-            "the clip levels leave the codes from 300 to 255; expected at least two codes");
+            "the clip levels leave the digital numbers from 300 to 255; expected at least two digital numbers");
   for (const auto & change :
        std::vector<std::function<void(S &)>>{ [](S & s) { s.camera.electrons = 2e9; },
                                               [](S & s) { s.camera.offsetDn = NAN; },

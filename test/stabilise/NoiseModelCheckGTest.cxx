@@ -93,7 +93,7 @@ TEST(NoiseModelCheck, SaysWhereAModelFits)
 TEST(NoiseModelCheck, ModelOfAnotherCameraIsSaidToBe)
 {
   const NoiseModelCheck check = CheckNoiseModel(FramesOfModel(2.0), Model);
-  EXPECT_EQ(check.sentence, "variance 2.00 +- 0.01 from 20 to 2,036 DN: this model is not that of these frames");
+  EXPECT_EQ(check.sentence, "variance 2.00 +- 0.01 from 20 to 2,036 DN: this is not the model of these frames");
 }
 
 TEST(NoiseModelCheck, ModelWithoutVarianceAtALevelDoesNotFitThere)
@@ -170,9 +170,9 @@ TEST(NoiseModelCheck, FramesOfAnotherScaleAreSaid)
   Report report = ReportOf(Model);
   frames.quantisationStepDn = 16.0;
   report.quantisationStepDn = 1.0;
-  EXPECT_EQ(
-    CheckReport(frames, report).sentence,
-    "variance 1.00 +- 0.01 from 20 to 2,036 DN: this model can be used; its codes are 1 DN apart, those of these "
-    "frames 16 DN: it may be of another scale");
+  EXPECT_EQ(CheckReport(frames, report).sentence,
+            "variance 1.00 +- 0.01 from 20 to 2,036 DN: this model can be used; its digital numbers are 1 DN apart, "
+            "the numbers of these "
+            "frames 16 DN: it may be of another scale");
   EXPECT_THROW(CheckReport(frames, Report()), std::invalid_argument);
 }

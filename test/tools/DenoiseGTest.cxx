@@ -265,7 +265,8 @@ TEST_F(DenoiseToolTest, OtherScalesAreRefused)
   };
   IsRefusedBy("--report report.json " + scaled("by16.tif", 16.0) + " clean.tif", { "by16.tif", "multiples of 16" });
   IsRefusedBy("--report report.json " + scaled("by15.tif", 15.8) + " clean.tif", { "by15.tif", "another scale" });
-  IsRefusedBy("--report report.json " + scaled("dark.tif", 0.005) + " clean.tif", { "dark.tif", "level of no light" });
+  IsRefusedBy("--report report.json " + scaled("dark.tif", 0.005) + " clean.tif",
+              { "dark.tif", "level of zero signal" });
   // twice the signal of the brightest pixels that were measured
   nlohmann::json report = nlohmann::json::parse(ReadText(Path("report.json")));
   report["scatter"]["mean"] = { 150, 300 };

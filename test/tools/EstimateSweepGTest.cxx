@@ -203,7 +203,7 @@ TEST_F(EstimateSweepTool, GivesABadBurstARowWithItsReason)
   EXPECT_TRUE(Says("ISO 200 (iso200): cam/iso200: there is no file in this folder")) << m_Output;
   EXPECT_TRUE(Says("light.mha: truncated")) << m_Output;
   EXPECT_TRUE(Says("night: its setting is not known")) << m_Output;
-  EXPECT_TRUE(Says("its setting is that of ISO_100_again")) << m_Output;
+  EXPECT_TRUE(Says("ISO_100_again has the same setting and is measured")) << m_Output;
   const nlohmann::json entry = Passport()["settings"][2];
   EXPECT_EQ(entry["status"], "failed");
   EXPECT_TRUE(entry["report"].is_null());

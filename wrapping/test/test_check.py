@@ -40,7 +40,7 @@ def test_wrong_models_are_seen(report):
     assert not itk.check_noise_model(frames, steeper)
     assert not itk.check_noise_model(simulated(2, gain=1.2), report)
     scaled = itk.check_noise_model(frames * np.uint16(16), report)
-    assert not scaled and scaled["sentence"].endswith("those of these frames 16 DN: it may be of another scale")
+    assert not scaled and scaled["sentence"].endswith("the numbers of these frames 16 DN: it may be of another scale")
 
 
 def test_published_report_is_held_against_what_the_refined_method_finds(report):

@@ -61,9 +61,7 @@ def test_too_little_memory_is_reported_before_a_frame_is_read(stack, tmp_path):
         ) as failure,
     ):
         estimate_sensor_noise(frames, client, bayer="none")
-    assert "has a memory_limit of 300 MiB, of which Dask lets it use 95%, and needs at least 465 MiB" in str(
-        failure.value
-    )
+    assert "has a memory_limit of 300 MiB (Dask lets it use 95%), and needs at least 465 MiB" in str(failure.value)
     assert "expected a memory_limit of 490 MiB or more" in str(failure.value)
     assert not (tmp_path / "read").exists()
 
@@ -212,7 +210,7 @@ def test_a_burst_takes_no_more_memory_than_its_worker_has(stack, monkeypatch):
     monkeypatch.setattr(distributed, "get_worker", worker_with(300 * MIB))
     outcome = _task.measure_pickled(pickle.dumps(stack), {})
     assert outcome.report is None
-    assert outcome.reason.startswith("the worker has a memory_limit of 300 MiB, of which Dask lets it use 240 MiB: too")
+    assert outcome.reason.startswith("the worker has a memory_limit of 300 MiB, and Dask lets it use 240 MiB: too")
     monkeypatch.setattr(distributed, "get_worker", worker_with(501 * MIB))
     assert "the memory limit is" in _task.measure_pickled(pickle.dumps(stack), {}).reason
     asked = []

@@ -70,7 +70,7 @@ WRONG_PARAMETERS = {
     "quantiles": (0.5, "quantiles is 0.5; expected (dark, bright)"),
     "roi": ((0, 0, 10, 8), "roi is (0, 0, 10, 8); expected (x, y, width, height) inside 9 x 8 pixels"),
     "frame_range": ((0, 7), "frame_range ends at 7, but there are 6 frames"),
-    "mask": (np.ones((9, 8)), "mask has shape (9, 8); expected (8, 9), that of a frame"),
+    "mask": (np.ones((9, 8)), "mask has shape (9, 8); expected (8, 9), the shape of a frame"),
     "threads": (0, "threads is 0; expected a whole number from 1 to 1024"),
 }
 

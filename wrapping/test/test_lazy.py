@@ -235,7 +235,7 @@ def test_axes_of_one_element_are_left_out_and_unclear_ones_refused(burst, expect
     assert itk.estimate_sensor_noise(five) == expected
     assert itk.estimate_sensor_noise(xarray.DataArray(burst)) == expected  # dim_0, dim_1, dim_2
     text = refused(xarray.DataArray(burst, dims=("y", "rows", "x")))
-    assert text.startswith("frames has the axes ('y', 'rows', 'x'), of which it is not clear which is time; expected")
+    assert text.startswith("frames has the axes ('y', 'rows', 'x'), which do not show which axis is time; expected")
 
 
 @pytest.mark.parametrize("zarr_format", [2, 3])

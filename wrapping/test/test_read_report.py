@@ -149,7 +149,7 @@ def test_what_is_no_report_is_refused(report, mosaic, case):
 
 
 def test_one_report_is_no_mosaic(report):
-    with pytest.raises(ValueError, match="has one report; expected those of a mosaic: Report.from_json"):
+    with pytest.raises(ValueError, match="has one report; expected the reports of a mosaic: Report.from_json"):
         sn.ChannelReports.from_json(report.to_json())
 
 

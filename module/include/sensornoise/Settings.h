@@ -101,7 +101,8 @@ struct LevelRange
 struct SensorNoise_EXPORT RefinedSettings
 {
   /** Off: the illumination changes by the same factor everywhere. Auto and Fixed: illumination that changes differently
-   * over the frame is looked for, as with a rolling shutter, a second lamp or bleaching. The method needs no sigma_y.
+   * over the frame is looked for, as with a rolling shutter, a second light source or bleaching. The method needs no
+   * sigma_y.
    */
   RollingShutter rollingShutter{ RollingShutter::Auto };
   /** Dark offset, if it is known. Offset and read noise then need no flicker. Null (default): not known. */

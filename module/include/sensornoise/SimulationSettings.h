@@ -23,7 +23,7 @@ enum class IlluminationShape
   Pulses,      ///< 1 in every P-th frame (t = P - 1, 2 P - 1, ...), L in the others; P rounded to whole frames
   Ramp,        ///< L + (1 - L) t / (T - 1): from L to 1
   Decay,       ///< L^(t / (T - 1)): exponential, from 1 to L
-  Sine,        ///< L + (1 - L) (1 + sin(2 pi t / P)) / 2, as of a lamp on the mains
+  Sine,        ///< L + (1 - L) (1 + sin(2 pi t / P)) / 2, as of a light source on the mains
   Uniform,     ///< L + (1 - L) u_t
   Exponential, ///< L + (1 - L) e_t, where e_t has the mean 1; the factor may exceed 1
   Factors      ///< IlluminationSettings::factors
@@ -109,7 +109,7 @@ struct SimulationSettings
   /** Standard deviation of the Gaussian blur of the optics [pixel], 0 to 1000; the paper has 0.5. */
   double opticalBlurPixels{ 0.5 };
   /** Period of the flicker along y under a rolling shutter [row], 0 to 1e9. 0: a global shutter, where gamma_t is one
-   * normal number per frame. Above 0: a pulsed lamp while the rows are read one after the other, with
+   * normal number per frame. Above 0: pulsed illumination while the rows are read one after the other, with
    * gamma_t(y) = sqrt(2) flickerSd sin(2 pi y / period + phase_t), where phase_t is uniform. */
   double rollingShutterPeriodRows{ 0.0 };
   /** Lowest level of the sensor [DN], below clipHighDn; null: none. */

@@ -79,7 +79,7 @@ struct SimulatedSeries
   std::vector<double> alpha;
   /** Vertical shift [pixel]. */
   std::vector<double> beta;
-  /** Phase of the lamp at row 0 [rad], for the rolling shutter. */
+  /** Phase of the pulsed illumination at row 0 [rad], for the rolling shutter. */
   std::vector<double> phase;
 };
 

@@ -116,7 +116,7 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
   { WarningCode::GreensDiffer,
     "greens-differ",
     Severity::Warning,
-    "The gains of a mosaic's two greens differ: the pattern is another one, or rows are read by different amplifiers. "
+    "The gains of a mosaic's two greens differ: the pattern is wrong, or rows are read by different amplifiers. "
     "Check the pattern (--bayer)." },
   { WarningCode::OffsetsDiffer,
     "offsets-differ",
@@ -170,7 +170,8 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
   { WarningCode::LocalLight,
     "local-light",
     Severity::Note,
-    "The illumination changes differently over the frame: a rolling shutter, several lamps, bleaching, a filter "
+    "The illumination changes differently over the frame: a rolling shutter, several light sources, bleaching, a "
+    "filter "
     "between frames, or strong row noise. Gain and intercept allow for it." },
   { WarningCode::RollingShutter,
     "rolling-shutter",
@@ -234,7 +235,7 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
     "steady-light",
     Severity::Warning,
     "The level that does not flicker is not the given offset: steady illumination, dark current, or another offset. "
-    "Switch steady lamps off, or give an offset of the same exposure and temperature." },
+    "Switch steady light sources off, or give an offset of the same exposure and temperature." },
   { WarningCode::OffsetOutOfRange,
     "offset-out-of-range",
     Severity::Warning,
@@ -255,7 +256,7 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
     "offset-line-misfit",
     Severity::Warning,
     "Dark pixels do not follow the flicker of the bright ones, so that the offset is doubtful (published method). Use "
-    "one lamp, or --method refined." },
+    "one light source, or --method refined." },
   { WarningCode::PoorFit,
     "poor-fit",
     Severity::Warning,
@@ -264,7 +265,8 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
   { WarningCode::CorrectedVarianceCurved,
     "corrected-variance-curved",
     Severity::Warning,
-    "The corrected variance is a curve of the mean: vibrations, several lamps, or a non-linear response (published "
+    "The corrected variance is a curve of the mean: vibrations, several light sources, or a non-linear response "
+    "(published "
     "method). Use --method refined." },
   { WarningCode::BrightSetWidened,
     "bright-set-widened",
@@ -278,7 +280,7 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
     "scene-changes",
     Severity::Error,
     "The frames do not show one static scene. Check whether another axis was taken for time, the scene or camera "
-    "moves, a pulsed lamp is off in some frames (leave them out: --frames), or the bytes of each pixel are swapped "
+    "moves, the illumination is off in some frames (leave them out: --frames), or the bytes of each pixel are swapped "
     "(--raw)." },
   { WarningCode::NothingToMeasure,
     "nothing-to-measure",
@@ -288,8 +290,9 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
   { WarningCode::TooLittleToMeasure,
     "too-little-to-measure",
     Severity::Error,
-    "Too few pixels fit a static scene, or too few frames have light. Choose a static part of the scene (--roi), or "
-    "record more frames with light." },
+    "Too few pixels fit a static scene, or too few frames are illuminated. Choose a static part of the scene (--roi), "
+    "or "
+    "record more illuminated frames." },
   { WarningCode::CodesTooCoarse,
     "codes-too-coarse",
     Severity::Error,
@@ -323,7 +326,7 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
     Severity::Error,
     "The gain is contradicted: the variance scatters less than by chance, the interval of the gain contains 0, or rows "
     "have illumination of their own. Record one unprocessed burst of one scene, with more lit frames and without "
-    "pulsed lamps." },
+    "pulsed illumination." },
   { WarningCode::GainNotUniform,
     "gain-not-uniform",
     Severity::Warning,

@@ -166,7 +166,7 @@ UnsealSums(const unsigned char * bytes, std::size_t size, const std::string & ve
   if (fingerprint != FingerprintOf(sums.bytes, sums.size))
   {
     throw std::runtime_error("the sums are damaged: the checksum of their " + std::to_string(sums.size) +
-                             " bytes is not the one that was written with them; hand them over again");
+                             " bytes differs from the checksum that was written with them; hand them over again");
   }
   return sums;
 }

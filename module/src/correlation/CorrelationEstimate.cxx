@@ -189,7 +189,7 @@ CorrelationSettings::Validate(std::size_t frames) const
   }
   if (!(quantisationStepDn >= 0.0) || std::isinf(quantisationStepDn))
   {
-    throw std::invalid_argument("the spacing of the codes is " + Text(quantisationStepDn) +
+    throw std::invalid_argument("the quantization step is " + Text(quantisationStepDn) +
                                 " DN; expected a number from 0 on");
   }
   for (std::size_t k = 0; k < series.size(); ++k)

@@ -147,7 +147,7 @@ RequireUsable(const std::vector<EmvaSeries> & series, const EmvaSettings & setti
     {
       throw std::invalid_argument(
         "the frames of the exposure " + Text(each.exposure) + " have " + std::to_string(each.width) + " x " +
-        std::to_string(each.height) + " pixels, those of the exposure " + Text(series.front().exposure) + " " +
+        std::to_string(each.height) + " pixels, the frames of the exposure " + Text(series.front().exposure) + " " +
         std::to_string(series.front().width) + " x " + std::to_string(series.front().height) + "; expected one size");
     }
   }

@@ -106,7 +106,7 @@ NoteOf(const CameraNoise & noise)
   const std::string factors = noise.channels.size() == 1
                                 ? "The numbers are a quarter of the variance, as darktable measures it. "
                                 : "Green was calibrated on darktable 4.2.1 to " + percent +
-                                    ". Red and blue are those of grey light; darktable does not use them. ";
+                                    ". Red and blue are the values for grey light; darktable does not use them. ";
   return factors + names + " that darktable's image information shows, and start darktable --noiseprofiles FILE.";
 }
 } // namespace

@@ -254,8 +254,9 @@ ExportNoise(const std::string & format, const std::vector<CameraNoise> & setting
   const std::size_t least = found->leastReports;
   if (settings.size() < least || (!found->takesSeveral && settings.size() > least))
   {
-    throw ExportError(std::to_string(settings.size()) + " reports were given; " + format + " takes " +
-                      (!found->takesSeveral ? "one" : std::to_string(least) + " or more, each of another ISO setting"));
+    throw ExportError(
+      std::to_string(settings.size()) + " reports were given; " + format + " takes " +
+      (!found->takesSeveral ? "one" : std::to_string(least) + " or more, each of a different ISO setting"));
   }
   return found->write(settings);
 }

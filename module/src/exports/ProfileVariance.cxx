@@ -114,7 +114,7 @@ SetSensor(const std::string &    file,
   if (!level)
   {
     throw ExportError("the profile " + file +
-                      " has no dark offset, and that of the frames is not known. Give dark "
+                      " has no dark offset, and the offset of the frames is not known. Give dark "
                       "frames (--dark), the offset (--offset) or the black level (--black).");
   }
   const NoiseModel line = ModelOf(burst, measured);

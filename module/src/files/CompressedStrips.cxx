@@ -251,7 +251,7 @@ private:
     }
     if (marker != 0xC3)
     {
-      Refuse("compressed with loss, as JPEG; expected codes as the sensor gave them");
+      Refuse("compressed with loss, as JPEG; expected digital numbers as the sensor gave them");
     }
     if (m_Samples != 0 || length < 8)
     {

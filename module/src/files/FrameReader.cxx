@@ -206,10 +206,9 @@ BytesOfFrame(const FrameFile & file, const FramePlaces & places)
   {
     const std::size_t group = SamplesInGroup(format);
     throw FileError(file.name,
-                    std::to_string(file.width) + " x " + std::to_string(file.height) + " pixels, of which " +
-                      std::to_string(group) + " are packed in " + std::to_string(BytesInGroup(format)) +
-                      " bytes; expected " + (hasGaps ? "a width" : "a number of pixels") + " that is a multiple of " +
-                      std::to_string(group));
+                    std::to_string(file.width) + " x " + std::to_string(file.height) + " pixels, packed " +
+                      std::to_string(group) + " in " + std::to_string(BytesInGroup(format)) + " bytes; expected " +
+                      (hasGaps ? "a width" : "a number of pixels") + " that is a multiple of " + std::to_string(group));
   }
   if (hasGaps && places.rowBytes < *row)
   {

@@ -254,12 +254,12 @@ LibRawFrame::Decode()
   {
     throw FileError(m_File,
                     "damaged: its pixels cannot be decoded (" + (error.empty() ? std::string("data error") : error) +
-                      "); expected those of a whole file");
+                      "); expected the pixels of a whole file");
   }
   const libraw_rawdata_t & data = m_Raw->raw.imgdata.rawdata;
   if (data.raw_image == nullptr)
   {
-    throw FileError(m_File, "several colours a pixel, or codes that are no whole numbers; expected a plain mosaic");
+    throw FileError(m_File, "several colours a pixel, or digital numbers that are not whole; expected a plain mosaic");
   }
   RequireInside(m_File, m_Raw->raw.imgdata.sizes);
 }

@@ -81,11 +81,11 @@ CompressedBytesOf(const std::string & file, const MetaImageHeader & header)
   const std::optional<std::uint64_t> size = WholeNumber(text);
   if (text.empty() || !size || *size == 0)
   {
-    throw FileError(
-      file,
-      "compressed " + (text.empty() ? "without a CompressedDataSize" : "with a CompressedDataSize of " + text) +
-        " in the header; expected the number of compressed bytes, without which nobody can tell if they are "
-        "all there");
+    throw FileError(file,
+                    "compressed " +
+                      (text.empty() ? "without a CompressedDataSize" : "with a CompressedDataSize of " + text) +
+                      " in the header; expected the number of compressed bytes, which shows whether they are "
+                      "all there");
   }
   return *size;
 }

@@ -294,7 +294,7 @@ FormatOfMraw(const FrameFile & file, const PhotronFields & fields)
   {
     throw FileError(file.name,
                     "colours of " + std::to_string(bits) +
-                      " bits a pixel, which are made of others; expected the sensor's own values");
+                      " bits a pixel, which are computed from others; expected the sensor's own values");
   }
   if (bits != 8 && bits != 10 && bits != 12 && bits != 16)
   {

@@ -124,7 +124,7 @@ public:
     LibRawFrame frame(file.name);
     if (frame.Width() != file.width || frame.Height() != file.height)
     {
-      throw FileError(file.name, "has changed since it was opened: its size is another");
+      throw FileError(file.name, "has changed since it was opened: its size differs");
     }
     frame.Decode();
     frame.CopyTo(static_cast<unsigned short *>(buffer));
@@ -168,10 +168,11 @@ InspectRawCamera(FileBytes & bytes, FrameFile & file, const BeforeInflating & be
   static_cast<void>(beforeInflating);
   std::string head(16, '\0');
   head.resize(bytes.ReadSome(0, head.data(), head.size()));
-  throw FileError(file.name,
-                  "a raw file of a camera (" + KindOf(head, file.name) +
-                    "), for which this build has no LibRaw; expected its codes as TIFF (LibRaw's unprocessed_raw -T), "
-                    "a build with SensorNoise_USE_LibRaw, or in Python pip install itk-sensornoise[raw]");
+  throw FileError(
+    file.name,
+    "a raw file of a camera (" + KindOf(head, file.name) +
+      "), for which this build has no LibRaw; expected its digital numbers as TIFF (LibRaw's unprocessed_raw -T), "
+      "a build with SensorNoise_USE_LibRaw, or in Python pip install itk-sensornoise[raw]");
 #endif
 }
 

@@ -183,7 +183,7 @@ ReadType(const std::string & text, const std::string & type, RawLayout & layout)
     const bool lacksOrder = FormatOfNumbers(name + "le").has_value();
     if (name.rfind("uint64", 0) == 0 || name.rfind("int64", 0) == 0)
     {
-      RefuseLayout(text, "integers of 64 bits (" + type + ") are not supported, those of up to 32 bits are");
+      RefuseLayout(text, "integers of 64 bits (" + type + ") are not supported; expected integers of up to 32 bits");
     }
     RefuseLayout(text,
                  lacksOrder
@@ -202,7 +202,7 @@ ReadCount(const std::string & text, const std::string & what, const std::string 
   const std::optional<std::uint64_t> number = WholeNumber(digits);
   if (!number)
   {
-    RefuseLayout(text, what + " is \"" + digits + "\", no whole number");
+    RefuseLayout(text, what + " is \"" + digits + "\", not a whole number");
   }
   return *number;
 }

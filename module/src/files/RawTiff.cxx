@@ -163,8 +163,7 @@ public:
           chunks[i].offset != chunks[i - 1].offset + chunks[i - 1].bytes)
       {
         m_Tags.Refuse("its strip " + std::to_string(i) +
-                      " does not follow the one before; expected uncompressed "
-                      "codes in one piece");
+                      " does not follow the strip before; expected uncompressed digital numbers in one piece");
       }
     }
   }
@@ -191,12 +190,12 @@ private:
     const std::uint64_t samples = m_Tags.Number(277, "SamplesPerPixel", 1);
     if (m_Compression == LossyJpeg)
     {
-      m_Tags.Refuse("compressed with loss, as JPEG; expected codes as the sensor gave them");
+      m_Tags.Refuse("compressed with loss, as JPEG; expected digital numbers as the sensor gave them");
     }
     if (m_Compression != 1 && m_Compression != 7)
     {
       m_Tags.Refuse("compressed in a way (" + std::to_string(m_Compression) +
-                    ") that cannot be checked; expected uncompressed codes or JPEG without loss");
+                    ") that cannot be checked; expected uncompressed digital numbers or JPEG without loss");
     }
     if (samples != 1)
     {
@@ -204,11 +203,12 @@ private:
     }
     if (m_Tags.Number(339, "SampleFormat", 1) != 1 || m_Bits < 8 || m_Bits > 16)
     {
-      m_Tags.Refuse("codes of " + std::to_string(m_Bits) + " bits, or no whole numbers; expected 8 to 16 bits");
+      m_Tags.Refuse("digital numbers of " + std::to_string(m_Bits) + " bits, or not whole ones; expected 8 to 16 bits");
     }
     if (m_Tags.Has(50712))
     {
-      m_Tags.Refuse("its codes were rounded through a table (LinearizationTable), which is a loss; expected codes as "
+      m_Tags.Refuse("its digital numbers were rounded through a table (LinearizationTable), which is a loss; expected "
+                    "the numbers as "
                     "the sensor gave them");
     }
   }
@@ -220,8 +220,9 @@ private:
     const std::uint64_t found = SamplesOfLosslessJpeg(piece, m_Tiff.File(), chunk.offset, chunk.bytes);
     if (found != expected)
     {
-      throw FileError(
-        piece, "damaged: its JPEG has " + std::to_string(found) + " codes; expected " + std::to_string(expected));
+      throw FileError(piece,
+                      "damaged: its JPEG has " + std::to_string(found) + " digital numbers; expected " +
+                        std::to_string(expected));
     }
   }
 
@@ -233,8 +234,8 @@ private:
     if (chunk.bytes < expected || chunk.bytes - expected >= rowBytes)
     {
       m_Tags.Refuse("damaged: its strip or tile " + std::to_string(index) + " has " + std::to_string(chunk.bytes) +
-                    " bytes; expected " + std::to_string(expected) + " for its codes of " + std::to_string(m_Bits) +
-                    " bits");
+                    " bytes; expected " + std::to_string(expected) + " for its digital numbers of " +
+                    std::to_string(m_Bits) + " bits");
     }
   }
 
@@ -333,7 +334,7 @@ RequireWholeRawTiff(const std::string & file, FileBytes & bytes, std::uint64_t w
   {
     throw FileError(file,
                     "LibRaw would read " + std::to_string(width) + " x " + std::to_string(height) +
-                      " codes; expected an image of that size in one of its directories");
+                      " pixels; expected an image of this size in one of its directories");
   }
 }
 

@@ -68,7 +68,7 @@ BayerPatternOfSer(const FrameFile & file, std::uint64_t color)
   {
     throw FileError(file.name,
                     "colours of three values a pixel (ColorID " + std::to_string(color) +
-                      "), which are made of others; expected the sensor's own, grey or a mosaic");
+                      "), which are computed from others; expected the sensor's own, grey or a mosaic");
   }
   if (color != 0 && (color < 16 || color > 19)) // 16 to 19: mosaics of cyan, magenta and yellow
   {

@@ -88,7 +88,8 @@ private:
   {
     if (!m_Seen.insert(offset).second)
     {
-      throw FileError(page, "damaged: its directory is that of a page before, so that its pages have no end");
+      throw FileError(page,
+                      "damaged: its directory is also the directory of an earlier page, so that the pages have no end");
     }
     if (m_Pages > 0 && !m_Bytes.Holds(offset, 2))
     {
@@ -227,8 +228,8 @@ private:
     if (m_Frames > 1 && m_Reduced > 0)
     {
       throw FileError(m_File.name,
-                      pages + "of which " + std::to_string(m_Reduced) +
-                        " are said to be thumbnails or masks (NewSubfileType); expected frames alone");
+                      pages + std::to_string(m_Reduced) +
+                        " of them marked as thumbnails or masks (NewSubfileType); expected frames alone");
     }
     const std::optional<std::uint64_t> images = ImagesOfImageJ(m_Description);
     if (images && *images != m_Frames && *images != m_Described)

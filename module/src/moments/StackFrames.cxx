@@ -74,7 +74,7 @@ PassFrames::Skip(std::size_t count)
 {
   if (count > m_Has.size() - m_Next)
   {
-    throw std::logic_error("pass " + std::to_string(m_Pass + 1) + " was told to skip " + std::to_string(count) +
+    throw std::logic_error("pass " + std::to_string(m_Pass + 1) + " was to skip " + std::to_string(count) +
                            " frames; " + std::to_string(m_Has.size() - m_Next) + " are left");
   }
   m_Next += count;

@@ -220,7 +220,7 @@ IntegerMoments<TPixel>::Merge(const IntegerMoments & other)
   if (other.GetNumberOfPixels() != this->GetNumberOfPixels())
   {
     throw std::invalid_argument("moments of frames of " + std::to_string(other.GetNumberOfPixels()) +
-                                " pixels cannot be merged into those of frames of " +
+                                " pixels cannot be merged into moments of frames of " +
                                 std::to_string(this->GetNumberOfPixels()) + " pixels");
   }
   RequireExact(m_Frames + other.m_Frames, MostFrames);
@@ -336,7 +336,7 @@ FloatingMoments<TPixel>::Merge(const FloatingMoments & later)
   if (later.GetNumberOfPixels() != this->GetNumberOfPixels())
   {
     throw std::invalid_argument("moments of frames of " + std::to_string(later.GetNumberOfPixels()) +
-                                " pixels cannot be merged into those of frames of " +
+                                " pixels cannot be merged into moments of frames of " +
                                 std::to_string(this->GetNumberOfPixels()) + " pixels");
   }
   const std::size_t frames = m_Frames + later.m_Frames;

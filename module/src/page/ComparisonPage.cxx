@@ -360,12 +360,12 @@ QuantitySection(const Comparison & comparison, const ComparedQuantity & quantity
 {
   std::string text = Heading("h2", LabelText(quantity.entry->label)) + "<p class=\"soft\">" +
                      Escaped(quantity.entry->meaning) + "</p>\n";
-  text +=
-    HasFigure(comparison, quantity)
-      ? FigureElement(ComparisonFigure(comparison, quantity),
-                      std::string("Bars: 95 % intervals") +
-                        (HasOneFirst(quantity) ? ", the band that of the first report" : "") + "; rings have no error.")
-      : "<p>No report has a value.</p>\n";
+  text += HasFigure(comparison, quantity)
+            ? FigureElement(ComparisonFigure(comparison, quantity),
+                            std::string("Bars: 95 % intervals") +
+                              (HasOneFirst(quantity) ? ", the band the 95 % interval of the first report" : "") +
+                              "; rings have no error.")
+            : "<p>No report has a value.</p>\n";
   text += ChangeTable(comparison, quantity);
   for (const CommonMean & common : quantity.means)
   {

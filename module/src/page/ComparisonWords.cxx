@@ -272,7 +272,7 @@ RuleText(const Comparison & comparison)
     NumberOf(comparison, [](const Change & change) { return change.standardError.has_value(); });
   return "Each report is compared with the first, of a mosaic channel by channel. The standard error of a difference "
          "is "
-         "the root of both errors' squares, as for independent reports: those that share frames, dark frames or a "
+         "the root of both errors' squares, as for independent reports: reports that share frames, dark frames or a "
          "given "
          "offset differ by less. Beyond " +
          Text(ChanceErrors) + " standard errors chance is not taken for the cause; it gives one in 370, and here are " +

@@ -248,10 +248,11 @@ InputTable(const std::optional<InputRecord> & input)
   const bool hasFiles = !input->frames.IsOfPixels() || (input->dark && !input->dark->IsOfPixels());
   return "<table class=\"settings\"><tbody>\n" + InputRow("frames", input->frames) +
          (input->dark ? InputRow("dark frames", *input->dark) : "") + "</tbody></table>\n<p class=\"soft\">" +
-         (hasFiles ? "The hash of files is that of <code>cat FILES | sha256sum</code>: all files in the order of the "
-                     "frames, behind a header the files of its pixels. "
-                   : "") +
-         (hasPixels ? "The hash of pixels is that of all their bytes, least significant first, a frame after the "
+         (hasFiles
+            ? "The hash of files is the hash of <code>cat FILES | sha256sum</code>: all files in the order of the "
+              "frames, behind a header the files of its pixels. "
+            : "") +
+         (hasPixels ? "The hash of pixels is the hash of all their bytes, least significant first, a frame after the "
                       "other, row by row."
                     : "") +
          "</p>\n";

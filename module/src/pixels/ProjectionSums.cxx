@@ -108,7 +108,7 @@ ProjectionSums::Merge(const ProjectionSums & other)
       other.m_LastSlab != m_LastSlab || other.m_Width != m_Width)
   {
     throw std::invalid_argument("projections of " + std::to_string(other.m_Pixels) + " pixels on " +
-                                std::to_string(other.m_Series) + " series cannot be merged into those of " +
+                                std::to_string(other.m_Series) + " series cannot be merged into projections of " +
                                 std::to_string(m_Pixels) + " pixels on " + std::to_string(m_Series));
   }
   for (std::size_t slab = m_FirstSlab; slab < m_LastSlab; ++slab)

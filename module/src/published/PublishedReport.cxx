@@ -69,10 +69,11 @@ WarnOfFlicker(Report & report, const FlickerEstimate & flicker)
   }
   if (flicker.offsetLinePhi > LargestOffsetLinePhi)
   {
-    report.Warn(WarningCode::OffsetLineMisfit,
-                "dark pixels do not follow the flicker of the bright ones (residual variance " +
-                  RoundedApart(flicker.offsetLinePhi, 1.0) +
-                  " times the noise, expected 1), so that the offset is doubtful. Use one lamp, or --method refined");
+    report.Warn(
+      WarningCode::OffsetLineMisfit,
+      "dark pixels do not follow the flicker of the bright ones (residual variance " +
+        RoundedApart(flicker.offsetLinePhi, 1.0) +
+        " times the noise, expected 1), so that the offset is doubtful. Use one light source, or --method refined");
   }
 }
 
@@ -158,11 +159,12 @@ FillParameters(Report & report, const PublishedFindings & found, const Published
   report.fit.offsetLinePhi = found.flicker.offsetLinePhi;
   if (estimate.curvedFraction)
   {
-    report.Warn(WarningCode::CorrectedVarianceCurved,
-                "the corrected variance deviates from its line by " +
-                  PercentApart(*estimate.curvedFraction, LargestCurvedFraction) +
-                  " of itself (expected less than 3 %): vibrations, several lamps, or a non-linear response. Use "
-                  "--method refined");
+    report.Warn(
+      WarningCode::CorrectedVarianceCurved,
+      "the corrected variance deviates from its line by " +
+        PercentApart(*estimate.curvedFraction, LargestCurvedFraction) +
+        " of itself (expected less than 3 %): vibrations, several light sources, or a non-linear response. Use "
+        "--method refined");
   }
 }
 } // namespace

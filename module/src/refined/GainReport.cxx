@@ -82,8 +82,8 @@ TextOfLineIllumination(const LineIllumination & lines, double effect)
          Percent(std::sqrt(lines.left.value)) + " rms, which adds " +
          PercentApart(effect, InRefined.largestLineIllumination) + " to the slope of the variance (expected at most " +
          Percent(InRefined.largestLineIllumination) +
-         "): a pulsed lamp under a rolling shutter, or interlaced frames. Use a lamp on direct current, expose "
-         "for whole periods of the lamp, or give one field of the frames";
+         "): pulsed illumination under a rolling shutter, or interlaced frames. Use steady light sources, expose "
+         "for whole periods of the illumination, or give one field of the frames";
 }
 
 std::string
@@ -109,7 +109,7 @@ TextOfLitFrames(const LitFrames & lit, Eigen::Index frames)
          Percent(lit.illumination) + " of the illumination of " + std::to_string(frames) +
          " distinct frames (the first is 0): flicker and motion take up all but " +
          PercentApart(lit.noiseFraction, 1.0 - InPixels.largestFeedback) + " of their shot noise (expected at least " +
-         Percent(1.0 - InPixels.largestFeedback) + "). The gain is not identifiable: record more frames with light";
+         Percent(1.0 - InPixels.largestFeedback) + "). The gain is not identifiable: record more illuminated frames";
 }
 
 std::string

@@ -71,7 +71,7 @@ WarnOfKnownOffset(Report & report, const RefinedEstimate & estimate)
                 "the level that does not flicker is " + Measured(flicker.valueDn, flicker.standardErrorDn) + " DN, " +
                   Measured(std::abs(difference), error) + " DN " +
                   (difference > 0.0 ? "above the given offset: steady illumination or dark current adds to it. Switch "
-                                      "steady lamps off, or give an offset of the same exposure and temperature"
+                                      "steady light sources off, or give an offset of the same exposure and temperature"
                                     : "below the given offset, which is too high for these frames. Check --offset or "
                                       "--dark, or leave it out"));
   }
@@ -144,8 +144,8 @@ ReasonOf(const OffsetEstimate & offset, const RefinedResults & found)
     case OffsetFailure::OffsetsDisagree:
       break;
   }
-  return "the lamps do not agree on one offset (dispersion " + RoundedApart(found.reestimated.localOffset->phi, 1.0) +
-         ", expected 1)" + Ask("");
+  return "areas under different illumination give different offsets (dispersion " +
+         RoundedApart(found.reestimated.localOffset->phi, 1.0) + ", expected 1)" + Ask("");
 }
 
 void

@@ -69,7 +69,7 @@ PixelProjections::AllocateNextSlabs()
   {
     RequireMemory(MemoryNeed{ pixels, 0 }.OfProjections(series, m_Options.width),
                   "the projection of all pixels on " + std::to_string(series) +
-                    " series of light and motion (a memory limit parts it)");
+                    " components of illumination and motion (a memory limit divides the projection)");
   }
   m_Sums = ProjectionSums(pixels, series, m_ParallelFor, first, m_NextSlab, m_Options.width);
 }

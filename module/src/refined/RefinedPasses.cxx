@@ -73,7 +73,7 @@ RefinedPasses<TPixel>::RefinedPasses(const RefinedSettings &           settings,
   if constexpr (std::is_integral_v<TPixel>)
   {
     constexpr int bits = 8 * sizeof(TPixel);
-    settings.RequireOffsetWithin(std::exp2(bits), "the number of codes of " + std::to_string(bits) + " bits");
+    settings.RequireOffsetWithin(std::exp2(bits), "the number of levels of " + std::to_string(bits) + " bits");
   }
 }
 

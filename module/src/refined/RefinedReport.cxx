@@ -50,12 +50,12 @@ WarnOfScene(Report & report, const RefinedResults & found)
   if (found.lines.isTakenOff)
   {
     const double square = std::max(0.0, found.lines.found.value);
-    report.Warn(WarningCode::LocalLight,
-                "the illumination differs from " + found.lines.NameOfLine() + " to " + found.lines.NameOfLine() +
-                  " within a frame by " + Percent(std::sqrt(square)) +
-                  " rms: a pulsed lamp under a rolling shutter, or interlaced frames. Gain and intercept are from " +
-                  percent(found.lines.pixels) + " of the pixels, without what each " + found.lines.NameOfLine() +
-                  " of a frame shares");
+    report.Warn(
+      WarningCode::LocalLight,
+      "the illumination differs from " + found.lines.NameOfLine() + " to " + found.lines.NameOfLine() +
+        " within a frame by " + Percent(std::sqrt(square)) +
+        " rms: pulsed illumination under a rolling shutter, or interlaced frames. Gain and intercept are from " +
+        percent(found.lines.pixels) + " of the pixels, without the noise common to each " + found.lines.NameOfLine());
   }
   else if (found.series.local.IsLocal())
   {
@@ -72,14 +72,14 @@ WarnOfScene(Report & report, const RefinedResults & found)
                                 : std::to_string(count) + " further temporal component" + (count == 1 ? "" : "s");
       report.Warn(WarningCode::LocalLight,
                   "the illumination changes differently over the frame (" + how +
-                    "): a rolling shutter, several lamps or bleaching, which gain and intercept allow for");
+                    "): a rolling shutter, several light sources or bleaching, which gain and intercept allow for");
     }
   }
   if (found.lines.remainingVariance > 0.0)
   {
     report.Warn(WarningCode::LightSeriesLeft,
                 "the illumination changes in more ways than " + std::to_string(found.scene.frame.frames) +
-                  " frames allow to remove, also beside that of whole rows and columns: this adds about " +
+                  " frames allow to remove, even without the illumination of whole rows and columns: this adds about " +
                   Percent(found.lines.remainingVariance) + " to the variance, and the interval of the gain contains " +
                   Rounded(InRefined.slopeOfRemaining) +
                   " times as much. Record more frames, or choose an evenly lit part: --roi");

@@ -56,8 +56,8 @@ ReestimateComponents(const FrameSums &        sums,
                      const StaticVariance &   variance,
                      const ParallelFor &      parallelFor);
 
-/** Illumination that is specific to the rows of a frame, or to its columns where the frame is turned: by a pulsed lamp
- * under a rolling shutter, or by interlaced frames. Estimator.md, 3.18. */
+/** Illumination that is specific to the rows of a frame, or to its columns where the frame is turned: by pulsed
+ * illumination under a rolling shutter, or by interlaced frames. Estimator.md, 3.18. */
 struct LineIllumination
 {
   LineAxis axis{ LineAxis::Rows }; ///< whether it is specific to rows or to columns

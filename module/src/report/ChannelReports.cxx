@@ -118,7 +118,7 @@ CompareGreens(ChannelReports & reports)
       { WarningCode::GreensDiffer,
         "the gains of the two greens are " + Measured(first->value, first->error) + " and " +
           Measured(second->value, second->error) +
-          " DN/e-, expected equal: the pattern is another one, or rows are read by different amplifiers. Check the "
+          " DN/e-, expected equal: the pattern is wrong, or rows are read by different amplifiers. Check the "
           "pattern: --bayer" });
   }
 }

@@ -123,7 +123,7 @@ WarnOfMosaic(Report &                    report,
     report.Warn(WarningCode::Mosaic,
                 std::string("the levels of neighbouring pixels alternate as behind a Bayer mosaic, ") +
                   NameOf(*pattern) + " or " + NameOf(other) +
-                  ", but the frames were measured as those of a monochrome sensor. Measure each colour by itself: "
+                  ", but the frames were measured as frames of a monochrome sensor. Measure each colour by itself: "
                   "--bayer " +
                   NameOf(*pattern));
   }
@@ -344,14 +344,15 @@ ReportSceneChange(Report & report, const SceneChange & change)
   warnings.erase(
     std::remove_if(warnings.begin(), warnings.end(), [](const Warning & warning) { return MayFollow(warning.code); }),
     warnings.end());
-  const Warning warning{ WarningCode::SceneChanges,
-                         "the frames do not show one static scene: " +
-                           PercentApart(change.fraction, InMoments.sceneChangeFraction) +
-                           " of the differences between areas change from frame to frame (expected less than " +
-                           Percent(InMoments.sceneChangeFraction) +
-                           "). Check whether another axis was taken for time, the scene or camera moves, a pulsed lamp "
-                           "is off in some frames "
-                           "(leave them out: --frames), or the bytes of each pixel are swapped (--raw WxH:uint16be)" };
+  const Warning warning{
+    WarningCode::SceneChanges,
+    "the frames do not show one static scene: " + PercentApart(change.fraction, InMoments.sceneChangeFraction) +
+      " of the differences between areas change from frame to frame (expected less than " +
+      Percent(InMoments.sceneChangeFraction) +
+      "). Check whether another axis was taken for time, the scene or camera moves, the illumination "
+      "is off in some frames "
+      "(leave them out: --frames), or the bytes of each pixel are swapped (--raw WxH:uint16be)"
+  };
   warnings.insert(warnings.begin(), warning);
 }
 

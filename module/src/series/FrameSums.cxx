@@ -37,7 +37,7 @@ FrameProducts::Merge(const FrameProducts & other)
 {
   if (other.m_Pixels != m_Pixels || other.m_Frames != m_Frames || other.m_Cells != m_Cells)
   {
-    throw std::invalid_argument("sums of " + other.Sizes() + " cannot be merged into those of " + this->Sizes());
+    throw std::invalid_argument("sums of " + other.Sizes() + " cannot be merged into sums of " + this->Sizes());
   }
   for (std::size_t i = 0; i < m_ClassSums.size(); ++i)
   {

@@ -27,8 +27,9 @@ Orthonormalise(const Eigen::MatrixXd & columns, Eigen::Index most);
 SensorNoise_EXPORT double
 MedianNoiseEigenvalue(double ratio);
 
-/** Dispersion over the cells of the size of the global flicker: where excitation light bleaches a spot, or a lamp that
- * illuminates a part of the frame flickers. The series is the global one, so that it is no further series. */
+/** Dispersion over the cells of the size of the global flicker: where excitation light bleaches a spot, or a light
+ * source that illuminates a part of the frame flickers. The series is the global one, so that it is no further series.
+ */
 struct Unevenness
 {
   double size{ 0.0 }; ///< dispersion relative to the mean size, beyond noise [1]
@@ -42,8 +43,8 @@ struct Unevenness
   }
 };
 
-/** Local changes of the illumination, which differ over the frame: bands of a rolling shutter, a second lamp, a spot
- * that bleaches, or an offset that drifts. */
+/** Local changes of the illumination, which differ over the frame: bands of a rolling shutter, a second light source, a
+ * spot that bleaches, or an offset that drifts. */
 struct LocalIllumination
 {
   Eigen::MatrixXd series; ///< frames x factors
@@ -68,7 +69,8 @@ struct LocalIllumination
  * Each cell of the frame yields its own gamma_t. After global flicker and motion, the residuals are noise, or a few
  * common series. These are the ones whose eigenvalues exceed the edge of the noise by 25 %, by the law of Marchenko
  * and Pastur. The response of every pixel to the series is free in later steps, so that the method handles bands,
- * lamps and spots of any shape alike. Components that resemble motion (\a motionColumns) do not count as illumination.
+ * light sources and spots of any shape alike. Components that resemble motion (\a motionColumns) do not count as
+ * illumination.
  * \param offset offset minus the centre of the regression [DN]
  * \param most largest number of series
  *

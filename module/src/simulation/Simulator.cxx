@@ -112,8 +112,8 @@ StackSimulator::CodeRange(const SimulationSettings & settings)
     high = std::min(std::floor(high), bits == 0 ? static_cast<double>(Limits::max()) : std::ldexp(1.0, bits) - 1.0);
     if (!(low < high))
     {
-      throw std::invalid_argument("the clip levels leave the codes from " + Text(low) + " to " + Text(high) +
-                                  "; expected at least two codes");
+      throw std::invalid_argument("the clip levels leave the digital numbers from " + Text(low) + " to " + Text(high) +
+                                  "; expected at least two digital numbers");
     }
   }
   return { low, high };

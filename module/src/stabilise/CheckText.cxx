@@ -132,7 +132,7 @@ MakeCheckSentence(const NoiseModelCheck & check, const Report & frames)
     case NoiseModelCheck::Verdict::NotTold:
       return "variance " + fitting + ": too few frames or pixels to tell whether this model can be used";
     default:
-      return fitting.empty() ? "variance " + failing + ": this model is not that of these frames"
+      return fitting.empty() ? "variance " + failing + ": this is not the model of these frames"
                              : "variance " + fitting + ", but " + failing + ": this model does not fit there";
   }
 }

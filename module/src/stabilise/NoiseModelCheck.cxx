@@ -212,8 +212,9 @@ CheckReport(const Report & frames, const Report & report)
   if (frames.quantisationStepDn && report.quantisationStepDn &&
       *frames.quantisationStepDn != *report.quantisationStepDn)
   {
-    check.sentence += "; its codes are " + Text(*report.quantisationStepDn) + " DN apart, those of these frames " +
-                      Text(*frames.quantisationStepDn) + " DN: it may be of another scale";
+    check.sentence += "; its digital numbers are " + Text(*report.quantisationStepDn) +
+                      " DN apart, the numbers of these frames " + Text(*frames.quantisationStepDn) +
+                      " DN: it may be of another scale";
   }
   return check;
 }

@@ -32,7 +32,7 @@ def in_time_order(frames: Any, name: str) -> Any:
         roles = [role or next(others) for role in roles]
     if sorted(map(str, roles)) != ["t", "x", "y"]:
         raise ValueError(
-            f"{name} has the axes {dims}, of which it is not clear which is time; expected names as ('t', 'y', 'x') "
+            f"{name} has the axes {dims}, which do not show which axis is time; expected names as ('t', 'y', 'x') "
             "in any order, or the array without names: .values or .data, as (t, y, x)"
         )
     return frames.transpose(*(dims[roles.index(role)] for role in "tyx"))

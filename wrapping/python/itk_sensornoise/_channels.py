@@ -92,7 +92,7 @@ class ChannelReports(PagedRecord):
         """
         text, name = text_of(source)
         if "channels" not in record_of(text, name):
-            raise ValueError(f"{name} has one report; expected those of a mosaic: Report.from_json()")
+            raise ValueError(f"{name} has one report; expected the reports of a mosaic: Report.from_json()")
         return cls(text)
 
     def quantities(self) -> list[dict[str, Any]]:

@@ -200,7 +200,7 @@ def noise_correlation_estimator(
 
 def _of_frame(array: np.ndarray, name: str, stack: Stack) -> np.ndarray:
     if array.shape != stack.size[1::-1]:
-        raise ValueError(f"{name} has shape {array.shape}; expected {stack.size[1::-1]}, that of a frame")
+        raise ValueError(f"{name} has shape {array.shape}; expected {stack.size[1::-1]}, the shape of a frame")
     return array
 
 

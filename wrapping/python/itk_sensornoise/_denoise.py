@@ -159,9 +159,9 @@ def _require_scale(levels: np.ndarray, slope: float, intercept: float, record: M
     found = None
     # Every second code of a frame of few levels may lack by chance; a spacing below the report's is never chance.
     if spacing >= 4 * step > 0 or 0 < 2 * spacing <= step:
-        found = f"its codes are multiples of {spacing}, the report's of {step:g}"
+        found = f"its digital numbers are multiples of {spacing}, the report's of {step:g}"
     elif median < lowest:
-        found = f"half of its pixels are at or below {median:g} DN, the level of no light is {zero:.5g} DN"
+        found = f"half of its pixels are at or below {median:g} DN, the level of zero signal is {zero:.5g} DN"
     elif high is not None and median > high:
         found = f"half of its pixels are at or above {median:g} DN, the sensor attains {high:g} DN"
     elif signal > _IMPOSSIBLE_SIGNAL:

@@ -190,7 +190,7 @@ def _exposures_of(settings: Settings, frames: int, total: int | None) -> list[fl
     numbers = _exposures(() if settings.exposures is None else settings.exposures)
     least = total or (settings.span[1] if settings.span is not None else frames)
     if len(numbers) < least or len(numbers) > (total or len(numbers)):
-        also = "" if settings.span is None else ", also for those that frame_range leaves out"
+        also = "" if settings.span is None else ", also for the frames that frame_range leaves out"
         found = f"there are {len(numbers)} exposures, but {total or f'{least} or more'} frames"
         raise ValueError(f"{found}; expected one exposure for each frame{also}")
     return numbers if settings.span is None else numbers[slice(*settings.span)]
@@ -240,7 +240,7 @@ def _mask_of(mask: Frame | FileName, size: tuple[int, int]) -> np.ndarray:
         mask = read_image(mask, "the mask")
     array = as_mask(mask, "mask")
     if array.shape != size[::-1]:
-        raise ValueError(f"mask has shape {array.shape}; expected {size[::-1]}, that of a frame")
+        raise ValueError(f"mask has shape {array.shape}; expected {size[::-1]}, the shape of a frame")
     return array
 
 

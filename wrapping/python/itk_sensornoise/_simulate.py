@@ -136,7 +136,7 @@ def simulate_sensor_noise(
     optical_blur : float, default 0.5
         Standard deviation of a Gaussian blur of the scene's light, before the photons are counted [pixel].
     rolling_shutter : float, default 0
-        Period of a pulsing lamp in rows of a rolling shutter; 0: the whole frame flickers.
+        Period of pulsed illumination in rows of a rolling shutter; 0: the whole frame flickers.
     bit_depth : int, optional
         Bits of the converter, at most 16; 0: no clipping below the pixel type's range. Default 12, or 8 for uint8.
     clip : (float, float), optional

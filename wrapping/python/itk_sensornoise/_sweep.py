@@ -200,7 +200,9 @@ def _without_repetition(bursts: list[_Burst]) -> list[_Burst]:
     known: dict[float, str] = {}
     for burst in bursts:
         if burst.setting in known:
-            burst.reason = f"its setting is that of {known[burst.setting]}; expected one burst for each setting"
+            burst.reason = (
+                f"{known[burst.setting]} has the same setting and is measured; expected one burst for each setting"
+            )
         elif burst.setting is not None:
             known[burst.setting] = burst.name
     return bursts

@@ -64,7 +64,7 @@ def require_memory(workers: Collection[WorkerState], need: int, of: str) -> None
         least = min(small, key=lambda worker: worker.limit)
         raise RuntimeError(
             f"{_counted(len(small), len(workers))} too little memory for {of}: {least.address} has a memory_limit of "
-            f"{_text(least.limit)}, of which Dask lets it use {usable:.0%}, and needs at least {_text(need)}; expected "
+            f"{_text(least.limit)} (Dask lets it use {usable:.0%}), and needs at least {_text(need)}; expected "
             f"a memory_limit of {_text(need / usable)} or more (with fewer workers of a machine), or a smaller roi"
         )
 
@@ -97,7 +97,7 @@ def memory_of_task(frames: object) -> int | None:
     left = (usable - _PROCESS_BYTES) / max(1, worker.state.nthreads) - held
     if left < 1:
         raise ValueError(
-            f"the worker has a memory_limit of {_text(int(limit))}, of which Dask lets it use {_text(usable)}: too "
+            f"the worker has a memory_limit of {_text(int(limit))}, and Dask lets it use {_text(usable)}: too "
             f"little beside {_text(_PROCESS_BYTES)} of Python and ITK and {_text(held)} of frames"
         )
     return int(left)

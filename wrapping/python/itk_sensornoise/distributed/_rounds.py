@@ -127,7 +127,7 @@ def estimate_sensor_noise(
     except distributed.KilledWorker as error:
         raise RuntimeError(
             f"workers ended again and again over a task of pass {sums.passes_ended + 1}: {error}. Mostly it is memory: "
-            f"a worker needs at least {run.need >> 20} MiB, and more where there are many series of light and motion"
+            f"a worker needs at least {run.need >> 20} MiB, and more for many components of illumination and motion"
         ) from error
     finally:
         run.close()
