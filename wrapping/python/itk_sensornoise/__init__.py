@@ -94,7 +94,7 @@ if TYPE_CHECKING:
 
 
 def __getattr__(name: str) -> Any:
-    """The version of the installed package, which is looked up when it is asked for."""
+    """Looks up the version of the installed package at its first use."""
     if name != "__version__":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from ._version import version_of_package

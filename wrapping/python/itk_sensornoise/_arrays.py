@@ -22,7 +22,8 @@ PIXEL_NAMES = "uint8, uint16, int16, float32 or float64"
 
 
 def as_array(values: object, name: str) -> np.ndarray:
-    """`values` as an array, shared if it is one; refuses what is none, and masked arrays, whose mask would be lost."""
+    """Returns `values` as an array, which shares the memory of an array. Raises an error for a masked array, whose
+    mask would be lost, and for values that are no array."""
     values = updated(values)
     if isinstance(values, np.ma.MaskedArray):
         if not np.ma.is_masked(values):
@@ -40,7 +41,7 @@ def as_array(values: object, name: str) -> np.ndarray:
 
 
 def from_dlpack(values: Any, name: str) -> np.ndarray:
-    """A tensor of another library as an array, shared. Raises ValueError where it is on another device."""
+    """Returns an array that shares the memory of a tensor. Raises ValueError for a tensor on another device."""
     try:
         return np.from_dlpack(values)
     except (BufferError, RuntimeError, TypeError, ValueError) as error:
@@ -48,7 +49,8 @@ def from_dlpack(values: Any, name: str) -> np.ndarray:
 
 
 def require_pixel_type(array: np.ndarray, name: str) -> str:
-    """The name of the array's pixel type, as in PIXEL_TYPES; refuses the others by name. The byte order may be any."""
+    """Returns the name of the array's pixel type, as in PIXEL_TYPES. Raises an error that names any other type. The
+    byte order may be any."""
     pixel = array.dtype.newbyteorder("=").name
     if pixel not in PIXEL_TYPES:
         advice = "; convert it with .astype(), if its values allow" if array.dtype.kind in "iufb" else ""
@@ -57,7 +59,7 @@ def require_pixel_type(array: np.ndarray, name: str) -> str:
 
 
 def require_shape(array: np.ndarray, name: str, axes: str) -> None:
-    """Raises an error for an array of another rank than `axes`, for example "t, y, x", and for an empty array."""
+    """Raises ValueError unless the array has the axes `axes`, for example "t, y, x", and is not empty."""
     rank = axes.count(",") + 1
     if array.ndim != rank:
         colour = "; of a colour image, give one channel" if array.ndim == rank + 1 and array.shape[-1] in (3, 4) else ""
@@ -69,13 +71,13 @@ def require_shape(array: np.ndarray, name: str, axes: str) -> None:
 
 
 def as_itk_order(array: np.ndarray) -> np.ndarray:
-    """The array itself if it is C-contiguous and in the machine's byte order, else one copy that is: ITK takes the
-    memory as it lies, and would swap time and x without a word."""
+    """Returns the array if it is C-contiguous and in the machine's byte order, else a copy that is. ITK reads the
+    memory in this order only, and would exchange time and x without an error."""
     return np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("="))
 
 
 def as_frame(values: object, name: str, dtype: type[np.generic]) -> np.ndarray:
-    """A frame-sized array (y, x) of `dtype`, converted where it is of another one that holds real numbers."""
+    """Returns a frame-sized array (y, x) of `dtype`. Other types of real numbers are converted."""
     array = as_array(values, name)
     require_shape(array, name, "y, x")
     if array.dtype.kind not in "iufb":
@@ -84,7 +86,7 @@ def as_frame(values: object, name: str, dtype: type[np.generic]) -> np.ndarray:
 
 
 def as_mask(values: object, name: str) -> np.ndarray:
-    """A mask (y, x) of uint8: 1 where `values` is not 0. NaN, which is no answer, is a ValueError."""
+    """Returns a mask (y, x) of uint8, which is 1 where `values` is not 0. Raises ValueError for NaN."""
     array = as_array(values, name)
     require_shape(array, name, "y, x")
     if array.dtype.kind not in "iufb":
@@ -108,7 +110,8 @@ def image_words(image: ItkObject) -> str:
 
 
 def view(array: np.ndarray) -> ItkObject:
-    """An itk.Image on the memory of an array as as_itk_order() gives it. The array must outlive the image."""
+    """Returns an itk.Image on the memory of an array in ITK's order, see as_itk_order(). The array must outlive the
+    image."""
     import itk
 
     return itk.image_view_from_array(array)

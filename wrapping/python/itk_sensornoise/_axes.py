@@ -13,7 +13,7 @@ def in_time_order(frames: Any, name: str) -> Any:
     """Returns frames with `dims`, names of their axes, as (t, y, x); other frames as they are.
 
     Axes of one element whose names are none of these are left out. One axis may have any name: it is the one that is
-    left. Where no name is known the axes are taken as they lie. Raises ValueError where names leave it open."""
+    left. Where no name is known the axes are taken as they lie. Raises ValueError if names leave it open."""
     dims = getattr(frames, "dims", None)
     if not isinstance(dims, tuple) or not hasattr(frames, "transpose") or not hasattr(frames, "squeeze"):
         return frames

@@ -23,7 +23,7 @@ def note_pattern(image: ItkObject, pattern: str | None) -> None:
 
 
 def noted_pattern(image: ItkObject) -> str | None:
-    """The pattern in an image's metadata; None: they have none."""
+    """Returns the Bayer pattern in the metadata of an image; None without a pattern."""
     known = dict(image).get(_KEY)
     return str(known) if known else None
 

@@ -55,8 +55,8 @@ class ChannelReports(PagedRecord):
         page: bytes | None = None,
         pictures: Mapping[str, Pictures] | None = None,
     ) -> None:
-        """`text`: the record as JSON, as C++ writes it. `table`: the same for people. `page`: of all channels, packed.
-        `tables`, `pictures`: of each channel."""
+        """`text`: the record as JSON, as C++ writes it. `table`: its table as text. `page`: packed page of all
+        channels. `tables`, `pictures`: table and figures of each channel."""
         super().__init__(text, page)
         self._table = table
         self._tables = dict(tables or {})
@@ -65,7 +65,7 @@ class ChannelReports(PagedRecord):
 
     @classmethod
     def of(cls, estimator: ItkObject, maps: Mapping[str, np.ndarray] | None = None) -> "ChannelReports":
-        """The reports of an ITK estimator that is up to date."""
+        """Returns the reports of an ITK estimator that is up to date."""
         tables = {name: estimator.GetChannelReportAsText(name) for name in CHANNELS}
         page, pictures = pack(estimator.GetReportAsHtml()), Pictures.of_channels(estimator)
         return cls(estimator.GetReportAsJson(), estimator.GetReportAsText(), tables, maps, page, pictures)
@@ -96,7 +96,7 @@ class ChannelReports(PagedRecord):
         return cls(text)
 
     def quantities(self) -> list[dict[str, Any]]:
-        """Returns every quantity of every channel as a row: those of Report.quantities(), with the `channel`."""
+        """Returns a row for every quantity of every channel, as in Report.quantities(), with the `channel`."""
         return [{"channel": name, **row} for name in CHANNELS for row in self.channel(name).quantities()]
 
     def plot(self) -> "Figure":
@@ -126,7 +126,7 @@ class ChannelReports(PagedRecord):
         return drawn
 
     def channel(self, name: str) -> Report:
-        """The report of one channel: "R", "G1", "G2" or "B"."""
+        """Returns the report of one channel: "R", "G1", "G2" or "B"."""
         if name not in CHANNELS:
             raise ValueError(f"channel is {name!r}; expected 'R', 'G1', 'G2' or 'B'")
         record = self["channels"][CHANNELS.index(name)]
@@ -134,7 +134,7 @@ class ChannelReports(PagedRecord):
 
     @property
     def figure_data(self) -> dict[str, dict[str, Any]]:
-        """The numbers of the figures of each channel, by its name: those of Report.figure_data."""
+        """The numbers of the figures of each channel, by its name, as in Report.figure_data."""
         return {name: self.channel(name).figure_data for name in CHANNELS}
 
     @property
@@ -167,7 +167,7 @@ class ChannelReports(PagedRecord):
         )
 
     def _repr_html_(self) -> str:
-        """The quantities of all channels with the warnings, and the noise curves in one figure."""
+        """Returns the quantities of all channels with the warnings, and the noise curves in one figure."""
         return self._notebook_html()
 
     def _notebook_html(self) -> str:

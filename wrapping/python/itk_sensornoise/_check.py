@@ -20,7 +20,7 @@ from ._update import update
 
 
 class NoiseModelCheck(Record):
-    """The result of check_noise_model(): the record "itk-sensornoise-check/1", the names of its JSON.
+    """The result of check_noise_model(): the record "itk-sensornoise-check/1", with the names of its JSON members.
 
         found["verdict"]     "fits", "does-not-fit" or "not-told"
         found["sentence"]    the same for people, with the ranges of levels
@@ -34,7 +34,7 @@ class NoiseModelCheck(Record):
     """
 
     def __init__(self, text: str, table: str = "") -> None:
-        """`text`: the record as JSON, as C++ writes it. `table`: the same for people."""
+        """`text`: the record as JSON, as C++ writes it. `table`: its table as text."""
         super().__init__(text)
         self._table = table
 
@@ -54,7 +54,7 @@ class NoiseModelCheck(Record):
         return self._table.rstrip("\n")
 
     def _repr_html_(self) -> str:
-        """The table and the sentence, and the ratio of the variances by level."""
+        """Returns the table and the sentence, and the ratio of the variances by level."""
         from ._svg import Plot, Points
 
         lines = str(self).split("\n")

@@ -11,7 +11,7 @@ from typing import Any
 
 
 def frames_of_chunk(frames: Any) -> int:
-    """Frames that are stored together; 1: unknown."""
+    """Returns the number of frames that are stored together; 1 if it is not known."""
     chunks: Any = getattr(frames, "chunks", None)
     try:
         along_time = chunks[0]
@@ -22,7 +22,8 @@ def frames_of_chunk(frames: Any) -> int:
 
 
 def arrays_of_graph(frames: Any) -> list[Any]:
-    """The arrays in a graph of dask that does no more than slice them; empty where it computes, or is none."""
+    """Returns the arrays of a graph of dask that only slices them. The list is empty for a graph that computes, and for
+    other objects."""
     graph = getattr(frames, "dask", None)
     if len(getattr(graph, "layers", {}).values()) not in (1, 2):
         return []
@@ -35,7 +36,7 @@ def is_closed(frames: Any) -> bool:
 
 
 def require_chunks(frames: Any, name: str) -> None:
-    """Raises ValueError where stored chunks are missing, as far as that can be asked.
+    """Raises ValueError if stored chunks are missing, as far as that can be asked.
 
     It can be for zarr (versions 2 and 3) on stores of zarr's own that list what they hold, for h5py, and for both
     inside of dask and xarray. Of a shard it cannot be asked what is missing in it, of foreign stores nothing."""
@@ -100,7 +101,7 @@ def _stored(frames: Any) -> Iterator[Any]:
 
 
 def _of_graph(graph: Any) -> Iterator[Any]:
-    """The arrays in a graph of dask: each is a layer of its own, or a value among the tasks of one."""
+    """Yields the arrays of a graph of dask: each is a layer of the graph, or a value among the tasks of a layer."""
     for layer in getattr(graph, "layers", {}).values():
         if type(layer).__name__ == "MaterializedLayer":
             for task in layer.values():

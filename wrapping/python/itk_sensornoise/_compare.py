@@ -35,9 +35,9 @@ class Row:
     Attributes
     ----------
     path, label, unit : str
-        As those of quantity_list().
+        Path, label and unit as in quantity_list().
     quantities : tuple of Quantity or None
-        One a report; None where a report has nothing of it.
+        One for each report; None for a report without this quantity.
     differences : tuple of float or None
         The difference from the first report of the same channel, in units of their combined standard error, which takes
         the reports as independent [1]; None for the first, and where a value or an error is missing.
@@ -104,7 +104,7 @@ class Comparison:
     def to_html(self, path: None = None, *, title: str | None = None) -> str: ...
 
     def to_html(self, path: FileName | None = None, *, title: str | None = None) -> str | None:
-        """Makes a page with the table. Arguments and errors are those of Report.to_html()."""
+        """Makes a page with the table. Arguments and errors are the same as in Report.to_html()."""
         return write_page(page("Comparison of noise reports", self._repr_html_()), path, title)
 
     def to_rows(self) -> list[dict[str, Any]]:
@@ -185,7 +185,7 @@ def compare(
 
 
 def _reports_of(given: Any, number: int) -> list[tuple[str, Report]]:
-    """A report, or those of a mosaic's channels, each with the end of its label."""
+    """Returns a report, or the reports of the channels of a mosaic, each with the suffix of its label."""
     if is_name(given):
         text, name = text_of(given)
         given = ChannelReports(text) if "channels" in record_of(text, name) else Report(text)
@@ -209,7 +209,7 @@ def _quantity_of(report: Report, path: str) -> Quantity | None:
 
 
 def _difference(quantities: Sequence[Quantity | None], first: int, number: int) -> float | None:
-    """The difference from the first, over the combined standard error."""
+    """Returns the difference from the first report, over the combined standard error [1]."""
     before, now = quantities[first], quantities[number]
     if first == number or before is None or now is None or before.value is None or now.value is None:
         return None

@@ -23,7 +23,8 @@ from ._update import update
 
 
 class NoiseCorrelation(Record):
-    """The result of noise_correlation_estimator(): the record "itk-sensornoise-correlation/1", the names of its JSON.
+    """The result of noise_correlation_estimator(): the record "itk-sensornoise-correlation/1", with the names of its
+    JSON members.
 
         found["noise_correlation"]    kind, space, time, covariance_lines, interference, row_noise, column_noise,
                                       excess_kurtosis: as in the report of estimate_sensor_noise()
@@ -58,7 +59,7 @@ class NoiseCorrelation(Record):
 
     def coefficient(self, x: int = 0, y: int = 0, *, frames: int = 0) -> tuple[float, float]:
         """Correlation coefficient and its standard error [1] of pixels `x` columns and `y` rows apart, or of one pixel
-        `frames` frames later. Raises KeyError where that lag was not measured."""
+        `frames` frames later. Raises KeyError if that lag was not measured."""
         if frames:
             found = [lag for lag in self["noise_correlation"]["time"] if lag["lag"] == abs(frames) and x == y == 0]
         else:
@@ -74,7 +75,7 @@ class NoiseCorrelation(Record):
         return "\n".join(f"{name:22} {value}" for name, value in self._rows())
 
     def _repr_html_(self) -> str:
-        """The table, and the correlation of pixels and of frames by lag."""
+        """Returns the table, and the correlation of pixels and of frames by lag."""
         from ._svg import Plot, Points
 
         lags = self["noise_correlation"]["space"] + self["noise_correlation"]["time"]

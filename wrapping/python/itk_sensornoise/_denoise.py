@@ -66,7 +66,7 @@ def denoise_with_noise_model(
     strength : float, default 1
         Of "nlm" and "itk", relative to what is best for the noise; above 0, at most 10.
     dtype : dtype, optional
-        The type of the result; integers are rounded and kept in range. Default: that of `image`.
+        The type of the result; integers are rounded and kept in range. Default: the type of `image`.
 
     Returns
     -------
@@ -118,7 +118,7 @@ def denoise_with_noise_model(
 
 
 def _levels(image: Any) -> np.ndarray:
-    """The levels as an array of 2 or 3 dimensions, without a copy."""
+    """Returns the levels as an array of 2 or 3 dimensions, without a copy."""
     import itk
 
     image = updated(image)
@@ -135,7 +135,7 @@ def _levels(image: Any) -> np.ndarray:
 
 
 def _like(result: np.ndarray, image: Any) -> Any:
-    """A result as what it was made of: an image at the same place, or an array."""
+    """Returns a result in the form of the input: an image at the same place, or an array."""
     import itk
 
     image = output_of(image)
@@ -180,7 +180,8 @@ def _require_scale(levels: np.ndarray, slope: float, intercept: float, record: M
 
 
 def _code_spacing(levels: np.ndarray) -> int:
-    """The largest number that the distances of all codes are multiples of; 0 where there are too few to tell."""
+    """Returns the largest number of which all distances between grey values are multiples [DN]; 0 if there are too few
+    grey values."""
     codes = np.unique(levels).astype(np.int64)
     return int(np.gcd.reduce(np.diff(codes))) if codes.size >= _LEAST_CODES else 0
 
@@ -193,7 +194,7 @@ def _denoiser(denoiser: Any, strength: Any) -> Denoiser:
 
 
 def named_denoiser(denoiser: Any, strength: float) -> Denoiser:
-    """The denoiser "nlm" or "itk", which takes noise of variance 1; the strength as denoise_with_noise_model()'s."""
+    """Returns the denoiser "nlm" or "itk" for noise of variance 1. `strength` is as in denoise_with_noise_model()."""
     _options.one_of("denoiser", denoiser, ["nlm", "itk"])
     return _non_local_means(strength) if denoiser == "nlm" else _bilateral(strength)
 
@@ -212,7 +213,7 @@ def _checked(found: Any, shape: tuple[int, ...]) -> np.ndarray:
 
 
 def _non_local_means(strength: float) -> Denoiser:
-    """OpenCV's, on 16 bits: the only type but 8 bits that it takes."""
+    """Returns OpenCV's non-local means on 16 bits. OpenCV takes 8 or 16 bits only."""
     try:
         import cv2
     except ImportError as error:

@@ -130,7 +130,7 @@ class _OneSeries:
     stack: Stack
 
     def add_to(self, evaluator: ItkObject, image: ItkObject) -> None:
-        """Adds the frames of `image`, which are those of the stack or of one of its planes."""
+        """Adds the frames of `image`, a stack or one of its planes."""
         try:
             with itk_errors(f"{self.name}: "):
                 if self.name.startswith("darks"):
@@ -180,12 +180,12 @@ class _Recording:
         self.series.append(_OneSeries(name, exposure, photons, stack))
 
     def pattern(self, bayer: str) -> str:
-        """The pattern of what is evaluated; "none": it is monochrome."""
+        """Returns the Bayer pattern of the evaluated part of the frames; "none" for a monochrome sensor."""
         whole = (self._pattern or "none") if bayer == "auto" else bayer
         return whole if whole == "none" else cut_pattern(whole, *self.corner[:2])
 
     def evaluator(self) -> ItkObject:
-        """A new evaluator of the type of the frames."""
+        """Returns a new evaluator of the type of the frames."""
         import itk
 
         return itk.Emva1288Evaluator[type(self.series[0].stack.image)].New()

@@ -31,8 +31,8 @@ class Emva1288Report(Record):
     """
 
     def __init__(self, text: str, table: str, xml: str, page: bytes) -> None:
-        """`text`: the record as JSON. `table`: the same for people. `xml`: the same as the package emva1288 has it.
-        `page`: the same as HTML, packed."""
+        """`text`: the record as JSON. `table`: its table as text. `xml`: the results in the format of the package
+        emva1288. `page`: the same as HTML, packed."""
         super().__init__(text)
         self._table = table
         self._xml = xml
@@ -40,7 +40,7 @@ class Emva1288Report(Record):
 
     @classmethod
     def of(cls, evaluator: ItkObject) -> "Emva1288Report":
-        """The report of an itk.Emva1288Evaluator after Evaluate()."""
+        """Returns the report of an itk.Emva1288Evaluator after Evaluate()."""
         texts = (evaluator.GetReportAsJson(), evaluator.GetReportAsText(), evaluator.GetReportAsXml())
         return cls(*texts, pack(evaluator.GetReportAsHtml()))
 

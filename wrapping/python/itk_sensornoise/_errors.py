@@ -34,15 +34,15 @@ _ABORTED = "aborted by an external request"
 
 
 class InvalidValueError(ValueError, RuntimeError):
-    """A wrong value that ITK found; a RuntimeError until 0.2.0, as well."""
+    """A wrong value that ITK found. It is also a RuntimeError, as until version 0.2.0."""
 
 
 class InvalidTypeError(TypeError, ValueError, RuntimeError):
-    """A wrong type or an unknown keyword; a ValueError and a RuntimeError until 0.2.0, as well."""
+    """A wrong type or an unknown keyword. It is also a ValueError and a RuntimeError, as until version 0.2.0."""
 
 
 class OutOfMemoryError(MemoryError, RuntimeError):
-    """Memory that ITK could not get; a RuntimeError until 0.2.0, as well."""
+    """Memory that ITK could not allocate. It is also a RuntimeError, as until version 0.2.0."""
 
 
 def _expected_of(cpp_type: str) -> str:
@@ -51,7 +51,7 @@ def _expected_of(cpp_type: str) -> str:
 
 
 def cause_of(error: BaseException) -> str:
-    """The sentence in an ITK exception, on one line, without the file, class and address that stand before it."""
+    """Returns the sentence of an ITK exception on one line, without the file, class and address before it."""
     text = str(error)
     argument = _ARGUMENT.match(text)
     if argument:

@@ -39,7 +39,7 @@ def set_parameters(instance: ItkObject, parameters: dict[str, Any], function: st
 
 
 def _similar(name: str, instance: ItkObject) -> str:
-    """Advice for a name that is no parameter."""
+    """Returns advice for a name that is no parameter."""
     import difflib
 
     setters = (known.removeprefix("Set") for known in dir(instance) if known.startswith("Set"))
@@ -49,7 +49,7 @@ def _similar(name: str, instance: ItkObject) -> str:
 
 
 def require_one_shape(**arrays: np.ndarray | None) -> None:
-    """Raises ValueError where arrays that belong together have several shapes."""
+    """Raises ValueError if arrays that belong together have several shapes."""
     shapes = {name: array.shape for name, array in arrays.items() if array is not None}
     if len(set(shapes.values())) > 1:
         found = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
@@ -57,7 +57,7 @@ def require_one_shape(**arrays: np.ndarray | None) -> None:
 
 
 def mask_of_frames(mask: Frame, stack: Stack) -> np.ndarray:
-    """A mask, which must have the size of the frames."""
+    """Returns a mask, which must have the size of the frames."""
     array = as_mask(mask, "mask")
     if array.shape != stack.size[1::-1]:
         raise ValueError(f"mask has shape {array.shape}; expected {stack.size[1::-1]}, the shape of a frame")

@@ -39,7 +39,7 @@ class NoiseExport:
 
     @property
     def text(self) -> str:
-        """The text of the only file. Raises ValueError where there are several files, or no text."""
+        """The text of the only file. Raises ValueError if there are several files, or no text."""
         if len(self.files) != 1:
             raise ValueError(f"{self.format} has {len(self.files)} files; expected a format of one: use files")
         (content,) = self.files.values()
@@ -56,7 +56,7 @@ class NoiseExport:
         return f"<NoiseExport: {self.format}, {sizes}>"
 
     def write(self, output: FileName) -> None:
-        """Writes the file to `output`, or several files into the folder `output`. Raises OSError where that fails."""
+        """Writes the file to `output`, or several files into the folder `output`. Raises OSError if that fails."""
         if not is_name(output):
             raise _options.refuse_type("output", output, "the name of a file, or of a folder for several files")
         target = Path(os.fsdecode(output))

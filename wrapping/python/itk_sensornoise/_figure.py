@@ -18,7 +18,7 @@ BEFORE, AFTER, LINE = "#b85c00", "#0072b2", "#00795a"
 
 
 def new_axes(data: Mapping[str, Any]) -> "tuple[Axes, Axes | None]":
-    """Axes of the noise curve, and below them those of the residuals where there are any, in a new figure, which a
+    """Returns the axes of the noise curve and, below, the axes of the residuals, if any, in a new figure, which a
     notebook or plt.show() shows."""
     if not data["residual"]:
         return _new_figure().subplots(), None
@@ -27,14 +27,14 @@ def new_axes(data: Mapping[str, Any]) -> "tuple[Axes, Axes | None]":
 
 
 def new_grid() -> "tuple[Figure, Sequence[Axes]]":
-    """A new figure with axes for four channels."""
+    """Returns a new figure with axes for four channels."""
     figure = _new_figure(figsize=(9.6, 7.2))
     return figure, list(figure.subplots(2, 2).flat)
 
 
 def _new_figure(**options: Any) -> "Figure":
-    """A figure of matplotlib.pyplot. Notebooks show such a figure at the end of the cell: as the value of the cell's
-    last line it is not shown a second time."""
+    """Returns a figure of matplotlib.pyplot. Notebooks show this figure at the end of the cell. They do not show it a
+    second time if it is the value of the last line of the cell."""
     import matplotlib.pyplot as plt
 
     figure: Figure = plt.figure(layout="constrained", **options)
@@ -54,7 +54,7 @@ def _display_once(figure: "Figure") -> None:
 
 
 def draw(report: Mapping[str, Any], data: Mapping[str, Any], axes: "Axes", residuals: "Axes | None") -> "Figure":
-    """Variance and corrected variance against mean, each point an average over pixels, the line and its 95 % band.
+    """Draws variance and corrected variance against mean, the line and its 95 % band. A point is a mean over pixels.
 
     Where there is no gain, the line is dashed: indicative, no measurement. Where the response is non-linear, the legend
     gives the deviation of the variance from its line.
@@ -87,7 +87,7 @@ def _draw_residuals(data: Mapping[str, Any], axes: "Axes") -> None:
 
 
 def _nonlinearity(report: Mapping[str, Any]) -> str | None:
-    """Text on the deviation of the variance from its line, if a warning names it."""
+    """Returns text on the deviation of the variance from its line, if a warning names it."""
     nonlinearity = report["fit"].get("nonlinearity")
     codes = {warning["code"] for warning in report["warnings"]}
     if not nonlinearity or codes.isdisjoint(NONLINEARITY_CODES):

@@ -11,7 +11,7 @@ _LINE_PIECES = 32
 
 
 def figure_data_of(record: Mapping[str, Any]) -> dict[str, Any]:
-    """The members of Report.figure_data, of a record."""
+    """Returns the members of Report.figure_data for a record."""
     scatter = record["scatter"]
     line = _line_of(record)
     rows = [
@@ -44,7 +44,7 @@ def _rows(scatter: Mapping[str, Any]) -> list[tuple[Any, Any, Any, Any]]:
 
 
 def _line_of(record: Mapping[str, Any]) -> tuple[float, float] | None:
-    """Slope and intercept: those that were identified, else the indicative line."""
+    """Returns slope and intercept if they were identified, else slope and intercept of the indicative line."""
     slope, intercept = (record[name]["value"] for name in ("variance_slope", "total_intercept"))
     if slope is not None and intercept is not None:
         return slope, intercept
@@ -53,7 +53,7 @@ def _line_of(record: Mapping[str, Any]) -> tuple[float, float] | None:
 
 
 def _factor_of(lags: Sequence[Mapping[str, Any]]) -> float:
-    """Factor of the variance of a sample variance where the noise of its values is correlated."""
+    """Returns the variance inflation of a sample variance of values with correlated noise [1]."""
     squares: Iterable[float] = (
         lag["value"] ** 2 - lag["standard_error"] ** 2 for lag in lags if lag["standard_error"] is not None
     )
@@ -63,7 +63,7 @@ def _factor_of(lags: Sequence[Mapping[str, Any]]) -> float:
 def _residuals(
     record: Mapping[str, Any], line: tuple[float, float], rows: Sequence[tuple[Any, Any, Any, Any]]
 ) -> list[tuple[float, float]]:
-    """Level, and corrected variance less the line over its standard error, of each bin of levels."""
+    """Returns for each intensity bin its level, and its corrected variance minus the line over the standard error."""
     slope, intercept = line
     frames = record["frames_distinct"]
     noise = record.get("noise_correlation")
@@ -91,7 +91,7 @@ def _residuals(
 def _line_members(
     record: Mapping[str, Any], line: tuple[float, float] | None, means: Sequence[float]
 ) -> dict[str, Any]:
-    """The line from the darkest to the brightest level, and its 95 % band."""
+    """Returns the line from the darkest to the brightest level, and its 95 % band."""
     members: dict[str, Any] = {"line_mean": [], "line_variance": [], "band_low": [], "band_high": []}
     members["is_indicative"] = False
     if line is None or not means:
@@ -111,7 +111,7 @@ def _line_members(
 
 
 def _half_width(record: Mapping[str, Any], mean: float) -> float | None:
-    """Half the width of the 95 % interval of the line at a level; None where an error is not known."""
+    """Returns half the width of the 95 % interval of the line at a level [DN^2]; None if an error is not known."""
     slope, intercept = (record[name]["standard_error"] for name in ("variance_slope", "total_intercept"))
     if not record.get("covariance") or slope is None or intercept is None:
         return None

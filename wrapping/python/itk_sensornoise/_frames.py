@@ -40,7 +40,7 @@ _PIECE_BYTES = 32 << 20  # pixels that are read together [bytes]
 
 @dataclass
 class Stack:
-    """A stack as ITK sees it; `kept` holds what its memory belongs to and the filters that make it."""
+    """A stack of frames for ITK. `kept` holds the owners of its memory, and the filters that produce it."""
 
     image: ItkObject
     pixel: str  # a key of PIXEL_TYPES
@@ -77,17 +77,17 @@ class Stack:
         self.image.SetRequestedRegionToLargestPossibleRegion()
 
     def estimator(self, template: ItkObject) -> ItkObject:
-        """A new filter of this stack's type with the stack as input."""
+        """Returns a new filter of this stack's type with the stack as input."""
         instance = template[type(self.image)].New()
         instance.SetInput(self.image)
         return instance
 
 
 def open_frames(frames: Frames, frame_range: tuple[int, int] | None = None, name: str = "frames") -> Stack:
-    """The frames as a stack: arrays are shared, files and lazy frames are read later, a few at a time.
+    """Returns the frames as a stack: arrays are shared, files and lazy frames are read later, a few at a time.
 
-    An array that is not C-contiguous or not in the machine's byte order is copied once. Of a list, the files outside
-    `frame_range` (first, one past the last) are not opened; a stack is left whole. Raises ValueError, with the `name`
+    An array that is not C-contiguous or not in the machine's byte order is copied once. The files of a list outside
+    `frame_range` (first, one past the last) are not opened; a stack is not cut. Raises ValueError, with the `name`
     of the parameter, for anything else.
     """
     frames = output_of(expand(frames, name))
@@ -111,8 +111,8 @@ def open_frames(frames: Frames, frame_range: tuple[int, int] | None = None, name
 
 
 def open_dumps(frames: object, raw: object, frame_range: tuple[int, int] | None = None, name: str = "frames") -> Stack:
-    """The stack on files without a header, which lie as `raw` says. Raises ValueError where `frames` are no names of
-    files, with the `name` of the parameter, or `raw` is no layout."""
+    """Returns the stack on files without a header, which lie as `raw` says. Raises ValueError if `frames` are no names
+    of files, with the `name` of the parameter, or `raw` is no layout."""
     layout = "a layout, for example '640x480:uint16le'"
     if not isinstance(raw, str):
         raise _options.refuse_type("raw", raw, layout)
@@ -126,7 +126,7 @@ def open_dumps(frames: object, raw: object, frame_range: tuple[int, int] | None 
 
 
 def crop(stack: Stack, corner: tuple[int, ...], size: tuple[int, ...]) -> Stack:
-    """The part of a stack from `corner` (x, y, t) on with `size` (x, y, t), cut out chunk by chunk."""
+    """Returns the part of a stack from `corner` (x, y, t) on with `size` (x, y, t), cut out chunk by chunk."""
     import itk
 
     start = stack.image.GetLargestPossibleRegion().GetIndex()
@@ -141,7 +141,7 @@ def crop(stack: Stack, corner: tuple[int, ...], size: tuple[int, ...]) -> Stack:
 
 
 def frame_image(array: np.ndarray, stack_image: ItkObject) -> ItkObject:
-    """An image on an array (y, x), with the index of a stack's frames. The array must outlive the image."""
+    """Returns an image on an array (y, x), with the index of a stack's frames. The array must outlive the image."""
     import itk
 
     start = stack_image.GetLargestPossibleRegion().GetIndex()
@@ -154,7 +154,7 @@ def frame_image(array: np.ndarray, stack_image: ItkObject) -> ItkObject:
 
 
 def _with_information(source: ItkObject) -> ItkObject:
-    """The output of a reader or filter with its size known and no pixel read."""
+    """Returns the output of a reader or filter with its size, before any pixel is read."""
     with itk_errors():
         source.UpdateOutputInformation()
     return source.GetOutput()
@@ -191,7 +191,7 @@ def _from_files(names: Sequence[FileName], frame_range: tuple[int, int] | None, 
 
 
 def _require_range(frames: Sequence[Any], frame_range: tuple[int, int] | None) -> None:
-    """Raises ValueError where a list is shorter than what is asked for of it; of a stack that is not known yet."""
+    """Raises ValueError if a list is shorter than `frame_range`. The length of a stack is not known yet."""
     if frame_range is not None and len(frames) > 1 and frame_range[1] > len(frames):
         raise ValueError(f"frame_range ends at {frame_range[1]}, but there are {len(frames)} frames")
 
@@ -223,7 +223,7 @@ def _from_lazy(frames: LazyFrames, name: str) -> Stack:
 
 
 def _from_arrays(frames: Sequence[Any], name: str) -> Stack:
-    """Frames that stay where they are: the frames of a chunk are joined when ITK asks for it."""
+    """Returns frames without a copy: the frames of a chunk are joined when ITK requests the chunk."""
     arrays = []
     for number, frame in enumerate(frames):
         this = f"{name}[{number}]"

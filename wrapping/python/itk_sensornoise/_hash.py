@@ -14,11 +14,11 @@ _FILE_PIECE = 1 << 20
 
 
 class FramesHash:
-    """Hash of a stack: of its files, or of its pixels if it is not in files."""
+    """Hash of the files of a stack, or of its pixels if the stack is not in files."""
 
     def __init__(self, stack: Stack) -> None:
-        """Reads all of it once. Raises ValueError for a file that cannot be read, and what a reader of lazy frames
-        raises."""
+        """Reads the whole stack once. Raises ValueError for a file that cannot be read, and the errors of the reader of
+        lazy frames."""
         self.files = len(stack.files)
         self.bytes = 0
         self._names = stack.files
@@ -31,11 +31,11 @@ class FramesHash:
             self._add_pixels(stack)
 
     def set(self, setter: Callable[[str, int, int], None]) -> None:
-        """Hands it to an estimator's method."""
+        """Calls a method of an estimator with the hash."""
         setter(self._digest.hexdigest(), self.files, self.bytes)
 
     def require_unchanged(self) -> None:
-        """Raises ValueError where a file is not the one that was hashed. Frames in memory are not looked at."""
+        """Raises ValueError if a file has changed since it was hashed. Frames in memory are not tested."""
         for name, before, now in zip(self._names, self._states, _states(self._names), strict=True):
             if now != before:
                 raise ValueError(

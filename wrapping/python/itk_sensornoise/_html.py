@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Tables of HTML for notebooks and pages. The numbers are those of the tables of text."""
+"""Tables of HTML for notebooks and pages. They have the same numbers as the tables of text."""
 
 import html
 import re
@@ -27,7 +27,7 @@ _STATUS = re.compile(r" (identified|not-identifiable|upper-limit|failed)(?: |$)"
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table whose cells are not broken into lines."""
+    """Returns a table whose cells are not broken into lines."""
     titles = "".join(f'<th style="{_CELL}">{html.escape(cell)}</th>' for cell in head)
     body = "".join(
         "<tr>" + "".join(f'<td style="{_CELL}">{html.escape(cell)}</td>' for cell in row) + "</tr>" for row in rows
@@ -36,22 +36,22 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 
 def paragraphs(lines: Iterable[str]) -> str:
-    """A paragraph a line; what is warned of begins with its severity."""
+    """Returns one paragraph for each line. A warning begins with its severity."""
     return "".join(f"<p style='margin:0.3em 0'>{html.escape(line)}</p>" for line in lines if line.strip())
 
 
 def figure(element: str) -> str:
-    """A figure around an element; "" where there is none."""
+    """Returns an HTML figure around an element; "" without an element."""
     return f'<figure style="margin:0.5em 0">{element}</figure>' if element else ""
 
 
 def page(title: str, body: str) -> str:
-    """A whole page, which needs no other file."""
+    """Returns a whole page, which needs no other file."""
     return _PAGE.format(title=html.escape(title), body=body)
 
 
 def with_title(text: str, title: str | None) -> str:
-    """A page with another title."""
+    """Returns a page with another title."""
     if title is None:
         return text
     for tag in ("title", "h1"):
@@ -60,7 +60,7 @@ def with_title(text: str, title: str | None) -> str:
 
 
 def rows_of_text(text: str) -> list[tuple[str, ...]]:
-    """The quantities in the text of a report: label, value with its error, unit, status, limits."""
+    """Returns the quantities in the text of a report: label, value with its error, unit, status, limits."""
     lines = text.split("\n")
     start = next((number for number, line in enumerate(lines) if line.startswith("quantity ")), None)
     if start is None:
@@ -81,7 +81,7 @@ def rows_of_text(text: str) -> list[tuple[str, ...]]:
 
 
 def table_of_text(text: str) -> str:
-    """The text of a report as HTML: what stands above the table, the table, and what stands below it."""
+    """Returns the text of a report as HTML: the lines above the table, the table, and the lines below it."""
     lines = text.rstrip("\n").split("\n")
     rows = rows_of_text(text)
     start = next((number for number, line in enumerate(lines) if line.startswith("quantity ")), len(lines))

@@ -13,31 +13,32 @@ from ._axes import in_time_order
 from ._chunks import arrays_of_graph, frames_of_chunk, is_closed, require_chunks
 from ._types import ItkObject
 
-# Bytes that are asked for at a time, beside the chunk of 32 MiB that ITK asks for; more where what is stored has larger
-# chunks, so that each is read once, up to _LARGEST.
+# Bytes that are read at a time, besides the chunk of 32 MiB that ITK requests. Larger stored chunks are read whole, up
+# to _LARGEST, so that each chunk is read once.
 _PIECE_BYTES = 8 << 20
 _LARGEST = 64 << 20
 
 
 def mapping_of(array: object) -> mmap.mmap | None:
-    """The file's memory map that an array lies in, numpy.memmap's for instance; None: it lies elsewhere."""
+    """Returns the memory map of a file that holds an array, for instance of numpy.memmap; None for other arrays."""
     while isinstance(array, np.ndarray):
         array = array.base
     return array if isinstance(array, mmap.mmap) else None
 
 
 def is_lazy(value: object) -> bool:
-    """Returns whether it has a shape, a dtype of NumPy's, and slices, and is not in memory: numpy.memmap is not."""
+    """Returns whether `value` has a shape, a dtype of NumPy and slices, and is not in memory. An array on a
+    memory-mapped file, for instance numpy.memmap, is not in memory."""
     if isinstance(value, np.ndarray):
         return mapping_of(value) is not None
     if is_closed(value):
-        return True  # refused by name
+        return True  # a later error names the array
     if isinstance(value, np.generic) or not all(hasattr(value, name) for name in ("shape", "dtype", "__getitem__")):
         return False
     try:
         np.dtype(value.dtype)  # type: ignore[attr-defined]
     except TypeError:
-        return False  # a tensor's, of another library
+        return False  # the dtype of a tensor of another library
     return True
 
 
@@ -85,8 +86,8 @@ class LazyStack:
         self._forgettable = [each for number, each in enumerate(maps) if each is not None and each not in maps[:number]]
 
     def read(self, first: int, end: int, take: Callable[[int, np.ndarray], None]) -> None:
-        """Hands the frames first ... end - 1 to `take`, with the number of the first of each piece. Raises ValueError
-        where a piece is not what was said."""
+        """Calls `take` with the frames first ... end - 1 in pieces, each with the number of its first frame. Raises
+        ValueError if a piece has another shape or dtype than announced."""
         while first < end:
             stop = min(end, (first // self._piece + 1) * self._piece)
             piece = np.asarray(self._frames[first:stop])
@@ -103,17 +104,17 @@ class LazyStack:
             first = stop
 
     def _frames_of_piece(self, item_bytes: int, stored: int) -> int:
-        """The number of frames that are read together; `stored` lie in a chunk."""
+        """Returns the number of frames that are read together. A chunk stores `stored` frames."""
         frame_bytes = item_bytes * int(self.shape[1]) * int(self.shape[2])
         wanted = max(_PIECE_BYTES // frame_bytes, 1)
         return max(1, min(-(-wanted // stored) * stored, max(_LARGEST // frame_bytes, 1)))
 
 
 def source_of(stack: LazyStack, failed: list[BaseException]) -> tuple[ItkObject, list[Any]]:
-    """An image (x, y, t) that is read as ITK asks for it, and what must outlive it.
+    """Returns an image (x, y, t) whose frames are read when ITK requests them, and the objects that must outlive it.
 
-    An exception while reading would be printed by ITK and lost: it is put into `failed`, and zeros stand for frames
-    from then on; see at_work()."""
+    ITK would print and lose an exception of the reader. The exception is therefore appended to `failed`, and all
+    later frames are zeros; see at_work()."""
     import itk
 
     kind = itk.Image[getattr(itk, PIXEL_TYPES[stack.pixel][0]), 3]
@@ -153,7 +154,7 @@ def _put(pixels: np.ndarray, at: int, piece: np.ndarray) -> None:
 
 
 def _like(frames: Any, name: str) -> np.ndarray:
-    """An array of the same shape and dtype that takes no memory."""
+    """Returns an array of the same shape and dtype that takes no memory."""
     shape = tuple(frames.shape)
     try:
         return np.broadcast_to(np.empty((), frames.dtype), [int(size) for size in shape])
@@ -163,7 +164,7 @@ def _like(frames: Any, name: str) -> np.ndarray:
 
 
 def _is_of_file(array: np.ndarray) -> bool:
-    """Returns whether what a mapped array holds is in the file, too: then the memory may forget it."""
+    """Returns whether the file holds all values of a mapped array, so that its memory may be released."""
     mode = getattr(array, "mode", None)
     if mode is not None:
         return bool(mode != "c")

@@ -22,12 +22,12 @@ def is_image(values: Any) -> bool:
 
 
 def output_of(values: Any) -> Any:
-    """The output of a filter, which is read later; all else as it is."""
+    """Returns the output of a filter, which is read later, or any other value unchanged."""
     return values.GetOutput() if is_process(values) else values
 
 
 def updated(values: Any) -> Any:
-    """The output of a filter, or an image, with its pixels; all else as it is."""
+    """Returns an image, or the output of a filter, with its pixels; any other value is returned unchanged."""
     values = output_of(values)
     if is_image(values):
         with itk_errors():
@@ -74,7 +74,7 @@ def picture_like(picture: Any, image: Any, name: str) -> Any:
 
 
 def _labelled(like: Any, array: np.ndarray, name: str, axes: slice) -> Any:
-    """An array of xarray with the axes and coordinates of another one."""
+    """Returns an array of xarray with the axes and coordinates of another one."""
     import xarray
 
     dims: Sequence[Any] = like.dims[axes]

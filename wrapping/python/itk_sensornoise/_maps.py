@@ -26,7 +26,7 @@ _NAMES = (
 
 
 class Maps(dict[str, np.ndarray]):
-    """Arrays (y, x) by name: mean, variance, corrected_variance, pixel_use, and of dark frames those of every pixel."""
+    """Arrays (y, x) by name: mean, variance, corrected_variance, pixel_use, and the maps of the dark frames."""
 
     def __missing__(self, name: str) -> np.ndarray:
         found = ", ".join(self) or "none: estimate_sensor_noise(..., maps=True) keeps them"
@@ -34,7 +34,7 @@ class Maps(dict[str, np.ndarray]):
 
 
 def maps_folder(folder: FileName) -> Path:
-    """The folder, which is made if there is none."""
+    """Returns the folder, after making it if there is none."""
     expected = "True or the name of a folder"
     if not isinstance(folder, (str, os.PathLike)):
         raise _options.refuse_type("maps", folder, expected)
@@ -83,14 +83,14 @@ def _images(estimator: ItkObject) -> dict[str, ItkObject]:
 
 
 def arrays_of(estimator: ItkObject) -> dict[str, np.ndarray]:
-    """The maps as arrays (y, x) that own their memory."""
+    """Returns the maps as arrays (y, x) that own their memory."""
     import itk
 
     return {name: itk.array_from_image(image) for name, image in _images(estimator).items()}
 
 
 def write_maps(estimator: ItkObject, folder: Path) -> None:
-    """Writes all maps, or none. Raises RuntimeError where one cannot be written."""
+    """Writes all maps, or none. Raises RuntimeError if one cannot be written."""
     import itk
 
     written: dict[Path, Path] = {}

@@ -38,7 +38,7 @@ def natural_key(name: FileName) -> list[tuple[bool, int, str]]:
 
 
 def expand(frames: Any, name: str = "frames") -> Any:
-    """The list of names that a pattern, a folder, a set or a generator of names means; all else as it is.
+    """Returns the list of names for a pattern, a folder, a set or a generator of names; any other value unchanged.
 
     A pattern (frames/*.png), a folder, a set and a generator have no order of their own: their names are sorted by
     natural_key(). A list keeps its order. Raises ValueError, with the `name` of the parameter, for a pattern that no
@@ -56,7 +56,7 @@ def expand(frames: Any, name: str = "frames") -> Any:
 
 
 def refuse_other_formats(names: Iterable[FileName]) -> None:
-    """Raises ValueError for a name whose format another package opens; says how."""
+    """Raises ValueError for a name whose format another package opens. The message shows how to open the file."""
     for given in names:
         name = os.fsdecode(given)
         ending = name.rstrip(os.sep).lower()

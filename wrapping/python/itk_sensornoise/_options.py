@@ -15,17 +15,17 @@ from ._errors import InvalidTypeError
 
 
 def refuse(name: str, value: Any, expected: str) -> ValueError:
-    """The error of a wrong value."""
+    """Returns the error for a wrong value."""
     return ValueError(f"{name} is {value!r}; expected {expected}")
 
 
 def refuse_type(name: str, value: Any, expected: str) -> InvalidTypeError:
-    """The error of a value of a wrong type."""
+    """Returns the error for a value of a wrong type."""
     return InvalidTypeError(f"{name} is {value!r}; expected {expected}")
 
 
 def integer(name: str, value: Any, low: int, high: int) -> int:
-    """A whole number from `low` to `high`; bool is none."""
+    """Returns `value` as a whole number from `low` to `high`. A bool is not a number."""
     expected = f"a whole number from {low} to {high}"
     if isinstance(value, (bool, np.bool_)):
         raise refuse_type(name, value, expected)
@@ -39,7 +39,7 @@ def integer(name: str, value: Any, low: int, high: int) -> int:
 
 
 def number(name: str, value: Any, expected: str = "a finite number", above: float = -math.inf) -> float:
-    """A finite number above `above`."""
+    """Returns `value` as a finite number above `above`."""
     if isinstance(value, (bool, np.bool_, str, bytes)):
         raise refuse_type(name, value, expected)
     try:
@@ -52,7 +52,7 @@ def number(name: str, value: Any, expected: str = "a finite number", above: floa
 
 
 def items(name: str, value: Any, count: int, expected: str) -> Sequence[Any]:
-    """`count` items of a sequence."""
+    """Returns the `count` items of a sequence."""
     if isinstance(value, (str, bytes)):
         raise refuse_type(name, value, expected)
     try:
@@ -65,12 +65,12 @@ def items(name: str, value: Any, count: int, expected: str) -> Sequence[Any]:
 
 
 def numbers(name: str, value: Any, count: int, expected: str) -> list[float]:
-    """`count` finite numbers."""
+    """Returns the `count` finite numbers of a sequence."""
     return [number(name, item, expected) for item in items(name, value, count, expected)]
 
 
 def integers(name: str, value: Any, count: int, expected: str) -> list[int]:
-    """`count` whole numbers."""
+    """Returns the `count` whole numbers of a sequence."""
     try:
         return [operator.index(item) for item in items(name, value, count, expected)]
     except TypeError:
@@ -95,7 +95,8 @@ def true_or_false(name: str, value: Any, expected: str = "True or False") -> boo
 
 
 def rectangle(name: str, value: Any, width: int, height: int, expected: str) -> list[int]:
-    """x, y, width and height of a rectangle; of slices (y, x), those of an array of that size, without a step."""
+    """Returns x, y, width and height of a rectangle. It may be given as slices (y, x) without a step of an array of
+    this size."""
     if not (isinstance(value, tuple) and any(isinstance(part, slice) for part in value)):
         return integers(name, value, 4, expected)
     slices = f"{expected}, or two slices (y, x) without a step, np.s_[y:y_end, x:x_end]"

@@ -80,7 +80,7 @@ class Passport(Record):
         return cls(text)
 
     def report(self, setting: float) -> Report | ChannelReports:
-        """Returns the report of a measured setting. Raises KeyError where there is none."""
+        """Returns the report of a measured setting. Raises KeyError if there is none."""
         for entry in _measured(self["settings"]):
             if math.isclose(entry["setting"], setting, rel_tol=1e-6):
                 text = json.dumps(entry["report"])
@@ -138,7 +138,7 @@ class Passport(Record):
         return export_by(sweep, format, output, at)
 
     def write(self, output: FileName) -> None:
-        """Writes the passport as a JSON file. Raises OSError where that fails."""
+        """Writes the passport as a JSON file. Raises OSError if that fails."""
         if not is_name(output):
             raise _options.refuse_type("output", output, "the name of a file")
         write_file(Path(os.fsdecode(output)), self.to_json().encode())

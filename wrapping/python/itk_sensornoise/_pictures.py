@@ -58,12 +58,13 @@ class Pictures:
         }
 
     def figure_data(self) -> dict[str, Any]:
-        """The numbers of the figures, as dicts and lists of the caller's own."""
+        """Returns a copy of the numbers of the figures, as dicts and lists."""
         data: dict[str, Any] = json.loads(unpack(self.numbers))
         return data
 
     def curve_element(self, width: int) -> str:
-        """The noise curve as an HTML element, light or dark as its reader is: an image, whose style is its own."""
+        """Returns the noise curve as an HTML element, an image with its own style. Its colours follow the reader's
+        light or dark mode."""
         source = base64.b64encode(unpack(self.curve).encode()).decode()
         return f'<img alt="noise curve" width="{width}" src="data:image/svg+xml;base64,{source}">'
 
@@ -144,7 +145,7 @@ class PagedRecord(Record):
 
 
 def write_page(text: str, path: FileName | None, title: str | None) -> str | None:
-    """Writes a page to a file, or returns it; with another title, if one is given."""
+    """Writes a page to a file, or returns the page; `title` replaces its title."""
     if title is not None and not isinstance(title, str):
         raise _options.refuse_type("title", title, "a str")
     text = with_title(text, title)
@@ -155,7 +156,7 @@ def write_page(text: str, path: FileName | None, title: str | None) -> str | Non
 
 
 def _target(path: FileName) -> Path:
-    """The file that is to be written; of a link, what it leads to."""
+    """Returns the file that is written: the target of a link, else `path`."""
     expected = "the name of a file that ends in .html or .htm"
     if not is_name(path):
         raise _options.refuse_type("path", path, expected)

@@ -12,7 +12,7 @@ from ._types import ItkObject, Progress
 
 
 class Bar(Protocol):
-    """A bar that shows how many of 100 % are done, `n` of them."""
+    """A progress bar. `n` of 100 % are done."""
 
     n: int
 
@@ -37,7 +37,7 @@ class _PlainBar:
 
 
 class _Called:
-    """A function that is called with the fraction of the work that is done, once for each per cent."""
+    """Calls a function with the fraction of the work that is done, once for each per cent."""
 
     def __init__(self, function: Callable[[float], object]) -> None:
         self.n = 0
@@ -49,11 +49,12 @@ class _Called:
             self._function(self.n / 100)
 
     def close(self) -> None:
-        """Nothing is left open."""
+        """Closes nothing: a function needs no end."""
 
 
 def bar_of(progress: Progress) -> Bar | None:
-    """The bar that is asked for; None: none is. Raises TypeError where `progress` is neither a bool nor a function."""
+    """Returns the requested bar; None without a bar. Raises TypeError if `progress` is neither a bool nor a
+    function."""
     if callable(progress):
         return _Called(progress)
     expected = "True, False or a function of the fraction that is done"
@@ -61,7 +62,7 @@ def bar_of(progress: Progress) -> Bar | None:
 
 
 def make_bar() -> Bar:
-    """A bar of tqdm if that is installed, else a line on standard error."""
+    """Returns a bar of tqdm if tqdm is installed, else a line on standard error."""
     try:
         from tqdm.auto import tqdm
     except ImportError:
@@ -71,7 +72,7 @@ def make_bar() -> Bar:
 
 
 class _Reads(Protocol):
-    """A stack, with what was raised while its frames were read."""
+    """A stack with the exceptions that were raised while its frames were read."""
 
     failed: list[BaseException]
 
@@ -79,10 +80,10 @@ class _Reads(Protocol):
 def _watch(
     instance: ItkObject, bar: Bar | None, caught: list[BaseException], stacks: tuple[_Reads, ...]
 ) -> Generator[None, None, None]:
-    """Each turn, which ITK asks for as the work goes on, runs Python: pending signals are handled, and the bar moves.
+    """Handles pending signals and advances the bar at each turn. ITK requests turns during its work.
 
-    What they raise would end as a text in ITK's own exception: it is kept in `caught`, and `instance` is told to stop.
-    A generator waits inside its `try`: a function could be interrupted before it comes to one.
+    ITK would replace an exception by the text of its own exception. The exception is therefore appended to `caught`,
+    and `instance` is stopped. A generator waits inside its `try`; a function could be interrupted before its `try`.
     """
     while True:
         try:
@@ -100,10 +101,9 @@ def _watch(
 
 @contextmanager
 def at_work(instance: ItkObject, progress: Progress = False, *stacks: _Reads) -> Iterator[None]:
-    """While the context lasts, Ctrl-C stops the update of `instance`, a filter that reads a stack, within the time of a
-    chunk and raises KeyboardInterrupt. With `progress` a bar is shown, tqdm's if that is installed, or a function is
-    called. What was raised while the frames of `stacks` were read stops it, too, and is raised again: nothing was
-    measured.
+    """Lets Ctrl-C stop the update of `instance`, a filter that reads a stack, within the time of a chunk, and raises
+    KeyboardInterrupt. `progress` shows a bar, by tqdm if it is installed, or calls a function. An exception of the
+    reader of `stacks` also stops the update, and is raised again: nothing was measured.
     """
     import itk
 
@@ -116,7 +116,7 @@ def at_work(instance: ItkObject, progress: Progress = False, *stacks: _Reads) ->
         yield
         if bar is not None and not caught:
             bar.update(100 - int(bar.n))
-    except (RuntimeError, ValueError):  # ITK's "aborted", if _watch() told the filter to stop
+    except (RuntimeError, ValueError):  # ITK's "aborted", if _watch() stopped the filter
         if not caught and not any(stack.failed for stack in stacks):
             raise
     finally:

@@ -10,7 +10,7 @@ from ._rounding import rounded_quantity, with_signs
 
 
 def member(record: Mapping[str, Any], path: str) -> Any:
-    """The member at a path as "vibration.sd_x"; None where there is none."""
+    """Returns the member at a path, for example "vibration.sd_x"; None if there is none."""
     found: Any = record
     for name in path.split("."):
         found = found.get(name) if found is not None else None
@@ -56,14 +56,14 @@ class Quantity:
 
     @classmethod
     def of(cls, record: Mapping[str, Any]) -> "Quantity":
-        """The quantity that a member of a report's record says."""
+        """Returns the quantity in a member of the record of a report."""
         interval95, limits = (
             None if pair is None else tuple(pair) for pair in (record["interval95"], record["bracket"])
         )
         return cls(record["value"], record["standard_error"], interval95, record["status"], record["unit"], limits)
 
     def __str__(self) -> str:
-        """The value with its error and unit, as the table of the report has them; else the limit, or the status."""
+        """Returns the value with its error and unit as in the table of the report, else the limit, or the status."""
         pair = None if self.interval95 is None else list(self.interval95)
         limits = None if self.limits is None else list(self.limits)
         record = {"value": self.value, "standard_error": self.standard_error, "status": self.status}

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Raw files of cameras through the package rawpy (LibRaw): codes as they are, and what the file says of the camera."""
+"""Reads raw files of cameras with the package rawpy (LibRaw): unprocessed digital numbers, and camera settings."""
 
 import os
 import struct
@@ -31,7 +31,7 @@ def is_raw(name: FileName) -> bool:
 
 
 def read_codes(name: FileName, is_new: bool = True) -> np.ndarray:
-    """The codes (y, x) of the active area, unprocessed, of one raw file; one that is new is checked."""
+    """Returns the unprocessed digital numbers (y, x) of the active area of a raw file. A new file is checked."""
     with _open(name, is_new) as raw:
         return _codes_of(raw, name).copy()
 
@@ -86,7 +86,7 @@ def raw_metadata(name: FileName) -> dict[str, Any]:
 
 
 class RawFiles:
-    """Raw files, one a frame, as lazy frames (t, y, x): shape, dtype and slices along time."""
+    """Lazy frames (t, y, x) from raw files of one frame each: shape, dtype and slices along time."""
 
     def __init__(self, names: Sequence[FileName]) -> None:
         self.names = list(names)
@@ -112,8 +112,8 @@ class RawFiles:
 
 @contextmanager
 def _open(name: FileName, is_new: bool = True) -> Iterator[Any]:
-    """The file as rawpy has it; one that is new is checked. Raises ValueError for what is found wrong, by LibRaw at
-    opening or when the codes are asked for, which it decodes only then."""
+    """Opens a file with rawpy. A new file is checked. Raises ValueError for errors that LibRaw finds at opening, or
+    when it decodes the digital numbers."""
     text = os.fsdecode(name)
     if not os.path.exists(text):
         raise ValueError(f"{text}: does not exist")
@@ -136,7 +136,7 @@ def _open(name: FileName, is_new: bool = True) -> Iterator[Any]:
 
 
 def _require_whole(name: str, raw: Any) -> None:
-    """LibRaw believes a DNG whose codes are not all there, and rawpy does not hand on what it noticed."""
+    """Raises ValueError for a truncated DNG. LibRaw accepts it, and rawpy does not report the warnings of LibRaw."""
     import itk
 
     if raw.sizes.raw_width * raw.sizes.raw_height > _MOST_PIXELS_PER_BYTE * os.path.getsize(name):

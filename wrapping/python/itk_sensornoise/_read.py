@@ -22,8 +22,8 @@ _EXPECTED = "the JSON of a {}, or the name of its file"
 
 
 def text_of(source: str | FileName, kind: str = "report") -> tuple[str, str]:
-    """The JSON text of a `kind` of record that is given, or stands in a file, and what to call it in an error. Raises
-    TypeError for what is neither, ValueError for a file that cannot be read."""
+    """Returns the JSON text of a `kind` of record, which is given as text or as a file, and its name for errors. Raises
+    TypeError for any other type, ValueError for a file that cannot be read."""
     expected = _EXPECTED.format(kind)
     if isinstance(source, str) and source.lstrip().startswith("{"):
         return source, "the text"
@@ -40,7 +40,7 @@ def text_of(source: str | FileName, kind: str = "report") -> tuple[str, str]:
 
 
 def record_of(text: str, name: str) -> dict[str, Any]:
-    """The record in a text. Raises ValueError where it is no report."""
+    """Returns the record in a text. Raises ValueError if the text is no report."""
     try:
         record = json.loads(text)
     except ValueError as error:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 if TYPE_CHECKING:
 
     class _Dict(Mapping[str, Any]):
-        """A dict as a checker shall see it."""
+        """The type of a dict for type checkers."""
 
         def __init__(self, items: Iterable[tuple[str, Any]] | Mapping[str, Any] = ...) -> None: ...
 
@@ -40,7 +40,7 @@ def _refuse(self: Any, *_arguments: Any, **_others: Any) -> NoReturn:
 
 
 class _FixedDict(_Dict):
-    """A dict that cannot be changed; what is made of it by copying or pickling is a dict."""
+    """A dict that cannot be changed. Its copies, also by pickling, are ordinary dicts."""
 
     if not TYPE_CHECKING:
         __setitem__ = __delitem__ = clear = pop = popitem = setdefault = update = __ior__ = _refuse
@@ -53,7 +53,7 @@ class _FixedDict(_Dict):
 
 
 class _FixedList(list[Any]):
-    """A list that cannot be changed; what is made of it by copying or pickling is a list."""
+    """A list that cannot be changed. Its copies, also by pickling, are ordinary lists."""
 
     __setitem__ = __delitem__ = append = clear = extend = insert = pop = remove = reverse = sort = _refuse
     __iadd__ = __imul__ = _refuse
@@ -74,8 +74,8 @@ def _fixed(value: Any) -> Any:
 
 
 class Record(_FixedDict):
-    """A measurement of C++, as a mapping with the names of its JSON. A change is a TypeError; to_dict() is a copy to
-    change."""
+    """A measurement of C++, as a mapping with the names of its JSON. A change raises TypeError; to_dict() returns a
+    copy that can be changed."""
 
     def __init__(self, text: str) -> None:
         """`text`: the record as JSON, as C++ writes it."""

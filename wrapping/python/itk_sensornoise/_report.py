@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class QuantityAttributes:
-    """The quantities of a report's first level as attributes, and all of them by their paths."""
+    """Quantities of the first level of a report as attributes, and all quantities by their paths."""
 
     def quantity(self, path: str) -> Quantity:
         """Returns the quantity at a path of quantity_list(), for example "vibration.sd_x".
@@ -109,7 +109,7 @@ class Report(QuantityAttributes, PagedRecord):
         maps: Mapping[str, np.ndarray] | None = None,
         pictures: Pictures | None = None,
     ) -> None:
-        """`text`: the record as JSON, as C++ writes it. `table`: the same for people. `maps`: arrays by name."""
+        """`text`: the record as JSON, as C++ writes it. `table`: its table as text. `maps`: arrays by name."""
         super().__init__(text, None if pictures is None else pictures.page)
         self._table = table
         self._maps = Maps(maps or {})
@@ -117,7 +117,7 @@ class Report(QuantityAttributes, PagedRecord):
 
     @classmethod
     def of(cls, estimator: ItkObject, maps: Mapping[str, np.ndarray] | None = None) -> "Report":
-        """The report of an ITK estimator that is up to date."""
+        """Returns the report of an ITK estimator that is up to date."""
         return cls(estimator.GetReportAsJson(), estimator.GetReportAsText(), maps, Pictures.of(estimator))
 
     @classmethod
@@ -225,7 +225,7 @@ class Report(QuantityAttributes, PagedRecord):
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Axes to draw into. Default: those of a new figure of matplotlib.pyplot, which has the residuals below.
+            Axes to draw into. Default: the axes of a new figure of matplotlib.pyplot, which has the residuals below.
 
         Returns
         -------
@@ -252,14 +252,14 @@ class Report(QuantityAttributes, PagedRecord):
         return draw(self, data, *(new_axes(data) if ax is None else (ax, None)))
 
     def _repr_html_(self) -> str:
-        """The table with its warnings and, where there is one, the noise curve."""
+        """Returns the table with its warnings and, if any, the noise curve."""
         return self._notebook_html()
 
     def _notebook_html(self) -> str:
         return table_of_text(str(self)) + figure(self._curve_element(480))
 
     def _curve_element(self, width: int) -> str:
-        """The noise curve as an HTML element; "" where there is none."""
+        """Returns the noise curve as an HTML element; "" without a curve."""
         data = self.figure_data
         if not data["mean"]:
             return ""

@@ -26,7 +26,7 @@ _COLUMNS = (
 
 
 def text_of_report(record: Mapping[str, Any]) -> str:
-    """The table of one report with its warnings."""
+    """Returns the table of one report with its warnings."""
     pixels = record["pixels"]
     used = 100.0 * pixels["used"] / pixels["total"]
     lines = [
@@ -48,7 +48,7 @@ def text_of_report(record: Mapping[str, Any]) -> str:
 
 
 def text_of_channels(record: Mapping[str, Any]) -> str:
-    """The table of the channels of a mosaic with all warnings."""
+    """Returns the table of the channels of a mosaic with all warnings."""
     channels, bayer = record["channels"], record["bayer"]
     first = channels[0]
     units = {entry["path"]: entry["unit"] for entry in quantity_list()}
@@ -211,7 +211,7 @@ _DESCRIPTIONS: tuple[Callable[[Mapping[str, Any]], str], ...] = (_fit, _response
 
 
 def _cell(quantity: Mapping[str, Any]) -> str:
-    """A quantity of a channel: its value with its error, its limit, or why there is none."""
+    """Returns the text of a quantity of a channel: the value with its error, its limit, or the reason for no value."""
     value, error, limits = quantity["value"], quantity["standard_error"], limits_of(quantity)
     if value is not None:
         return f"{value:.6g}" if error is None else str(measured(value, error))

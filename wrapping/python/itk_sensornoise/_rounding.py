@@ -14,7 +14,7 @@ _MOST_DECIMALS = 15
 
 
 class Rounded(NamedTuple):
-    """A value and its error as texts; `error` is "" and `decimals` None where there is no error to round to."""
+    """A value and its error as texts. Without an error, `error` is "" and `decimals` is None."""
 
     value: str
     error: str
@@ -25,7 +25,7 @@ class Rounded(NamedTuple):
 
 
 def with_signs(text: str) -> str:
-    """A unit or a label with the signs of people: DN/e⁻, DN²."""
+    """Returns a unit or a label with typographic signs: DN/e⁻, DN²."""
     if text == "e-":
         return "e⁻"
     for letters, sign in _SIGNS:
@@ -34,7 +34,7 @@ def with_signs(text: str) -> str:
 
 
 def measured(value: float, standard_error: float) -> Rounded:
-    """A value and its standard error, both to two digits of the error."""
+    """Returns a value and its standard error, both to two digits of the error."""
     if not (_LEAST_ERROR < standard_error < math.inf and math.isfinite(value)):
         return Rounded(f"{value:.6g}", f"{standard_error:.6g}", 0)
     # The place of the error's second digit, after rounding it to two: 0.0996 is 0.10.
@@ -51,17 +51,17 @@ def measured(value: float, standard_error: float) -> Rounded:
 
 
 def shortened(number: float | None) -> str:
-    """A number of five digits; "-" for None."""
+    """Returns a number of five digits; "-" for None."""
     return "-" if number is None else f"{number:.5g}"
 
 
 def limits_of(quantity: Mapping[str, Any]) -> Any:
-    """The 95 % interval of a quantity if there is one, else its limits."""
+    """Returns the 95 % interval of a quantity if there is one, else its limits."""
     return quantity["interval95"] or quantity["bracket"]
 
 
 def rounded_quantity(quantity: Mapping[str, Any]) -> Rounded:
-    """The value of a quantity and its error; of an upper limit the limit; "-" where it has none."""
+    """Returns the value of a quantity with its error, or its upper limit; "-" if it has neither."""
     value, error, limits = quantity["value"], quantity["standard_error"], limits_of(quantity)
     if value is not None and error is not None:
         return measured(value, error)
@@ -71,7 +71,7 @@ def rounded_quantity(quantity: Mapping[str, Any]) -> Rounded:
 
 
 def end_of_interval(end: float | None, rounded: Rounded) -> str:
-    """An end of an interval, rounded as its value is."""
+    """Returns an end of an interval with the decimals of its value."""
     if end is not None and rounded.decimals is not None and rounded.decimals <= _MOST_DECIMALS and abs(end) < 1e9:
         return f"{end:.{rounded.decimals}f}"
     return shortened(end)

@@ -41,8 +41,8 @@ class Settings:
     threads: int | None = None
 
     def check(self, dark: object, methods: Sequence[str] = ("refined", "published")) -> None:
-        """Raises TypeError or ValueError for values that are no settings, and for those that the method cannot use.
-        `methods`: those that are possible. The library checks the ranges, before a pixel is read."""
+        """Raises TypeError or ValueError for invalid settings, and for settings that the method cannot use. `methods`:
+        the possible methods. The library checks the ranges before it reads a pixel."""
         _options.one_of("method", self.method, list(methods))
         if self.level_range is not None:
             _level_range(self.level_range)
@@ -72,7 +72,7 @@ def require_settings(settings: dict[str, Any]) -> None:
 
 @dataclass
 class Prepared:
-    """An estimator of a stack, the stack and the dark frames as they were cut, and where: corner and size (x, y, t)."""
+    """An estimator, its stack and dark frames after cutting, and the region that was cut: corner and size (x, y, t)."""
 
     estimator: ItkObject
     stack: Stack
@@ -83,14 +83,14 @@ class Prepared:
 
 
 def open_dark(dark: Frames | None, raw: str | None) -> Stack | None:
-    """The dark frames; None: there are none."""
+    """Opens the dark frames; None without dark frames."""
     if dark is None:
         return None
     return open_frames(dark, name="dark") if raw is None else open_dumps(dark, raw, name="dark")
 
 
 def prepare(stack: Stack, dark: Stack | None, settings: Settings) -> Prepared:
-    """An estimator with all settings. Raises ValueError where one does not fit the stack."""
+    """Returns an estimator with all settings. Raises ValueError for a setting that does not fit the stack."""
     import itk
 
     whole, span = stack.image, settings.span
@@ -176,7 +176,7 @@ def _excess_noise_factor(factor: float) -> float:
 
 
 def _exposures(exposures: Sequence[float]) -> list[float]:
-    """The exposures of all frames."""
+    """Returns the exposures of all frames."""
     expected = "one finite number for each frame, 0 (a dark frame) or more, with at least 3 different values"
     try:
         count = len(exposures)
@@ -186,7 +186,8 @@ def _exposures(exposures: Sequence[float]) -> list[float]:
 
 
 def _exposures_of(settings: Settings, frames: int, total: int | None) -> list[float]:
-    """The exposures of the `frames` that are measured, cut by `frame_range`; `total`: all frames; None: not known."""
+    """Returns the exposures of the `frames` that are measured, cut by `frame_range`; `total`: all frames; None: not
+    known."""
     numbers = _exposures(() if settings.exposures is None else settings.exposures)
     least = total or (settings.span[1] if settings.span is not None else frames)
     if len(numbers) < least or len(numbers) > (total or len(numbers)):
@@ -197,7 +198,7 @@ def _exposures_of(settings: Settings, frames: int, total: int | None) -> list[fl
 
 
 def _cut_dark(opened: Stack, stack: Stack, corner: tuple[int, ...], size: tuple[int, ...]) -> Stack:
-    """The dark frames, cut as the stack is."""
+    """Returns the dark frames, cut as the stack is."""
     if (opened.size[:2], opened.pixel) != (stack.size[:2], stack.pixel):
         found, expected = (f"{s.size[0]} x {s.size[1]} pixels of type {s.pixel}" for s in (opened, stack))
         raise ValueError(f"dark has {found}; expected {expected}, as the frames")
@@ -218,7 +219,7 @@ def _frame_range(frame_range: tuple[int, int] | slice) -> tuple[int, int]:
 
 
 def region_of(stack: Stack, roi: Roi | None, span: tuple[int, int] | None) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Corner and size (x, y, t) of what roi and frame_range ask for."""
+    """Returns corner and size (x, y, t) of the region that roi and frame_range select."""
     width, height, frames = stack.size
     expected = f"(x, y, width, height) inside {width} x {height} pixels"
     corner, size = [0, 0, 0], [width, height, frames]
@@ -235,7 +236,7 @@ def region_of(stack: Stack, roi: Roi | None, span: tuple[int, int] | None) -> tu
 
 
 def _mask_of(mask: Frame | FileName, size: tuple[int, int]) -> np.ndarray:
-    """The mask (y, x) of a stack whose frames have `size` (width, height)."""
+    """Returns the mask (y, x) of a stack whose frames have `size` (width, height)."""
     if is_name(mask):
         mask = read_image(mask, "the mask")
     array = as_mask(mask, "mask")

@@ -276,7 +276,7 @@ def simulate_sensor_noise(
 
 
 def _set_flaws(source: ItkObject, flaws: dict[str, Any]) -> None:
-    """Flaws that are one number or two; None leaves a pair as it is."""
+    """Sets flaws of one or two numbers. None keeps a pair."""
     for name, value in flaws.items():
         if name in _NUMBERS:
             getattr(source, _NUMBERS[name])(_options.number(name, value))
@@ -294,7 +294,7 @@ def _set_response(source: ItkObject, response: tuple[str, float]) -> None:
 
 
 def _draw(source: ItkObject, dtype: np.dtype[Any]) -> np.ndarray:
-    """The source's output as an array that owns its memory, drawn a few frames at a time into it."""
+    """Returns the source's output as an array that owns its memory, drawn a few frames at a time into it."""
     import itk
 
     source.UpdateOutputInformation()
@@ -313,7 +313,7 @@ def _draw(source: ItkObject, dtype: np.dtype[Any]) -> np.ndarray:
 
 
 def _pixel_type(dtype: DTypeLike) -> str:
-    """The name of the pixel type, as in PIXEL_TYPES."""
+    """Returns the name of the pixel type, as in PIXEL_TYPES."""
     try:
         pixel = np.dtype(dtype).newbyteorder("=").name
     except TypeError:
@@ -324,7 +324,7 @@ def _pixel_type(dtype: DTypeLike) -> str:
 
 
 def _scene(reference: Frame, size: tuple[int, int] | None) -> tuple[ItkObject, object]:
-    """The reference image, and what its memory belongs to."""
+    """Returns the reference image, and the owner of its memory."""
     import itk
 
     if not isinstance(reference, str):

@@ -15,7 +15,7 @@ from ._update import update
 
 
 def as_frames(frames: Frames | Frame) -> Frames:
-    """Frames of which one may be given as an array (y, x)."""
+    """Opens frames. A single frame may be an array (y, x)."""
     if hasattr(frames, "__array__") and getattr(frames, "ndim", 3) == 2:
         return frames[None]  # type: ignore[index]  # an array
     return frames

@@ -24,7 +24,7 @@ _ADVICE = (
 
 
 def _names_of(file_names: FileName | Sequence[FileName]) -> list[str]:
-    """Names as C++ takes them."""
+    """Returns the names as text that C++ accepts."""
     if isinstance(file_names, (str, os.PathLike)):
         file_names = [file_names]
     names = [os.fsdecode(name) for name in file_names]
@@ -38,7 +38,7 @@ def _names_of(file_names: FileName | Sequence[FileName]) -> list[str]:
 
 @contextmanager
 def _file_errors() -> Iterator[None]:
-    """Raises what ITK finds of files as ValueError; where that names an option of the tool, with what Python has."""
+    """Raises ITK's errors about files as ValueError. Advice that names an option of the tool is replaced."""
     try:
         with itk_errors(kind=ValueError):
             yield
@@ -56,12 +56,12 @@ def _new(pixel: str) -> ItkObject:
 
 
 def open_files(file_names: Sequence[FileName], raw: str = "") -> tuple[ItkObject, str]:
-    """The source of files in time order, and its pixel type, a key of PIXEL_TYPES. All headers are checked; no pixel is
-    kept. `raw`: how frames lie in files without a header. Raises ValueError, in the words of C++, where a file is not
-    what it should be; warns of one that is there twice."""
+    """Returns the source of files in time order, and its pixel type, a key of PIXEL_TYPES. All headers are checked; no
+    pixel is kept. `raw`: how frames lie in files without a header. Raises ValueError with the message of C++ for a
+    damaged or unsuitable file. Warns of a file that is given twice."""
     import itk
 
-    # Any type will do to ask for the right one; what it found is handed on, so that nothing is checked twice.
+    # A source of any type finds the right pixel type. Its findings are passed on, so that no file is checked twice.
     asked = _new("uint16")
     asked.SetFileNames(_names_of(file_names))
     asked.SetRawLayout(raw)
@@ -80,7 +80,7 @@ def open_files(file_names: Sequence[FileName], raw: str = "") -> tuple[ItkObject
 
 
 def read_image(file_name: FileName, what: str) -> np.ndarray:
-    """The pixels (y, x) of one image on a file, for what is called `what` in errors."""
+    """Reads the pixels (y, x) of one image file. Errors call it `what`."""
     import itk
 
     try:

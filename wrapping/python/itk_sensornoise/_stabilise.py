@@ -111,14 +111,14 @@ def inverse_generalized_anscombe_image_filter(
         Stabilised values: an array of any dimension, or an itk.Image of 2 or 3 dimensions; float32 or float64. Negative
         ones count as 0. NaN stays NaN, and is an error where integers are wanted.
     report, variance_slope, total_intercept : optional
-        As those of generalized_anscombe_image_filter().
+        As in generalized_anscombe_image_filter().
     inverse : {"exact-unbiased", "algebraic", "asymptotic"}, default "exact-unbiased"
         "exact-unbiased": for what was denoised or averaged, the closed form of Mäkitalo & Foi 2013; off by at most 0.05
         e- in the dark, 0.02 e- from 3 e- on. "algebraic": f^-1, for single values; a mean comes out 1/4 e- too low.
         "asymptotic": off by up to 1/4 e- in the dark of a sensor without read noise, below 0.01 e- from 10 e- on.
     dtype : dtype, optional
         The type of the levels: uint8, uint16, int16 (rounded to the nearest, half up, and kept in range), float32 or
-        float64. Default: that of `image`.
+        float64. Default: the type of `image`.
 
     Returns
     -------
@@ -158,7 +158,7 @@ def inverse_generalized_anscombe_image_filter(
 
 
 def noise_model(report: Any, variance_slope: Any = None, total_intercept: Any = None) -> tuple[float, float]:
-    """Variance slope [DN/e-] and total intercept [DN^2] of a report, or as they are given."""
+    """Returns variance slope [DN/e-] and total intercept [DN^2], from the arguments or from a report."""
     if report is None:
         if variance_slope is None or total_intercept is None:
             raise ValueError(f"there is no noise model; expected {_REPORT}, or variance_slope= and total_intercept=")
@@ -172,7 +172,7 @@ def noise_model(report: Any, variance_slope: Any = None, total_intercept: Any = 
 
 
 def open_report(report: Any) -> Mapping[str, Any]:
-    """The record that a report, a mapping or the name of a JSON file holds."""
+    """Returns the record of a report, a mapping, or the JSON file of this name."""
     name = "the report"
     if is_name(report):
         name = os.fspath(report)
@@ -249,7 +249,7 @@ class _Picture:
         self.image = view(self._kept)
 
     def filter(self, template: Any, pixel: str) -> Any:
-        """A new filter from this picture to pixels of a type."""
+        """Returns a new filter from this picture to pixels of a type."""
         import itk
 
         output = itk.Image[getattr(itk, PIXEL_TYPES[pixel][0]), self._dimension]
@@ -258,7 +258,7 @@ class _Picture:
         return instance
 
     def like(self, output: Any) -> Any:
-        """A filter's output as what it was made of: an image, or an array of that shape."""
+        """Returns the output of a filter in the form of its input: an image, or an array of the same shape."""
         import itk
 
         if self._shape is None:

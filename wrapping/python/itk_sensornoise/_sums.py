@@ -26,8 +26,7 @@ _CAMERA = "SensorNoise."  # begins the keys under which an image says what is kn
 
 
 class SensorNoiseSums:
-    """The sums over a part of the frames: what processes that share the work of estimate_sensor_noise() hand to each
-    other.
+    """Sums over a part of the frames. Processes that share the work of estimate_sensor_noise() exchange them.
 
         sums = SensorNoiseSums((400, 2048, 2048), "uint16", bayer="none")   # alike in every process
         while not sums.is_done:
@@ -133,12 +132,12 @@ class SensorNoiseSums:
 
     @property
     def frames(self) -> np.ndarray:
-        """The numbers of the frames that are in, in this pass, from 0."""
+        """Numbers of the frames that were added in this pass, from 0."""
         return np.flatnonzero(self._flags())
 
     @property
     def missing(self) -> np.ndarray:
-        """The numbers of the frames that are not in."""
+        """Numbers of the frames that were not added in this pass."""
         return np.flatnonzero(self._flags() == 0)
 
     @property
@@ -200,12 +199,12 @@ class SensorNoiseSums:
             return bool(self._sums.MergeSums(view(sums)))
 
     def to_bytes(self) -> bytes:
-        """The sums of this pass, for merge() of another process with the same version of the package on the same kind
-        of machine."""
+        """Returns the sums of this pass, for merge() of another process with the same version of the package on the
+        same kind of machine."""
         return self._array().tobytes()
 
     def from_bytes(self, sums: bytes) -> None:
-        """Replaces the sums of this pass by those of to_bytes()."""
+        """Replaces the sums of this pass by the sums that to_bytes() returned."""
         self.forget()
         self.merge(sums)
 
@@ -215,7 +214,7 @@ class SensorNoiseSums:
             self._sums.ForgetSums()
 
     def end_pass(self) -> None:
-        """Ends the pass. Raises ValueError where a frame is missing, and names it."""
+        """Ends the pass. Raises ValueError if a frame is missing, and names it."""
         missing = self.missing
         if missing.size:
             raise ValueError(
@@ -258,7 +257,7 @@ class SensorNoiseSums:
         return self._fitting(open_frames(frames, frame_range, name), name)
 
     def _fitting(self, stack: Stack, name: str) -> Stack:
-        """The stack, if its frames are as the settings say."""
+        """Returns the stack. Raises ValueError if its frames do not fit the settings."""
         size = self.shape[:0:-1]
         if stack.size[:2] != size or stack.pixel != self._pixel:
             found = f"{stack.size[0]} x {stack.size[1]} pixels of type {stack.pixel}"
@@ -295,7 +294,7 @@ def camera_metadata(image: ItkObject) -> dict[str, Any]:
 
 
 def names_of(frames: np.ndarray) -> str:
-    """ "frame 3 is" or "frames 3, 4, 5, ... (12 in all) are"."""
+    """Returns "frame 3 is" or "frames 3, 4, 5, ... (12 in all) are"."""
     if len(frames) == 1:
         return f"frame {frames[0]} is"
     first = ", ".join(map(str, frames[:5]))
@@ -307,7 +306,7 @@ def _are_names(frames: Any) -> bool:
 
 
 def _size_only(shape: tuple[int, int, int], dtype: np.dtype, metadata: Mapping[str, Any]) -> Stack:
-    """A stack without pixels."""
+    """Returns a stack without pixels."""
     import itk
 
     pixel = dtype.newbyteorder("=").name
@@ -325,13 +324,13 @@ def _size_only(shape: tuple[int, int, int], dtype: np.dtype, metadata: Mapping[s
 
 
 def _row(sums: Any) -> np.ndarray:
-    """Bytes as an array (1, n) that ITK can look at."""
+    """Returns bytes as an array (1, n) that ITK can read."""
     row = sums if isinstance(sums, np.ndarray) else np.frombuffer(sums, np.uint8)
     return np.ascontiguousarray(row, dtype=np.uint8).reshape(1, -1)
 
 
 def _array(image: ItkObject) -> Any:
-    """An image as an array. A copy: NumPy forgets the owner of what ITK's views look at, once they are cut."""
+    """Returns a copy of an image as an array. NumPy loses the owner of the memory of a sliced ITK view."""
     import itk
 
     return np.array(itk.array_view_from_image(image), subok=False)

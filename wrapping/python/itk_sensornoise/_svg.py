@@ -31,7 +31,7 @@ class Points:
 
 @dataclass
 class Plot:
-    """A figure: `lines` are pairs of x and y, dashed where `is_dashed`; `level` is a line along x."""
+    """A figure. `lines` are pairs of x and y, dashed if `is_dashed`; `level` is a horizontal line."""
 
     x_label: str
     y_label: str
@@ -41,12 +41,12 @@ class Plot:
     level: float | None = None
 
     def element(self, name: str, width: int = _WIDTH) -> str:
-        """The figure as an element of HTML: an image, whose style is its own."""
+        """Returns the figure as an HTML element, an image with its own style."""
         source = base64.b64encode(self.text(name).encode()).decode()
         return f'<img alt="{html.escape(name)}" width="{width}" src="data:image/svg+xml;base64,{source}">'
 
     def text(self, name: str) -> str:
-        """The figure as the text of an SVG file."""
+        """Returns the figure as the text of an SVG file."""
         xs, ys = self._numbers()
         x_axis, y_axis = _Axis(xs, _LEFT, _WIDTH - _RIGHT), _Axis(ys, _HEIGHT - _BOTTOM, _TOP)
         parts = [
@@ -102,7 +102,7 @@ class _Axis:
         return self._start + (number - self._low) / (self._high - self._low) * (self._end - self._start)
 
     def ticks(self) -> list[float]:
-        """Four to nine round numbers."""
+        """Returns four to nine round numbers."""
         power = 10.0 ** math.floor(math.log10((self._high - self._low) / 4))
         step = next(factor * power for factor in (5.0, 2.0, 1.0) if (self._high - self._low) / (factor * power) >= 4)
         first = math.ceil(self._low / step)

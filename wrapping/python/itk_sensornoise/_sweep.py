@@ -139,7 +139,7 @@ class _Burst:
         return Burst(self._frames, self._dark)
 
     def entry(self, options: str) -> dict[str, Any]:
-        """The entry of the passport, without a report."""
+        """Returns the entry of the passport, without a report."""
         reason = _WAITING if self.reason is None else self.reason
         return {"name": self.name, "setting": self.setting, "reason": reason, "options": options, "report": None}
 
@@ -196,7 +196,7 @@ def _frames_in(folder: Path) -> str:
 
 
 def _without_repetition(bursts: list[_Burst]) -> list[_Burst]:
-    """Gives bursts whose setting another one has a reason."""
+    """Sets the reason of bursts whose setting was already measured."""
     known: dict[float, str] = {}
     for burst in bursts:
         if burst.setting in known:

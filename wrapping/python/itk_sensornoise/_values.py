@@ -41,7 +41,7 @@ def in_python(sentence: str) -> str:
 
 @contextmanager
 def python_errors() -> Iterator[None]:
-    """Raises the errors of C++ as itk_errors(), and those of values with the parameters of Python."""
+    """Raises the errors of C++ as itk_errors() does. Errors about values name the parameters of Python."""
     try:
         with itk_errors():
             yield
@@ -50,7 +50,7 @@ def python_errors() -> Iterator[None]:
 
 
 def set_numbers(target: ItkObject, **numbers: float | None) -> None:
-    """Gives an export or a check those of black, white, analogue_gain and max_analogue_iso that are no None."""
+    """Sets black, white, analogue_gain and max_analogue_iso of an export or a check, except where they are None."""
     for name, value in numbers.items():
         if value is not None:
             getattr(target, _METHODS[name])(_options.number(name, value))

@@ -8,7 +8,7 @@ from importlib.metadata import PackageNotFoundError, version
 
 @functools.cache
 def version_of_package() -> str:
-    """The version of the distribution; "unknown" where the folder was copied and not installed."""
+    """Returns the version of the distribution; "unknown" if the folder was copied and not installed."""
     try:
         return version("itk-sensornoise")
     except PackageNotFoundError:

@@ -85,7 +85,7 @@ class StabiliseDenoise(Panel):
             self.open_report(path)
 
     def open_report(self, path: str) -> None:
-        """Reads a stored report and chooses it. Raises ValueError where the file is no report of one channel."""
+        """Reads a stored report and chooses it. Raises ValueError if the file is no report of one channel."""
         report = Report.from_json(path)
         self._stored[path] = report
         self.layers_changed()

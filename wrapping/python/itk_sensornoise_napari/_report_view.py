@@ -51,7 +51,7 @@ class ReportView(QWidget):
         self._measured().to_html(path)
 
     def save_json(self, path: str) -> None:
-        """Writes the record of the report. Raises OSError where that is not possible."""
+        """Writes the record of the report. Raises OSError if that is not possible."""
         with open(path, "w", encoding="utf-8") as file:
             file.write(self._measured().to_json())
 

@@ -6,7 +6,7 @@ from types import ModuleType
 
 
 def require_distributed() -> ModuleType:
-    """The module `distributed`. Raises ImportError, with what to install, where it is missing."""
+    """Imports the module `distributed`. Raises ImportError, which says what to install, if it is missing."""
     try:
         import distributed
     except ImportError as error:

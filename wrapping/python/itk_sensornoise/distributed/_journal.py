@@ -21,8 +21,8 @@ _SAME_NUMBERS = ("memory_limit", "threads")
 
 
 def settings_record(settings: Mapping[str, Any], defaults: Mapping[str, Any]) -> dict[str, Any]:
-    """The settings as JSON has them, by which two calls are the same; arrays by their SHA-256. Without those that
-    change no number, or are as in `defaults`. Raises ValueError for what JSON has not."""
+    """Returns the settings as JSON, to compare two calls; arrays are replaced by their SHA-256. Settings that change no
+    number, or equal `defaults`, are left out. Raises ValueError for values that JSON cannot hold."""
     given = {name: _as_json(name, value) for name, value in sorted(settings.items()) if name not in _SAME_NUMBERS}
     return {name: value for name, value in given.items() if value != _as_json(name, defaults[name])}
 
@@ -54,8 +54,8 @@ class Journal:
     """
 
     def __init__(self, name: Path) -> None:
-        """Reads what is there; makes the file if there is none. Raises ValueError where a line is no entry, or another
-        process writes to the file."""
+        """Reads the entries of the file, or makes the file. Raises ValueError if a line is no entry, or another process
+        writes to the file."""
         self._name = name
         self._settings: dict[str, dict[str, Any]] = {}  # settings of the sources that have a report
         self._rows: dict[str, list[Row]] = {}
@@ -75,7 +75,7 @@ class Journal:
         self._opened.close()
 
     def rows(self, name: str, settings: dict[str, Any]) -> list[Row] | None:
-        """The rows of a source that has a report; None: it has none. Raises ValueError where that is of other
+        """Returns the rows of a source that has a report, else None. Raises ValueError if the report has other
         settings."""
         before = self._settings.get(name)
         if before is None:

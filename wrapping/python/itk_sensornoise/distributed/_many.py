@@ -116,7 +116,7 @@ def estimate_many(
 def _not_measured(
     sources: Iterable[tuple[str, Source]], journal: Journal | None, settings: dict[str, Any], rows: dict[str, list[Row]]
 ) -> Iterator[tuple[str, Source]]:
-    """The sources that have no rows yet; `rows` gets those of the others, and every name in its place."""
+    """Yields the sources without rows. Fills `rows` with all names in order, and with the rows of the other sources."""
     for name, frames in sources:
         found = None if journal is None else journal.rows(name, settings)
         rows[name] = found or []
@@ -192,7 +192,7 @@ def _by_tasks(
 
 
 def _tasks_wanted(client: "distributed.Client", watch: Watch) -> int:
-    """Returns the number of tasks that keep all workers busy; 2 without a worker. Raises RuntimeError where there is no
+    """Returns the number of tasks that keep all workers busy; 2 without a worker. Raises RuntimeError if there is no
     scheduler."""
     watch.require_scheduler()
     try:

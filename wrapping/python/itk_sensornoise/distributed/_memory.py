@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     import distributed
 
 _MIB = 1 << 20
-# Of a worker's process, at the least, measured: documentation/distributed.md. The series of the third round come on
-# top, whose number nobody knows before.
+# Least memory of the process of a worker, measured: documentation/distributed.md. The temporal components of the third
+# round need more, and their number is not known before.
 _PROCESS_BYTES = 400 * _MIB  # Python, ITK and Dask before the first task [bytes]
 _BYTES_PER_PIXEL = {"u": 120, "i": 120, "f": 220}  # sums and what is made of them, by the kind of pixels [bytes]
 _BYTES_PER_FRAME = 20_000  # bytes for each frame of the whole stack
@@ -24,8 +24,8 @@ class WorkerState(NamedTuple):
     """State of a worker, as the scheduler knows it."""
 
     address: str
-    limit: int  # its memory_limit [bytes]; 0: none
-    memory: int  # that its process has [bytes]
+    limit: int  # memory_limit of the worker [bytes]; 0: none
+    memory: int  # memory of the process [bytes]
     is_paused: bool  # begins no task, as its memory is near the limit
     is_busy: bool  # a task runs, or data is on its way to one
 
@@ -48,15 +48,15 @@ def _state_of(address: str, worker: dict[str, Any]) -> WorkerState:
 
 
 def need_of_worker(pixels: int, frames: int, dtype: str, block_bytes: int) -> int:
-    """Bytes that a worker's process needs at least for estimate_sensor_noise(): `pixels` of a frame that are measured,
-    `frames` of the whole, and a block of dask's that a task is given, where it does not read by itself."""
+    """Returns the least memory of the process of a worker for estimate_sensor_noise() [bytes]. `pixels`: measured
+    pixels of a frame; `frames`: number of all frames; `block_bytes`: argument of a task, 0 if the task reads."""
     of_sums = _BYTES_PER_PIXEL[np.dtype(dtype).kind] * pixels + _BYTES_PER_FRAME * frames
     chunk = max(CHUNK_BYTES, LEAST_FRAMES * pixels * np.dtype(dtype).itemsize)
     return _PROCESS_BYTES + of_sums + max(block_bytes, chunk)
 
 
 def require_memory(workers: Collection[WorkerState], need: int, of: str) -> None:
-    """Raises RuntimeError where a worker would be ended before it has the memory that it needs for a measurement `of`
+    """Raises RuntimeError if a worker would be ended before it has the memory that it needs for a measurement `of`
     something."""
     usable = _fraction("terminate")
     small = [worker for worker in workers if worker.limit and worker.limit * usable < need]
@@ -70,7 +70,7 @@ def require_memory(workers: Collection[WorkerState], need: int, of: str) -> None
 
 
 def stuck_sentence(workers: Collection[WorkerState], seconds: float) -> str:
-    """Why nothing goes on where workers are paused."""
+    """Returns a sentence that explains why no task runs while workers are paused."""
     paused = [worker for worker in workers if worker.is_paused]
     fullest = max(paused, key=lambda worker: worker.memory)
     return (
@@ -81,8 +81,8 @@ def stuck_sentence(workers: Collection[WorkerState], seconds: float) -> str:
 
 
 def memory_of_task(frames: object) -> int | None:
-    """Bytes that a task of this worker may take for a burst, beside the frames; None: no limit, or no worker. Raises
-    ValueError where there is nothing left for it."""
+    """Returns the memory that a task of this worker may use for a burst, besides the frames [bytes]; None without a
+    limit or a worker. Raises ValueError if no memory is left."""
     from distributed import get_worker
 
     try:
@@ -104,7 +104,8 @@ def memory_of_task(frames: object) -> int | None:
 
 
 def _fraction(name: str) -> float:
-    """Returns the fraction of memory_limit at which Dask acts on a worker; 1 if never. As it is set here."""
+    """Returns the fraction of memory_limit at which Dask acts on a worker; 1 if never. The fraction is read from the
+    configuration of this process."""
     import dask
 
     return float(dask.config.get(f"distributed.worker.memory.{name}", None) or 1.0)

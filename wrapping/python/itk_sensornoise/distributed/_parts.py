@@ -20,8 +20,8 @@ _LARGEST_BLOCK = 512 << 20  # bytes of a part that is in memory whole
 
 @dataclass
 class Parts:
-    """All frames, and how a task comes to some of them: `part(first, end)` is what it is given, a value of dask, or
-    something that pickles, and `frame_range(first, end)` which frames of that are meant; None: all."""
+    """All frames, and the access of a task to some of them. `part(first, end)` is the argument of the task, a value of
+    dask or an object that pickles. `frame_range(first, end)` selects frames of this argument; None: all frames."""
 
     shape: tuple[int, int, int]
     dtype: str
@@ -30,8 +30,8 @@ class Parts:
     kind: str  # "dask", "files", "stack" or "lazy"
 
     def per_task(self, workers: int, wanted: int | None) -> int:
-        """Frames of a task: as wanted, else two tasks a worker, of at least 8 frames, as the sums of many frames are no
-        larger than those of few; of dask's arrays at most half a GiB, which a task has in memory."""
+        """Returns the number of frames of a task: `wanted`, else two tasks for each worker with at least 8 frames, as
+        the sums of many frames need no more memory. A task has at most half a GiB of an array of dask in memory."""
         if wanted is not None:
             return wanted
         count = max(8, -(-self.shape[0] // (2 * workers)))
@@ -41,13 +41,14 @@ class Parts:
         return count
 
     def block_bytes(self, count: int) -> int:
-        """Bytes of so many frames, where a task is given them; 0 where it reads them, a few at a time."""
+        """Returns the bytes of `count` frames if they are the argument of a task; 0 if the task reads them, a few at a
+        time."""
         if self.kind != "dask":
             return 0
         return count * self.shape[1] * self.shape[2] * np.dtype(self.dtype).itemsize
 
     def runs(self, count: int) -> list[tuple[int, int]]:
-        """(first, end) of each task."""
+        """Returns (first, end) of each task."""
         return [(first, min(first + count, self.shape[0])) for first in range(0, self.shape[0], count)]
 
     def split(self, runs: Sequence[tuple[int, int]]) -> list[Any]:
@@ -61,11 +62,11 @@ class Parts:
         return [self.frames for _ in runs]
 
     def ranges(self, runs: Sequence[tuple[int, int]]) -> list[tuple[int, int] | None]:
-        """Which frames of that are meant."""
+        """Returns the frame range of each task within its part."""
         return [run if self.kind in ("stack", "lazy") else None for run in runs]
 
     def first_frame(self, raw: str | None) -> np.ndarray:
-        """The first frame (y, x), read here."""
+        """Returns the first frame (y, x), which this process reads."""
         frames = self.frames if self.kind == "stack" else self.frames[:1]
         stack = open_frames(frames) if raw is None else open_dumps(frames, raw)
         return _pixels(crop(stack, (0, 0, 0), (*stack.size[:2], 1)))
@@ -82,8 +83,8 @@ def _pixels(stack: Stack) -> np.ndarray:
 
 
 def parts_of(frames: Frames, raw: str | None, span: tuple[int, int] | None) -> Parts:
-    """The frames of estimate_sensor_noise(), cut to the `span` that is measured. No pixel is read; headers of files
-    are. Raises ValueError where they are none."""
+    """Returns the frames of estimate_sensor_noise(), cut to the `span` that is measured. Headers of files are read,
+    pixels are not. Raises ValueError if `frames` are no frames."""
     frames = expand(frames)
     if span is not None:
         frames = _cut(frames, span)

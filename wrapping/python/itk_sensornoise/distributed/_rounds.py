@@ -143,8 +143,8 @@ def _require_settings(settings: dict[str, Any]) -> None:
 
 @dataclass
 class _Run:
-    """One measurement. `sums`: the driver's own; `need`: bytes of a worker; `ended`: futures of the merged sums of the
-    passes behind; `asked`: those of the current one."""
+    """One measurement. `sums`: sums of the driver; `need`: memory of a worker [bytes]; `ended`: futures of the merged
+    sums of the passes that have ended; `asked`: futures of the current pass."""
 
     client: Any
     parts: Parts
@@ -171,8 +171,8 @@ class _Run:
         return cls(client, parts, sums, parts.runs(count), need, name, start, watch)
 
     def go_round(self) -> None:
-        """A pass: filled, merged, and ended here. Raises ValueError where a frame is missing, RuntimeError where
-        workers have too little memory, or tasks never end."""
+        """Fills and merges the sums of a pass, and ends the pass. Raises ValueError if a frame is missing, RuntimeError
+        if workers have too little memory or tasks never end."""
         began = time.monotonic()
         number = self.sums.passes_ended + 1
         frames, height, width = self.parts.shape

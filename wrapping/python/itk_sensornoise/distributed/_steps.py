@@ -16,8 +16,8 @@ from .._options import number, refuse
 class Step(NamedTuple):
     """Change of a quantity between one measurement and the next."""
 
-    at: int  # the first measurement after it, counted from 0
-    change: float  # mean from it to the next step less that from the last step to it [unit of the values]
+    at: int  # first measurement after the step, counted from 0
+    change: float  # mean between this step and the next, minus mean between the last step and this [unit of the values]
     standard_error: float  # standard error of the change [unit of the values]
 
     @property
@@ -29,18 +29,19 @@ class Step(NamedTuple):
 def find_steps(values: ArrayLike, standard_errors: ArrayLike, false_alarms: float = 0.001) -> list[Step]:
     """Finds where a quantity of one camera changed, from its reports in order of time.
 
-    At each place between two measurements the weighted mean of all before it is held against that of all after it, the
+    At each place between two measurements the weighted mean before it is compared with the weighted mean after it, the
     weights being 1 / standard error^2. The place where they differ by the most standard errors is a step if these are
-    more than chance allows; then what lies before and what lies behind it are looked at in the same way.
+    more than chance allows. The measurements before and after it are then tested in the same way.
 
     Parameters
     ----------
     values, standard_errors
         One number of each measurement, for example the columns gain_DN_per_e and gain_error_DN_per_e of the table of
-        estimate_many(), for one camera. Not finite (a burst that told nothing): left out. Errors have to be above 0.
+        estimate_many(), for one camera. Values that are not finite are left out: the burst had no result. Errors have
+        to be above 0.
     false_alarms
-        Of how many places without a step one is taken for it, at most: 0 to 1, exclusive [1]. Default: one in 1,000. A
-        step is one of |z| > 3.29 then. For several quantities of a camera together: this divided by their number.
+        Highest fraction of places without a step where a step is found: 0 to 1, exclusive [1]. Default: one in 1,000,
+        which means |z| > 3.29. Divide it by the number of quantities of a camera that are tested together.
 
     Returns
     -------
@@ -52,7 +53,7 @@ def find_steps(values: ArrayLike, standard_errors: ArrayLike, false_alarms: floa
     ValueError
         A wrong value; says what was found and what was expected.
 
-    The rate holds if the errors do, and are those of independent reports. A slow drift is taken for one step or more.
+    The rate holds if the errors are right and the reports are independent. A slow drift is taken for one step or more.
     """
     measured, errors = (np.asarray(given, dtype=float) for given in (values, standard_errors))
     if measured.ndim != 1 or measured.shape != errors.shape:

@@ -42,8 +42,8 @@ _UNITS = {
 
 
 def column(path: str, unit: str, part: str = "") -> str:
-    """The name of a column, "vibration_sd_x_error_pixel" for example: a quantity's path, without the unit in which it
-    may end, "error", and the unit."""
+    """Returns the name of a column, for example "vibration_sd_x_error_pixel": the path of the quantity without its
+    unit, "error", and the unit."""
     name = _UNITS[unit]
     stem = path.replace(".", "_").removesuffix(f"_{name.lower()}")
     return "_".join(filter(None, (stem, part, name)))
@@ -59,7 +59,7 @@ def columns() -> dict[str, type]:
 
 
 def rows_of(entry: Entry) -> list[Row]:
-    """The rows of a source: one, or of a mosaic one for each channel."""
+    """Returns the rows of a source: one, or one for each channel of a mosaic."""
     empty = {**dict.fromkeys(columns()), "name": entry["name"]}
     report = entry["report"]
     if report is None:
@@ -87,7 +87,7 @@ def _row(report: dict[str, Any], channel: str) -> Row:
 
 
 def as_table(rows: Sequence[Row]) -> "pd.DataFrame | list[Row]":
-    """A DataFrame, if pandas is installed; else the rows as they are."""
+    """Returns a DataFrame if pandas is installed, else the unchanged rows."""
     try:
         import pandas as pd
     except ImportError:
@@ -111,7 +111,7 @@ def require_parquet() -> None:
 
 
 def write_parquet(rows: Sequence[Row], name: Path) -> None:
-    """The table as a file, which takes its name when it is whole."""
+    """Writes the table to a file, which gets its name when it is complete."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 

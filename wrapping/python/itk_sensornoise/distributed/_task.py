@@ -17,7 +17,7 @@ from ._sources import Burst
 
 
 class Outcome(NamedTuple):
-    """Result of a source: a report, or the reason why there is none. The other one is None."""
+    """Result of a source: a report, or the reason for no report. One of the two is None."""
 
     reason: str | None  # why there is no report, one line
     report: str | None  # the record as JSON
@@ -49,7 +49,7 @@ def measure_pickled(source: bytes, settings: dict[str, Any]) -> Outcome:
 
 
 def reason_of(error: BaseException) -> str:
-    """An exception as one line; what it is, unless the package raised it for people."""
+    """Returns an exception as one line. Its type is added unless the package itself raised it."""
     text = " ".join(str(error).split())
     is_ours = type(error) in (ValueError, RuntimeError, InvalidTypeError, InvalidValueError, OutOfMemoryError)
     return text if text and is_ours else f"{type(error).__name__}: {text}".rstrip(": ")

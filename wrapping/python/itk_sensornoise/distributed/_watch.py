@@ -24,7 +24,7 @@ class Watch:
     """Looks whether tasks of a client may still end."""
 
     def __init__(self, client: "distributed.Client", advice: str) -> None:
-        """`advice`: what to do where the scheduler went away; ends the sentence."""
+        """`advice`: end of the error sentence that says what to do if the scheduler went away."""
         self._client = client
         self._gone = f"{_GONE}; {advice}"
         self._done = -1
@@ -32,12 +32,12 @@ class Watch:
         self._is_reported = False
 
     def require_scheduler(self) -> None:
-        """Raises RuntimeError where there is none."""
+        """Raises RuntimeError if there is none."""
         if self._client.status != "running":
             raise self.gone()
 
     def workers(self) -> list[WorkerState]:
-        """Returns the workers. Raises RuntimeError where there is no scheduler."""
+        """Returns the workers. Raises RuntimeError if there is no scheduler."""
         self.require_scheduler()
         try:
             return worker_states(self._client)
@@ -48,8 +48,8 @@ class Watch:
         return RuntimeError(self._gone)
 
     def wait(self, futures: "Collection[distributed.Future]", done: int) -> None:
-        """Waits a moment. `done`: how many have ended; `futures`: those that have not. Raises RuntimeError where they
-        never will: the scheduler went away, or all remaining workers are paused by Dask."""
+        """Waits a moment. `done`: number of futures that have ended; `futures`: the other futures. Raises RuntimeError
+        if they will never end: the scheduler went away, or Dask paused all remaining workers."""
         self.require_scheduler()
         if any(future.cancelled() for future in futures):
             raise self.gone()
@@ -97,7 +97,8 @@ def results_of(
     watch: Watch,
     report: Callable[[int], None] = lambda done: None,
 ) -> list[Any]:
-    """The results of all futures. Raises what a task raised as soon as one did, and as Watch.wait()."""
+    """Returns the results of all futures. Raises the first exception of a task at once, and the errors of
+    Watch.wait()."""
     from distributed import CancelledError
     from distributed.comm import CommClosedError
 

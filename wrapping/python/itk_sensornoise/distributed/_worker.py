@@ -12,20 +12,20 @@ import numpy as np
 
 from .._sums import SensorNoiseSums, names_of
 
-# One run at a time has its state here, and one task at a time works on it: that is threaded itself.
+# One run at a time has its state here, and one task at a time works on the state. The task itself uses threads.
 _LOCK = threading.RLock()
 _STATE: dict[str, SensorNoiseSums] = {}
 
-# Dask may begin a task that waited here after the run is forgotten; none waits for that many runs. Chosen
-# empirically: half and twice as many differ by some kB.
+# Dask may begin a task after its run has ended; no task waits for that many runs. Chosen empirically: half and twice
+# as many differ by some kB.
 _OVER: deque[str] = deque(maxlen=256)
 _STATE_LOCK = threading.Lock()  # protects _STATE and _OVER; held only while they are read or changed
 
 
 @dataclass
 class Part:
-    """The sums of a part of the frames: `sums` as SensorNoiseSums hands them over, None where equal frames were counted
-    in two parts of it; the numbers of its frames and, in pass 1, their fingerprints (frames, planes, 16)."""
+    """Sums of a part of the frames. `frames`: numbers of the frames; `fingerprints`: their fingerprints (frames,
+    planes, 16), in pass 1 only; `sums`: SensorNoiseSums.to_bytes(), None if two merged parts counted equal frames."""
 
     frames: np.ndarray
     fingerprints: np.ndarray | None
@@ -36,8 +36,8 @@ class Part:
 
 
 def _state(run: str, start: dict[str, Any], ended: Sequence[Part]) -> SensorNoiseSums:
-    """The sums of a run in the pass behind the `ended` ones, with nothing in them. What is here of other runs, and of
-    passes that are behind, is forgotten. Raises RuntimeError where the run is over."""
+    """Returns the empty sums of a run in the pass after the `ended` passes. Sums of other runs and of earlier passes
+    are deleted. Raises RuntimeError if the run has ended."""
     sums = _STATE.get(run)
     if sums is None or sums.passes_ended > len(ended):
         with _STATE_LOCK:
@@ -60,7 +60,7 @@ def _state(run: str, start: dict[str, Any], ended: Sequence[Part]) -> SensorNois
 
 
 def _require_going(run: str) -> None:
-    """Raises RuntimeError where the run is over. To be called with _STATE_LOCK."""
+    """Raises RuntimeError if the run is over. To be called with _STATE_LOCK."""
     if run in _OVER:
         raise RuntimeError(f"{run} is over: nobody waits for this task")
 
@@ -81,8 +81,8 @@ def fill(
     frame_range: tuple[int, int] | None,
     flags: np.ndarray | None,
 ) -> Part:
-    """The sums of the frames of a span, (first, end); `frame_range`: which they are of what is given; `flags`: those
-    of SensorNoiseSums.leave(). Raises ValueError where a frame is missing."""
+    """Returns the sums of the frames of a span, (first, end). `frame_range` selects these frames of `frames`; `flags`
+    are for SensorNoiseSums.leave(). Raises ValueError if a frame is missing."""
     with _LOCK:
         sums = _state(run, start, ended)
         if sums.passes_ended == 0 and flags is not None:
@@ -98,7 +98,7 @@ def fill(
 
 
 def merge(run: str, start: dict[str, Any], ended: Sequence[Part], parts: Sequence[Part]) -> Part:
-    """The sums of several parts, merged in their order."""
+    """Returns the sums of several parts, merged in their order."""
     frames = np.concatenate([part.frames for part in parts])
     if any(part.sums is None for part in parts):
         return Part(frames, None, None)
@@ -115,15 +115,15 @@ def merge(run: str, start: dict[str, Any], ended: Sequence[Part], parts: Sequenc
 
 
 async def forget(run: str) -> None:
-    """Gives back the memory of a run. A coroutine, for which Dask's client does not wait; without the lock of tasks, as
-    it is called beside them: one that is at work keeps its own."""
+    """Releases the memory of a run. Dask's client does not wait for this coroutine. It runs beside the tasks without
+    their lock; a task at work keeps its sums."""
     with _STATE_LOCK:
         _OVER.append(run)
         _STATE.pop(run, None)
 
 
 def same(value: Any) -> Any:
-    """The value itself."""
+    """Returns the value unchanged."""
     return value
 
 
