@@ -12,7 +12,7 @@ struct PlannedBurst
   double megapixels{ 1.0 };        ///< pixels of a frame [10^6], above 0
   double frames{ 50.0 };           ///< number of frames, at least 2
   double electrons{ 3000.0 };      ///< electrons of the brightest pixels [e-], above 0
-  double contrast{ 10.0 };         ///< electrons of the brightest over those of the darkest pixels [1], above 1
+  double contrast{ 10.0 };         ///< ratio of the electrons of the brightest and the darkest pixels [1], above 1
   double flickerSd{ 0.02 };        ///< standard deviation of the illumination factor [1], 0 or more
   double gainDnPerElectron{ 1.0 }; ///< system gain [DN/e-], above 0
   double readNoiseDn{ 3.0 };       ///< read noise [DN], 0 or more

@@ -4,8 +4,8 @@
 
     python examples/python/compare_methods.py --bin build/bin --output comparison [--peers FOLDER] [--real FOLDER]
 
-Needs the built tools and the standard library only. Writes comparison.md and comparison.html. The settings are those of
-Tables 2 and 3 of Sur & Grédiac 2015, mosaics like those of the cameras of its Table 5, and real frames
+Needs the built tools and the standard library only. Writes comparison.md and comparison.html. The settings are
+Tables 2 and 3 of Sur & Grédiac 2015, mosaics like the mosaics of the cameras in its Table 5, and real frames
 (compare_settings.py). --peers FOLDER runs programs of other authors in environments of their own, which are made in the
 folder with venv and pip (compare_peers.py). --real FOLDER names a folder with real frames. --settings chooses settings
 by patterns of their names, for example 'B3/*' 'EOS 6D/target/*'. --quick measures one setting of each kind, 6 of 38.
@@ -148,7 +148,7 @@ def summary(measured):
 
 
 def table_5(measured):
-    """Returns the errors of the gain next to those of the paper's Table 5; None without mosaics."""
+    """Returns the errors of the gain next to the errors in the paper's Table 5; None without mosaics."""
     methods = ("refined", "published", "single image, all frames", "affine fit, no correction")
     table = []
     for setting, rows, _ in measured:
@@ -214,7 +214,7 @@ def parse(arguments):
         "--size", type=int, help="width and height of simulated frames, instead of the setting's [pixels]"
     )
     parser.add_argument("--frames", type=int, help="frames of a simulated burst (default: 100)")
-    parser.add_argument("--folder", help="for the frames, 100 MB (default: that of temporary files)")
+    parser.add_argument("--folder", help="for the frames, 100 MB (default: the folder of temporary files)")
     options = parser.parse_args(arguments)
     options.bin = options.bin.resolve()
     for tool in ("estimate-sensor-noise", "simulate-sensor-noise"):

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Defines the settings of compare_methods.py, and simulates their frames.
 
-Three groups: the simulations of Tables 2 and 3 of Sur & Grédiac 2015; mosaics like those of the cameras of Table 5,
-whose gains, offsets and read noises are the truth here; and real frames.
+Three groups: the simulations of Tables 2 and 3 of Sur & Grédiac 2015; mosaics like the mosaics of the cameras in Table
+5, whose gains, offsets and read noises are the truth here; and real frames.
 """
 
 import json
@@ -21,7 +21,7 @@ FRAMES = 100  # number of frames of each burst, as in the paper
 # Brightest pixel behind a clear filter, in fractions of the range of the converter above the offset: the frames do not
 # clip under the strongest flicker of the settings.
 MOSAIC_EXPOSURE = 0.6
-# Period of a lamp of 100 Hz under a focal-plane shutter whose curtain travels over the frame in 4 ms (flash
+# Period of illumination that flickers at 100 Hz, under a focal-plane shutter whose curtain travels over the frame in 4 ms (flash
 # synchronization at 1/180 to 1/200 s), in frame heights.
 SHUTTER_PERIOD = 2.5
 # Blur of lens and low-pass filter, 0.5 pixels of a channel as in the simulations of the paper [pixels of the mosaic].
@@ -30,9 +30,9 @@ MOSAIC_BLUR = 1.0
 ROLLING_FROM = 800
 CANON_SPEEDS = {"EOS 350D": (100, 200, 400, 800, 1600), "EOS 6D": (100, 400, 1600, 3200, 6400)}
 # Flicker of the EOS 6D: the paper gives the last one, and below 0.01 at 1/10 s and 0.15 at 1/200 s; the others are
-# those of the EOS 350D at similar exposure times [1].
+# the flicker of the EOS 350D at similar exposure times [1].
 EOS_6D_FLICKERS = {100: 0.0088, 400: 0.0088, 1600: 0.058, 3200: 0.15, 6400: EOS_6D_FLICKER}
-EOS_6D_VIBRATION = (0.04, 0.06)  # about those of the EOS 350D, along x and y [pixels of the channel]
+EOS_6D_VIBRATION = (0.04, 0.06)  # about the vibration of the EOS 350D, along x and y [pixels of the channel]
 FLAT_LEVELS = 11  # exposures of the flats, from a tenth of the converter's range to a tenth above it
 FLAT_SIZE = 256  # [pixels]
 
@@ -180,7 +180,7 @@ def make_flats(setting, tools, folder):
 
 
 def make_frames(setting, tools, folder, shared):
-    """Simulates the frames of a setting, or reads them. Returns their files in a folder; those of flats are in the
+    """Simulates the frames of a setting, or reads them. Returns their files in a folder. The files of flats are in the
     folder `shared` of all settings."""
     if setting.source:
         return Frames(write_npy(folder / "burst.npy", read_npy(setting.source)), None, None, (), None)

@@ -127,7 +127,7 @@ def root_bins(level, count):
 
 
 def expected_levels(level, neighbours, used):
-    """Returns the expectation of the levels by those of the neighbours, through the means of bins."""
+    """Returns the expectation of the levels from the levels of the neighbours, through the means of bins."""
     bins = root_bins(neighbours[used], NEIGHBOUR_BINS)
     count = np.bincount(bins)
     x, y = (np.bincount(bins, one[used])[count > 0] / count[count > 0] for one in (neighbours, level))

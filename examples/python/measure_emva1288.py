@@ -34,7 +34,7 @@ TARGETS = {
     "DSNU": (("spatial", "dsnu"), 0.05),
 }
 # What the highpass filter of the standard leaves of the standard deviation of a white pattern [1]. The intervals are
-# compared with this pattern. The errors of PRNU and DSNU are those of the whole pattern.
+# compared with this pattern. The errors of PRNU and DSNU include the whole pattern.
 OF_HIGHPASS = {"PRNU": 0.9942, "DSNU": 0.9942}
 LINEARITY = 0.1  # largest rms of the linearity error of a linear camera [%]
 

@@ -95,8 +95,8 @@ RequireApart(const EstimateOptions & options, const EmvaSourceList & all)
   }
 }
 
-/** Returns the name of the list, or of the first and the last file, without folders. The date is that of the last file
- * of frames. */
+/** Returns the name of the list, or of the first and the last file, without folders. The date is the date of the
+ * last file of frames. */
 PageTitle
 TitleOfEvaluation(const EstimateOptions & options, const EmvaMeasured & measured)
 {

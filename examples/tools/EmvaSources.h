@@ -32,7 +32,7 @@ struct EmvaSourceList
   std::size_t             height{ 0 };   ///< rows that the list says [pixel]; 0: it says none
 };
 
-/** Groups the frames of \a files by their exposures, of which there is one for each frame; frames of
+/** Groups the frames of \a files by their exposures. There is one exposure for each frame; frames of
  * exposure 0 are dark. The exposures are in the order of the frames. */
 EmvaSourceList
 GroupByExposure(const std::vector<std::string> & files, const std::vector<double> & exposures);

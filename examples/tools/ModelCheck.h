@@ -31,7 +31,7 @@ CheckModel(const EstimateOptions & options, const MeasuredStack & measured);
 std::string
 ToJson(const MeasuredStack & measured, const ModelChecks & checks, const ModelChecks & profileChecks);
 
-/** Returns the report as a table, followed by its checks and those of a profile. */
+/** Returns the report as a table, followed by the checks of the report and of a profile. */
 std::string
 MakeTable(const MeasuredStack & measured, const ModelChecks & checks, const ModelChecks & profileChecks);
 

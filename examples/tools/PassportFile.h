@@ -46,8 +46,8 @@ IsPassport(const nlohmann::json & record);
 Passport
 ReadPassport(const std::string & file);
 
-/** Returns the measured settings in ascending order. ISO speeds replace those of the reports. Throws ExportError as
- * ReadCameraNoise(). */
+/** Returns the measured settings in ascending order. ISO speeds replace the ISO speeds of the reports. Throws
+ * ExportError as ReadCameraNoise(). */
 MeasuredRange
 RangeOf(const Passport & passport, const ExportSettings & settings = {});
 

@@ -47,7 +47,7 @@ ReadBytes(const std::string & file)
   return { std::istreambuf_iterator<char>(stream), {} };
 }
 
-/** Returns the settings that are exported: one of each report, or those of a passport. */
+/** Returns the settings that are exported: one of each report, or the settings of a passport. */
 std::vector<CameraNoise>
 ReadSettings(const ExportOptions & options, std::string & note)
 {

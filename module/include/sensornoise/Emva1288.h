@@ -210,8 +210,8 @@ EmvaQuantityList();
  *
  * The photon transfer curve has the flat series in the order of their photons, or of their exposures. Where one
  * exposure has a pair and a longer series, the pair is in the curve, and the longer series gives the non-uniformity, as
- * the standard asks. The dark level and the dark variance of a flat series are those of the dark series of its
- * exposure; where there is none, they are interpolated linearly between the exposures of the dark series, and constant
+ * the standard asks. The dark level and the dark variance of a flat series are taken from the dark series of its
+ * exposure. Without such a series they are interpolated linearly between the exposures of the dark series, and constant
  * outside. Saturation is the point with the largest variance.
  *
  * Throws std::invalid_argument if series differ in the size of their frames, an exposure is below 0 or not finite, or

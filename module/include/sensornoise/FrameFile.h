@@ -102,7 +102,7 @@ struct FrameFile
   std::uint64_t       bytes{ 0 };                          ///< size of all pixels after reading [bytes]
 
   /** The axes of its frames, the fastest first, where the file says that they differ in more than time: their sizes,
-   * each above 1, multiply to `frames`. Empty: time alone. ChooseFrames() takes those of one channel and plane. */
+   * each above 1, multiply to `frames`. Empty: time alone. ChooseFrames() takes the frames of one channel and plane. */
   std::vector<FrameAxis> axes{};
 
   CameraSettings camera{};  ///< settings of the camera that the file records

@@ -167,8 +167,8 @@ SensorNoise_EXPORT NoiseExport
 ExportNoise(const std::string & format, const std::vector<CameraNoise> & settings);
 
 /** The pairs (scale, offset) of the tag NoiseProfile of DNG: the standard deviation at the level x is
- * sqrt(scale x + offset), where x is 0 at the black level and 1 at the white level. One pair, or those of the planes R,
- * G and B; greens are averaged. Throws ExportError as ExportNoise(). */
+ * sqrt(scale x + offset), where x is 0 at the black level and 1 at the white level. One pair, or a pair for each of the
+ * planes R, G and B; greens are averaged. Throws ExportError as ExportNoise(). */
 SensorNoise_EXPORT std::vector<std::pair<double, double>>
 NoiseProfileOf(const CameraNoise & noise);
 

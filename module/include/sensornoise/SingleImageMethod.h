@@ -91,7 +91,7 @@ public:
   bool
   IsDone() const;
 
-  /** Returns the report, or those of the four planes in the order of BayerPlanes, when IsDone(). Throws
+  /** Returns the report, or the reports of the four planes in the order of BayerPlanes, when IsDone(). Throws
    * std::logic_error before. */
   std::vector<Report>
   GetReports() const;

@@ -80,7 +80,7 @@ NumberOf(const Quantity & quantity)
   return { quantity.value.value_or(0.0), quantity.standardError.value_or(0.0) };
 }
 
-/** Sets the system gain K: the slope of the variance against the signal, both less those of the dark frames, by a line
+/** Sets the system gain K: the slope of the variance against the signal, both minus the dark frames, by a line
  * with an offset and equal weights (50). The range is 0 to 70 % of saturation. Also sets the slope of the line without
  * an offset. Leaves both unset if fewer than three points are in the range. */
 void
@@ -120,7 +120,7 @@ ModelSnr(const DarkLevels & dark, EmvaReport & report);
  * The bright series is the one with the most frames; of equal ones the one whose signal is nearest to half of \a
  * saturationSignalDn [DN]. The dark series is the one with the most frames; of equal ones the one whose exposure is
  * nearest to the bright series. All are from report.series. A variance that is not distinguished from 0 gives an upper
- * limit. The standard errors are those of white patterns. DSNU needs report.gain. */
+ * limit. The standard errors are valid for white patterns. DSNU needs report.gain. */
 void
 MeasureNonUniformity(const DarkLevels & dark, double saturationSignalDn, EmvaReport & report);
 

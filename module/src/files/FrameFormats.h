@@ -144,9 +144,9 @@ InspectSer(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeIn
 bool
 IsHeadOfMraw(const std::string & head, const std::string & name);
 
-/** Fills in what a recording of a Photron camera says of itself: the pixels in a .mraw file, their size and number in a
- * .cihx or .cih file of the same name beside it. \a file is either and has its name and identity. Throws FileError
- * unless both are there, and the pixels are exactly those of the header. */
+/** Fills in the description of a recording of a Photron camera: the pixels in a .mraw file, their size and number in a
+ * .cihx or .cih file of the same name beside it. \a file is either of them, with its name and identity. Throws
+ * FileError unless both exist, and the pixels are exactly the pixels in the header. */
 void
 InspectMraw(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
@@ -168,7 +168,7 @@ IsHeadOfFits(const std::string & head, const std::string & name);
 SensorNoise_EXPORT void
 InspectFits(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
-/** Returns whether a file begins as those of numpy.save() do. */
+/** Returns whether a file begins like the files of numpy.save(). */
 SensorNoise_EXPORT bool
 IsHeadOfNpy(const std::string & head, const std::string & name);
 

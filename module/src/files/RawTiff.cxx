@@ -249,7 +249,7 @@ private:
   std::uint64_t         m_Bits;
 };
 
-/** Throws where bytes would be read as pixels twice, or are those of a directory. */
+/** Throws FileError if bytes would be read as pixels twice, or belong to a directory. */
 void
 RequireApart(const std::string & file, const std::vector<RawChunk> & chunks, const std::vector<TiffDirectory> & all)
 {

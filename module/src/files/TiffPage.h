@@ -161,7 +161,7 @@ public:
   void
   CheckPage(const std::string & page, const TiffPage & found);
 
-  /** Pixels behind those of the pages. */
+  /** Adds pixels that follow the pixels of the pages. */
   void
   AddPixels(const std::string & page, std::uint64_t offset, std::uint64_t count);
 

@@ -16,7 +16,7 @@ namespace sensornoise
 {
 
 /** Smallest standard errors of an unbiased estimate from one stack (Cram\'er-Rao). Infinity: the stack does not
- * identify the quantity. The quantities are those of this stack, not of the population from which its flicker and
+ * identify the quantity. The quantities describe this stack, not the population from which its flicker and
  * vibration were drawn: the flicker is (1 + gamma_t) / mean(1 + gamma) - 1, and the shifts are relative to their
  * mean. */
 struct PrecisionLimit

@@ -219,8 +219,8 @@ DeviationsOf(const FrameThumbnails &     thumbnails,
 /** Returns the frames among \a kept with \a deviations from the mean that the frames not \a found do not explain.
  *
  * A frame that vibration moves further than the others deviates along the same directions, which are the leading
- * principal components of the others: those of a Taylor series of second order in two shifts. \a largest is the largest
- * mean square of the rest [DN^2]. */
+ * principal components of the others: the terms of a Taylor series of second order in two shifts. \a largest is the
+ * largest mean square of the rest [DN^2]. */
 Indices
 WithoutLargerVibration(const Eigen::MatrixXd & deviations, const Indices & kept, const Indices & found, double largest)
 {

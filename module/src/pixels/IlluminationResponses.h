@@ -93,9 +93,9 @@ struct LocalOffset
 /** Estimates the dark offset where the illumination is local. The response of a pixel to an illumination component is
  * S_j = rho_j (mean - mu), with rho_j nearly linear over a tile. Without the slopes of rho_j, the lines of all tiles
  * and components cross zero at mu. Tiles of 8 to 64 pixels and strips of rows are tried. Where rho_j is curved within
- * tiles, their lines do not meet in one zero. Of the partitions whose lines meet, the one of the smallest error is used
- * that agrees with those of larger errors (Lepski 1990). The dispersion of the lines widens the error. Null if no tile
- * determines a line. Estimator.md, 3.7. */
+ * tiles, their lines do not meet in one zero. Some partitions have lines that meet. Of these, the partition with the
+ * smallest error is used that agrees with the partitions of larger errors (Lepski 1990). The dispersion of the lines
+ * widens the error. Null if no tile determines a line. Estimator.md, 3.7. */
 SensorNoise_EXPORT std::optional<LocalOffset>
 FindLocalOffset(const IlluminationResponses & data, const ParallelFor & parallelFor = SerialFor);
 

@@ -106,7 +106,7 @@ FitFirstLine(ProjectedVariance                 projected,
       mask = brighter->mask;
       return fitted;
     }
-    projected = std::move(fitted.projected); // its gain is nearer than the one of the initial model
+    projected = std::move(fitted.projected); // its gain is more accurate than the gain of the initial model
   }
   return FitFixedPointLine(std::move(projected), mask, std::nullopt, parallelFor);
 }

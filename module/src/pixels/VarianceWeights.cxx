@@ -89,7 +89,7 @@ struct Deviation
   {
     return line.At(data.neighbourMean[p]);
   }
-  /** Returns the excess of \a variance, that of pixel \a p, over the line at the pixel's own level [DN^2]. */
+  /** Returns the excess of \a variance of pixel \a p over the line at the pixel's level [DN^2]. */
   double
   Excess(std::size_t p, double variance) const
   {

@@ -120,7 +120,7 @@ struct PublishedEstimate
   Quantity vibrationSdX;        ///< [pixel]
   Quantity vibrationSdY;        ///< [pixel]
   Quantity vibrationCovariance; ///< [pixel^2]
-  double   contrastDn{ 0.0 };   ///< level of the bright set minus that of the dark one [DN]
+  double   contrastDn{ 0.0 };   ///< level of the bright set minus level of the dark set [DN]
   double   neededDn{ 0.0 };     ///< contrast that is needed for a line [DN]
   /** Parameters of the sensor; null: the contrast is too small. */
   std::optional<NoiseParameters> parameters;

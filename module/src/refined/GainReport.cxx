@@ -33,7 +33,7 @@ AskIfExchanged(const RefinedResults & found, const std::string & otherwise)
          RoundedApart(found.scene.model.brightestDn, known->valueDn) + " DN: are they exchanged?";
 }
 
-/** Returns why the variance is not that of a sensor of one gain, and what to do. */
+/** Returns why the variance does not fit a sensor of one gain, and what to do. */
 std::string
 TextOfFailure(const RefinedResults & found, const TestedGain & tested)
 {

@@ -178,8 +178,8 @@ AreLevelsSeries(const std::vector<double> & frameMeans);
  * model of the raw variance determines V. The residual variance after the projection on the series of the frames' mean
  * levels is V, if the illumination is the same everywhere and nothing moves. It needs no offset. Estimator.md, 3.2.
  *
- * The sums are those of PixelProjections, 8 bytes for each pixel: identical for any chunks and any distribution over
- * processes. */
+ * The sums are the same as in PixelProjections, 8 bytes for each pixel: identical for any chunks and any distribution
+ * over processes. */
 class SensorNoise_EXPORT LevelProjection
 {
 public:

@@ -69,8 +69,8 @@ TestSensor(const RefinedResults & found, const GainEstimate & gain, double effec
   return found.correlation.kind == NoiseKind::NotLinear ? GainVerdict::NoiseNotLinear : TestGain(found, gain);
 }
 
-/** Returns the signal of the darkest areas over that of the brightest, if neither it nor dark frames let a non-linear
- * response be noticed. */
+/** Returns the ratio of the signals of the darkest and the brightest areas [1], if neither this ratio nor dark frames
+ * would reveal a non-linear response; else null. */
 std::optional<double>
 FindUncheckedFraction(const RefinedResults & found, const GainEstimate & gain, double blackDn)
 {
@@ -83,7 +83,7 @@ FindUncheckedFraction(const RefinedResults & found, const GainEstimate & gain, d
   return !isTested && fraction > InCommon.darkFraction ? std::optional(fraction) : std::nullopt;
 }
 
-/** Returns the estimate by the line \a gain of the sensor's variance, without that of the frames. */
+/** Returns the estimate from the line \a gain of the sensor's variance, without the variance of the frames. */
 RefinedEstimate
 EstimateBy(const RefinedResults & found, const GainEstimate & gain)
 {
@@ -119,8 +119,8 @@ EstimateBy(const RefinedResults & found, const GainEstimate & gain)
   return estimate;
 }
 
-/** Returns the estimate with bounds of the gain in its place and in that of what follows from it, for frames that have
- * fewer samples than pixels. One bound is the slope of the variance, as for white noise; the other is the slope of the
+/** Returns the estimate for frames that have fewer samples than pixels. Bounds replace the gain and all quantities that
+ * follow from it. One bound is the slope of the variance, as for white noise; the other is the slope of the
  * total covariance. */
 RefinedEstimate
 WithholdGain(RefinedEstimate estimate)

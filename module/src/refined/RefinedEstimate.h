@@ -46,8 +46,8 @@ struct RefinedEstimate
   double effectOfLines{ 0.0 };
   /** Standard deviation that the vibration may have, where it is strong [pixel]; null: it is not. */
   std::optional<double> strongVibrationPixels;
-  /** Signal of the darkest areas over that of the brightest, where it is so large that a non-linear response would not
-   * be noticed [1]; null: it is not. */
+  /** Ratio of the signals of the darkest and the brightest areas [1], if it is so large that a non-linear response
+   * would not be noticed; null: it is not. */
   std::optional<double> uncheckedFraction;
 
   /** Returns whether the verdict on the sensor is by its line of the variance, and not by what the line does not show.

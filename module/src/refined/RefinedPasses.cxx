@@ -42,8 +42,8 @@ LargestMeanDn(const std::vector<double> & mean)
   return largest;
 }
 
-/** Returns \a noise with the frames of its groups by their indices in the stack; \a counted has those of the distinct
- * frames. */
+/** Returns \a noise with the frames of its groups by their indices in the stack. \a counted has the indices of the
+ * distinct frames. */
 FrameNoise
 WithIndicesOfStack(FrameNoise noise, const std::vector<std::size_t> & counted)
 {

@@ -38,8 +38,8 @@ MakeFailedReport(const RefinedSettings &           settings,
 SensorNoise_EXPORT void
 WarnOfGain(Report & report, const RefinedResults & found, const TestedGain & tested, double effectOfLines);
 
-/** Warns that the darkest areas have so much signal, \a darkestFraction of that of the brightest [1], that a non-linear
- * response would not be noticed. */
+/** Warns that a non-linear response would not be noticed: the darkest areas have the fraction \a darkestFraction of the
+ * signal of the brightest areas [1]. */
 SensorNoise_EXPORT void
 WarnOfNarrowRange(Report & report, const RefinedResults & found, double darkestFraction);
 

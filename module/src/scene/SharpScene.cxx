@@ -141,9 +141,8 @@ KeepsSmoothPixels(const VarianceSample & sample, const VariancePrediction & pred
          InScene.largestRejectedSmooth;
 }
 
-/** Returns whether the variances \a alongX and \a alongY [pixel^2] of the motion are those of a vibration, which are
- * not negative. Where the response is not linear the variance is no line of the level, and falls where the scene is
- * steep. */
+/** Returns whether the variances \a alongX and \a alongY [pixel^2] of the motion fit a vibration: they are not
+ * negative. If the response is non-linear, the variance is no line of the level, and falls where the scene is steep. */
 bool
 IsVibration(double alongX, double alongY)
 {

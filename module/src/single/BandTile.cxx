@@ -94,7 +94,7 @@ template <typename TPixel>
 void
 BandTile::LoadRow(const SingleFrame<TPixel> & frame, std::size_t y)
 {
-  // Differences of pixels that are double are taken in double, those of others are exact in float.
+  // Differences of pixels of type double are computed in double. Differences of other types are exact in float.
   using Real = std::conditional_t<std::is_same_v<TPixel, double>, double, float>;
   const std::size_t    first = frame.layout.At(2 * m_Tile.x, y);
   const std::size_t    step = frame.layout.step;

@@ -58,8 +58,9 @@ CodeRange
 FindCodesOfFrame(const PlaneOfFrame<TPixel> & plane, const CodeSettings & settings, const ParallelFor & parallelFor);
 
 /** Measures the variance of the level sets of a frame, and fits the line. A line through a sample of the frame selects
- * the windows without edges, and is fitted again; the last one selects those of the whole frame. The same bits for any
- * number of threads. Throws NothingToMeasure for a frame that is too small, or whose pixels have one level. */
+ * the windows without edges, and is fitted again. The last line selects the windows of the whole frame. The result has
+ * the same bits for any number of threads. Throws NothingToMeasure for a frame that is too small, or whose pixels have
+ * one level. */
 template <typename TPixel>
 ImageNoise
 MeasureFrame(const PlaneOfFrame<TPixel> & plane, const LevelLimits & limits, const ParallelFor & parallelFor);

@@ -30,7 +30,7 @@ struct Wavelet
                                                   -0.1350110200102546F,
                                                   -0.0854412738820267F,
                                                   0.0352262918857095F } };
-  /** Weights of the details: those of the approximation in reverse, with alternating sign. */
+  /** Weights of the details: the weights of the approximation in reverse, with alternating sign. */
   static constexpr std::array<float, Taps> high{ { low[5], -low[4], low[3], -low[2], low[1], -low[0] } };
 };
 

@@ -14,8 +14,8 @@ form, with a DeprecationWarning that names the new one, and CHANGELOG.md lists i
 long, errors also derive from the class that they had. Names that begin with an underscore may change at any time.
 
 Terms: a frame is one image, a stack (t, y, x) the frames; DN is a grey level. gain g [DN/e-], offset mu [DN], read
-noise sigma [DN], flicker gamma_t [1] and vibration (alpha_t, beta_t) [pixel] are those of F. Sur, M. Grédiac, SIAM J.
-Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
+noise sigma [DN], flicker gamma_t [1] and vibration (alpha_t, beta_t) [pixel] are defined as by F. Sur, M. Grédiac, SIAM
+J. Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
 """
 
 from typing import TYPE_CHECKING, Any

@@ -92,7 +92,7 @@ def flicker_correction_image_filter(
     Returns
     -------
     array of float64 (t, y, x), itk.Image or xarray.DataArray, as `stack`
-        The levels without flicker, less those of the mean [DN].
+        The levels without flicker, minus the mean of the stack [DN].
 
     Raises
     ------

@@ -192,7 +192,7 @@ class ChannelReports(PagedRecord):
 
 def report_of(estimator: ItkObject, maps: Mapping[str, np.ndarray] | None = None) -> Report | ChannelReports:
     """Returns the report or the reports of an ITK estimator that is up to date."""
-    if not hasattr(estimator, "GetReportAsHtml"):  # the single-image method, whose page is that of its record
+    if not hasattr(estimator, "GetReportAsHtml"):  # the single-image method, whose page is made from its record
         kind = ChannelReports if estimator.HasChannelReports() else Report
         return kind.from_json(estimator.GetReportAsJson())
     if estimator.HasChannelReports():

@@ -21,7 +21,7 @@ from ._stabilise import (
 from ._update import update
 
 # Filter strength of OpenCV's non-local means with NORM_L1, and standard deviations of ITK's bilateral filter over
-# places [pixels] and values, for noise of variance 1: those of denoise-with-noise-model, see OpenCVDenoisers.cxx and
+# places [pixels] and values, for noise of variance 1, as in denoise-with-noise-model: see OpenCVDenoisers.cxx and
 # BilateralDenoiser.cxx in examples/tools.
 _NON_LOCAL_MEANS_H = 1.3
 _BILATERAL_SIGMAS = 1.5, 2.0

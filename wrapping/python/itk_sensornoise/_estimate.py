@@ -97,57 +97,58 @@ def estimate_sensor_noise(
     ----------
     frames : frames
         Raw frames in time order, at least 5 of at least 3 x 3 pixels: a NumPy array (t, y, x); an itk.Image of 3
-        dimensions (x, y, t); a list of file names or of 2-D arrays (y, x), or of what has `__array__`; the name of one
-        stack file; a pattern of names ("frames/*.png"), a folder of files of one kind, a set or a generator of names,
-        which are sorted with numbers as numbers (frame_2 before frame_10; a list keeps its order); or anything with
-        `shape` (t, y, x), `dtype` and slices along time, frames[first:end]: h5py, zarr, dask, memory maps, astropy's
-        sections, your own class; axes of xarray may be in any order, as their names are honoured. uint8, uint16, int16,
-        float32 or float64 [DN]. Files and such objects are read a few frames at a time and never held together. Stored
-        chunks that are missing are an error, as far as h5py and zarr say so. Raw files of cameras (.dng, .cr2, .nef,
-        ...) are read by rawpy, if installed: unprocessed codes. Arrays are shared; one that is not C-contiguous or not
-        in the machine's byte order is copied once.
+        dimensions (x, y, t); a list of file names or of 2-D arrays (y, x), or of objects with `__array__`; the name of
+        one stack file; a pattern of names ("frames/*.png"), a folder of files of one kind, a set or a generator of
+        names, which are sorted with numbers as numbers (frame_2 before frame_10; a list keeps its order); or anything
+        with `shape` (t, y, x), `dtype` and slices along time, frames[first:end]: h5py, zarr, dask, memory maps,
+        astropy's sections, your own class; axes of xarray may be in any order, as their names are honoured. uint8,
+        uint16, int16, float32 or float64 [DN]. Files and such objects are read a few frames at a time and never held
+        together. Stored chunks that are missing are an error, as far as h5py and zarr say so. Raw files of cameras
+        (.dng, .cr2, .nef, ...) are read by rawpy, if installed: unprocessed digital numbers. Arrays are shared; an
+        array that is not C-contiguous or not in the machine's byte order is copied once.
     method : {"refined", "published", "single-image"}, default "refined"
-        "refined": all pixels of a static scene, textured or not; what is `identified` has a standard error and a 95 %
-        interval. "published": Figure 2 of Sur & Grédiac 2015, even areas only, without errors. "single-image": gain and
-        intercept from the even areas of one frame, which may be an array (y, x), after Foi et al. 2008; each of several
-        frames is measured by itself. It has no `maps`, and needs neither flicker nor `memory_limit`.
+        "refined": all pixels of a static scene, textured or not; every `identified` quantity has a standard error and a
+        95 % interval. "published": Figure 2 of Sur & Grédiac 2015, even areas only, without errors. "single-image":
+        gain and intercept from the even areas of one frame, which may be an array (y, x), after Foi et al. 2008; each
+        of several frames is measured by itself. It has no `maps`, and needs neither flicker nor `memory_limit`.
     offset : float or (float, float), optional
         The offset [DN] if it is known, or (offset, standard error): offset and read noise then need no flicker, and
-        steady light is distinguished from the offset. Default: found. "refined" only.
+        steady illumination is distinguished from the offset. Default: estimated. "refined" only.
     dark : frames, optional
-        Frames without light, as `frames`, of the same size and type and at the same exposure, gain and temperature:
-        they give the offset and, from two frames on, the read noise. Not together with `offset`. "refined" only.
+        Frames without illumination, given as `frames`, of the same size and type and at the same exposure, gain and
+        temperature: they determine the offset and, from two frames on, the read noise. Not together with `offset`.
+        "refined" only.
     bayer : {"auto", "none", "RGGB", "GRBG", "GBRG", "BGGR"}, default "auto"
         Colour filters in front of the pixels. "none": a monochrome sensor. "RGGB", "GRBG", "GBRG" or "BGGR", the
-        colours of the upper left pixels: each of the four planes is measured by itself. "auto": as the file says, if
-        it does, else as the levels of the first frame tell, which cannot tell red from blue.
+        colours of the upper left pixels: each of the four planes is measured by itself. "auto": as the file
+        records it, else from the levels of the first frame, which do not distinguish red and blue.
     bit_depth : int, optional
-        Bits of the sensor's codes, 1 to 16. Default: found.
+        Bits of the sensor's digital numbers, 1 to 16. Default: found in the frames.
     clip : (float, float), optional
-        Lowest and highest level that the sensor attains [DN]. Default: found.
+        Lowest and highest level that the sensor attains [DN]. Default: found in the frames.
     step : float, optional
-        Spacing of the codes [DN]. Default: found.
+        Quantization step [DN]. Default: found in the frames.
     level_range : (float, float), optional
-        (low, high): levels between which the variance is fitted [DN], for sensors whose response is straight in a part
+        (low, high): levels between which the variance is fitted [DN], for sensors whose response is linear in a part
         of its range. The level of a pixel is the mean of its neighbours. Default: all. "refined" only.
     exposures : sequence of float, optional
         Exposure of each frame, in the order of the frames and in any unit: exposure times, or irradiations; 0: a dark
         frame. Finite, 0 or more, with at least 3 different values. The record's `linearity` then has the linearity
         error of EMVA 1288, and offset and responsivity of a line through the levels. One for each of `frames`, also for
-        those that `frame_range` leaves out. Default: not given. "refined" only.
+        the frames that `frame_range` leaves out. Default: not given. "refined" only.
     excess_noise_factor : float, default 1
-        F, 1 or more, of a sensor that multiplies electrons at random, 2 for an EMCCD: the frames do not determine
-        it. `gain` is the slope of the variance divided by F; `variance_slope` and everything in DN do not change.
+        F [1], 1 or more, of a sensor that multiplies electrons at random, 2 for an EMCCD: the frames do not determine
+        F. `gain` is the slope of the variance divided by F; `variance_slope` and everything in DN do not change.
     rolling_shutter : {"auto", "off"} or float, default "auto"
-        Whether the flicker may differ from line to line: "auto" (found out), "off", or the width sigma_y of a line's
-        neighbourhood [lines]. "refined" looks for any light that changes in some places in another way than in others,
-        unless "off", and needs no width.
+        Whether the flicker may differ from line to line: "auto" (found in the frames), "off", or the width sigma_y of a
+        line's neighbourhood [lines]. "refined" finds any illumination that changes differently over the frame, unless
+        "off", and needs no width.
     shutter_axis : {"y", "x"}, default "y"
-        Axis along which the shutter travels: "y" (lines are rows) or "x". "refined" does without.
+        Axis along which the shutter travels: "y" (lines are rows) or "x". "refined" does not use it.
     level : float, default 0.01
-        Level of the test that finds pixels moved by vibrations, a probability. "refined" does without.
+        Level of the test that finds pixels moved by vibrations, a probability [1]. "refined" does not use it.
     quantiles : (float, float), default (0.01, 0.99)
-        Quantiles of the mean at which the dark and the bright set lie, 0 to 1. "refined" does without.
+        Quantiles of the mean at which the dark and the bright set lie, 0 to 1 [1]. "refined" does not use them.
     roi : (int, int, int, int) or (slice, slice), optional
         (x, y, width, height) [pixel], or two slices as an array (y, x) takes them, `np.s_[50:150, 50:200]`: only these
         pixels, of the dark frames too. Default: all.
@@ -156,27 +157,28 @@ def estimate_sensor_noise(
     frame_range : (int, int) or slice, optional
         (first, end), or slice(first, end): only the frames first, first + 1, ... end - 1, counted from 0.
     maps : bool, str or os.PathLike, optional
-        What is known of every pixel: mean, variance, corrected_variance [DN, DN^2] and pixel_use (0: used;
+        Results for every pixel: mean, variance, corrected_variance [DN, DN^2] and pixel_use (0: used;
         documentation/reference/record.md lists the other values); with two dark frames or more also the camera
         calibration: pixel_offset and pixel_read_noise [DN], and the ends of their 95 % intervals, _low and _high. True:
         arrays by these names, the report's `maps`. A folder: an image (.mha) each, written there. Default: none.
     hash : bool, default False
-        Whether record, table and page have the SHA-256 of the frames, and of the dark ones, as `input`, by which they
-        are filed. Of names: as the tool's --hash, of the bytes of all files in their order, behind a header those of
-        its pixels; a file that changes meanwhile is an error. Of all else: of the bytes of all pixels, least
-        significant first, a frame after the other, row by row: of an array,
-        hashlib.sha256(array.astype(array.dtype.newbyteorder("<")).tobytes()). `roi` and `mask` change nothing of it,
-        and `frame_range` only that of a list, which has the frames in the range. All is read once more: lazy frames,
-        too. "of" says which it is, "files" or "pixels".
+        Whether record, table and page have the SHA-256 of the frames and of the dark frames, as `input`, to identify
+        them. For names it is the hash of the bytes of all files in their order, as by the tool's --hash; the file of
+        the pixels follows its header. A file that changes meanwhile is an error. For all other frames it is the hash
+        of the bytes of all pixels, least significant first, frame by frame, row by row: for an array,
+        hashlib.sha256(array.astype(array.dtype.newbyteorder("<")).tobytes()). `roi` and `mask` do not change the
+        hash, and `frame_range` only the hash of a list, which has the frames in the range. All frames are read once
+        more, also lazy frames. "of" in the record is "files" or "pixels".
     raw : str, optional
-        How frames lie in files without a header, those of `frames` and of `dark`:
+        Layout of files without a header, for `frames` and for `dark`:
         "WxH:TYPE[:SKIP[:ROW[:GAP[:END]]]]", for example "640x480:uint16le", or "1920x1080:Mono12p:64" behind 64 other
-        bytes; documentation/reference/files.md lists the types. Default: the files say so.
+        bytes; documentation/reference/files.md lists the types. Default: the files have headers.
     memory_limit : int, optional
-        Most memory that the estimate takes beside the frames [bytes], for example 4 * 10**9: frames that are read a few
-        at a time are read more often where it would need more, with the same result. "refined" needs 56 bytes a pixel
-        of a frame and 4 more for each series of light and motion that it finds (8: large changes of the light, floating
-        point), "published" 40. Less than 64 bytes a pixel (40), 20 kB a frame and 32 MiB is refused. Default: no limit.
+        Largest memory of the estimate beside the frames [bytes], for example 4 * 10**9. Frames that are read a few at a
+        time are read more often if the estimate would need more memory, with the same result. "refined" needs 56 bytes
+        a pixel of a frame and 4 more for each temporal component of illumination and motion that it finds (8: large
+        changes of the illumination, floating point), "published" 40. The limit has to be at least 64 bytes a pixel
+        (40), 20 kB a frame and 32 MiB. Default: no limit.
     threads : int, optional
         Number of threads. Default: all. The result is the same bits for any number.
     progress : bool or callable, default False

@@ -28,30 +28,30 @@ _CAMERA = "SensorNoise."  # begins the keys under which an image says what is kn
 class SensorNoiseSums:
     """Sums over a part of the frames. Processes that share the work of estimate_sensor_noise() exchange them.
 
-        sums = SensorNoiseSums((400, 2048, 2048), "uint16", bayer="none")   # alike in every process
+        sums = SensorNoiseSums((400, 2048, 2048), "uint16", bayer="none")   # the same in every process
         while not sums.is_done:
             sums.add(frames[first:end], first)         # the part of this process
-            for other in others:                       # what to_bytes() gave there
+            for other in others:                       # the result of to_bytes() of the other process
                 sums.merge(other)
             sums.end_pass()
         print(sums.report())
 
-    The frames are gone over three times or more, see `is_done`. A pass is ended with the sums
-    of all frames, in every process alike: either all merge what all others have, or one merges all and hands on what it
-    has. With integers the report has the bits of estimate_sensor_noise(), whoever reads what and merges when. With
-    floating point it is equal to rounding; the same parts, merged in the same order, give the same bits. Frames that
-    are equal bit by bit are counted once: where two processes have counted one each, merge() raises ValueError and
-    names them; see `fingerprints`.
+    The frames are read three times or more, see `is_done`. Every process ends a pass with the sums of all frames.
+    Either all processes merge the sums of all others, or one process merges all sums and sends the result to the
+    others. For integers the report has the bits of estimate_sensor_noise(), for any distribution of the frames and
+    order of the merges. For floating point it is equal to within rounding; the same parts, merged in the same order,
+    give the same bits. Frames that are equal bit by bit are counted once: if two processes have counted one each,
+    merge() raises ValueError and names them; see `fingerprints`.
 
     Bytes of the sums: in pass 1, 20 a pixel (floating point: 32) and 2 kB a frame that is in; in pass 2, 16 kB a frame;
-    in pass 3, 8 a pixel and series of flicker, light and motion (4 to 20), and at most 32 MiB. Memory: that of
-    estimate_sensor_noise(), 20 kB a frame of the whole, and twice the sums. At most 2^22 frames, for which sums of
-    integers are exact.
+    in pass 3, 8 a pixel and temporal component of illumination and motion (4 to 20), and at most 32 MiB. Memory: the
+    memory of estimate_sensor_noise(), 20 kB for each of all frames, and twice the sums. At most 2^22 frames, for which
+    sums of integers are exact.
 
     Other threads of Python run while frames are added. Threads may use the same object: their calls follow each other.
 
-    It can be pickled: settings, the sums of the passes that have ended, and those of the current one. dark and mask go
-    with the settings, as they were given.
+    It can be pickled: settings, the sums of the passes that have ended, and the sums of the current pass. dark and mask
+    are pickled with the settings, as they were given.
     """
 
     def __init__(

@@ -8,7 +8,7 @@ from itk_sensornoise import simulate_sensor_noise
 
 LayerData = tuple[Any, dict[str, Any], str]
 
-# A sensor whose pixels differ as those of an sCMOS sensor do: the calibration maps have something to show.
+# A sensor whose pixels differ like the pixels of an sCMOS sensor, so that the calibration maps show a pattern.
 _SENSOR: dict[str, Any] = dict(
     size=(256, 192), gain=2.0, offset=100.0, electrons=1500.0, dsnu=4.0, read_noise=4.0, read_noise_spread=0.3
 )
