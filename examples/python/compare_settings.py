@@ -21,8 +21,8 @@ FRAMES = 100  # number of frames of each burst, as in the paper
 # Brightest pixel behind a clear filter, in fractions of the range of the converter above the offset: the frames do not
 # clip under the strongest flicker of the settings.
 MOSAIC_EXPOSURE = 0.6
-# Period of illumination that flickers at 100 Hz, under a focal-plane shutter whose curtain travels over the frame in 4 ms (flash
-# synchronization at 1/180 to 1/200 s), in frame heights.
+# Period of illumination that flickers at 100 Hz, in frame heights. The curtain of the focal-plane shutter travels over
+# the frame in 4 ms (flash synchronization at 1/180 to 1/200 s).
 SHUTTER_PERIOD = 2.5
 # Blur of lens and low-pass filter, 0.5 pixels of a channel as in the simulations of the paper [pixels of the mosaic].
 MOSAIC_BLUR = 1.0

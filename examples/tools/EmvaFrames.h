@@ -21,7 +21,8 @@ using EmvaEvaluation = std::variant<EmvaReport, EmvaMosaicReport>;
 struct EmvaMeasured
 {
   EmvaEvaluation evaluation;
-  /** Files of flat fields, or of both, each once. In the order of a list, or of the exposures that the files record. */
+  /** Files of flat fields, or of flat fields and dark frames, each once: in the order of a list, or of the exposures
+   * that the files record. */
   FrameList frames;
   FrameList dark; ///< files that hold dark frames only, in the same order
 };

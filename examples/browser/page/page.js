@@ -98,7 +98,7 @@ function frameNames(list) {
   return headers.length > 0 ? headers : names;
 }
 
-/** Returns the files below what was dropped. */
+/** Returns the files in a dropped folder, or the dropped file. */
 async function filesOf(entry) {
   if (entry.isFile) {
     const file = await new Promise((resolve, reject) => entry.file(resolve, reject));

@@ -45,12 +45,13 @@ NormalQuantile(double probability);
 SensorNoise_EXPORT double
 ChiSquareQuantile(double probability, double dof);
 
-/** The x that chi-square with `dof` degrees of freedom exceeds with this probability; infinity and 0 for 0 and 1.
+/** Returns the upper quantile of chi-square with `dof` degrees of freedom: the value that it exceeds with this
+ * probability. Infinity and 0 for the probabilities 0 and 1.
  * \throws std::invalid_argument if dof is not above 0 or the probability not from 0 to 1. */
 SensorNoise_EXPORT double
 ChiSquareUpperQuantile(double probability, double dof);
 
-/** The t that Student's t with `dof` degrees of freedom stays below with this probability; -+infinity for 0 and 1. The
+/** Returns the quantile of Student's t with `dof` degrees of freedom for this probability; -+infinity for 0 and 1. The
  * two-sided 95 % interval reaches to +-StudentQuantile(0.975, dof).
  * \throws std::invalid_argument if dof is not above 0 or the probability not from 0 to 1. */
 SensorNoise_EXPORT double

@@ -158,7 +158,7 @@ GeneralText(double number, int digits)
 std::optional<double>
 FiniteNumber(const std::string & text)
 {
-  // not strtod(), which uses the decimal comma of some locales
+  // strtod() is not used: it reads the decimal comma of some locales
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
   double number = 0;

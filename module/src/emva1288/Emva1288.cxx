@@ -59,7 +59,9 @@ PartOf(const EmvaSpatialVariance & of, std::size_t frames, const SpatialPart & p
   const auto   rows = static_cast<double>(of.rows);
   const auto   count = static_cast<double>(frames);
   const double values = part.ofColumns ? columns : part.ofRows ? rows : columns * rows;
-  const double averaged = part.ofColumns ? rows : part.ofRows ? columns : 1.0; // pixels of each value
+  const double averaged = part.ofColumns ? rows
+                          : part.ofRows  ? columns
+                                         : 1.0; // number of pixels averaged in each value
   const double noise = of.stackDn2 / count / averaged;
   const double measured = part.ofColumns ? of.columnMeanDn2 + noise
                           : part.ofRows  ? of.rowMeanDn2 + noise

@@ -138,7 +138,7 @@ NumberAsText(const Value & value)
 {
   if (!value || !std::isfinite(*value))
   {
-    return "nan"; // the package emva1288 writes unknown numbers so
+    return "nan"; // the package emva1288 writes an unknown number as nan
   }
   char text[32];
   std::snprintf(text, sizeof(text), "%.17g", *value);

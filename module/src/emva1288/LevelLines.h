@@ -34,9 +34,9 @@ struct LevelLine
   double dof{ 0.0 };         ///< degrees of freedom of the residuals
 };
 
-/** Fits a line with equal weights. With known variances the errors follow from them; they grow by the root of the
- * reduced chi-square where it is above 1. Without them the errors follow from the scatter about the line. The values
- * are three or more, and not all at one x. */
+/** Fits a line with equal weights. If the variances are known, the errors follow from the variances, times the root of
+ * the reduced chi-square if it is above 1. Otherwise the errors follow from the scatter about the line. At least three
+ * values are needed, at two or more different x. */
 SensorNoise_EXPORT LevelLine
 FitLevelLine(const std::vector<LevelValue> & values);
 

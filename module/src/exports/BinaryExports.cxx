@@ -58,7 +58,7 @@ NpyBytes(const NpzArray & array)
 std::string
 MemberHead(const std::string & name, const std::string & content)
 {
-  constexpr unsigned version = 20;               // 2.0
+  constexpr unsigned version = 20;               // version 2.0 of ZIP
   constexpr unsigned firstDay = (1U << 5U) + 1U; // 1980-01-01: equal models make equal files
   const auto *       bytes = reinterpret_cast<const Bytef *>(content.data());
   const auto         sum = crc32(crc32(0, nullptr, 0), bytes, static_cast<uInt>(content.size()));
@@ -122,7 +122,7 @@ ExportCareamics(const CameraNoise & noise)
 
 namespace
 {
-/** An entry of TIFF 6.0 with one value of type LONG, or of SHORT, which takes its lower half. */
+/** Returns an entry of TIFF 6.0 with one value of type LONG, or of type SHORT in the lower half of the value field. */
 std::string
 TiffTag(unsigned int tag, unsigned int type, std::uint64_t value)
 {

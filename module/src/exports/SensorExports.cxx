@@ -24,7 +24,7 @@ CameraKey(const CameraNoise & noise)
   return text;
 }
 
-/** Offset and electrons per DN, of programs that do not ask for the read noise. */
+/** Returns offset and electrons per DN, for programs that do not need the read noise. */
 SensorNumbers
 OffsetAndGain(const CameraNoise & noise, const std::string & format)
 {

@@ -216,7 +216,7 @@ SumTiles(const IlluminationResponses &            data,
       const double  w = 1.0 / data.line.At(frame.neighbourMean[p]);
       const double  centred = frame.mean[p] - data.centreDn;
       const Surface terms = tiles.SurfaceAt(p, width, centred);
-      const Surface ofMean = (Surface() << 0.0, 1.0, 0.0, 0.0, terms.segment<2>(2)).finished(); // derivative to I
+      const Surface ofMean = (Surface() << 0.0, 1.0, 0.0, 0.0, terms.segment<2>(2)).finished(); // derivative by I
       TileMoments & own = moments[tiles.Of(p, width)];
       own.n += 1.0;
       own.gram += w * terms * terms.transpose() - ofMean * ofMean.transpose() / frames; // the noise of the mean

@@ -163,7 +163,7 @@ CovarianceByOne(const PartGains &     own,
   const Eigen::MatrixXd derivatives =
     toLine * all.weights.cwiseInverse().asDiagonal() * (all.terms - all.dark * own.meanOfTerms.transpose());
   const Eigen::Matrix2d covariance = derivatives * own.darkCovariance * derivatives.transpose();
-  // The square of differences less its chance may be negative.
+  // The squared differences minus their expectation by chance may be negative.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(covariance);
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();
 }

@@ -41,7 +41,7 @@ public:
     double mean;   ///< mean of the variances that are kept, relative to the expected variance [1]
     double median; ///< median of all variances, relative to the expected variance [1]
   };
-  /** Returns the limits for the degrees of freedom in the table that are nearest to \a freedom. */
+  /** Returns the limits for the degrees of freedom in the table that are nearest to \a dof. */
   const Limits &
   Of(double dof) const
   {

@@ -72,7 +72,7 @@ private:
   FrameGeometry             m_Geometry;
   std::size_t               m_Frames;
   double                    m_OffsetDn;
-  std::size_t               m_Rows; // in the direction of the shutter; 1: one flicker for the whole frame
+  std::size_t               m_Rows; // number of rows along the shutter's axis; 1: one flicker for the whole frame
   std::vector<double>       m_Cross;
   std::vector<double>       m_Series;
   std::vector<double>       m_SeriesSums; // nonzero by rounding alone

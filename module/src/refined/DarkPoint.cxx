@@ -88,7 +88,7 @@ struct LevelGains
   double scatter{ 0.0 };         ///< standard deviation between levels, without statistical scatter
   double inverseSignalDn{ 0.0 }; ///< weighted mean of 1 / (mean - mu) [1/DN]: the gain falls by it with sigma^2
 
-  /** Returns the covariance of the line through \a dark with the mean gain, of gain and intercept. */
+  /** Returns the covariance of gain and intercept of the line through \a dark with the mean gain. */
   Eigen::Matrix2d
   CovarianceOfLine(const DarkPoint & dark) const
   {

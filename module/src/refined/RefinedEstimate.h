@@ -50,7 +50,7 @@ struct RefinedEstimate
    * would not be noticed; null: it is not. */
   std::optional<double> uncheckedFraction;
 
-  /** Returns whether the verdict on the sensor is by its line of the variance, and not by what the line does not show.
+  /** Returns whether the verdict on the sensor follows from its variance line alone.
    */
   bool
   IsSensorLineTested() const

@@ -225,8 +225,7 @@ FindFactorsOfUnequalFrames(const Eigen::MatrixXd & whole,
   found.series.resize(frames, 0);
   while (columns.cols() <= largest)
   {
-    const bool isLast = found.series.cols() == static_cast<Eigen::Index>(most); // only to find what exceeds the
-                                                                                // edge
+    const bool      isLast = found.series.cols() == static_cast<Eigen::Index>(most); // only to test against the edge
     Eigen::MatrixXd scaled = whole;
     Eigen::MatrixXd rest =
       WhitenedResiduals(whole, columns, gamma, EstimateShotFractions(whole, columns, gamma, signal));

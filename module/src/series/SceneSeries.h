@@ -38,8 +38,8 @@ public:
   static constexpr double Unit = 1048576.0; ///< largest norm of the integer series: 2^20
 
   TemporalBasis() = default;
-  /** Makes a basis of at most mostSeriesOfFrames (T - 2) series, but of all series of the illumination: a short burst
-   * leaves out the last series of the motion. */
+  /** Makes a basis of at most mostSeriesOfFrames (T - 2) series. All series of the illumination are in it; a short
+   * burst leaves out the last series of the motion. */
   TemporalBasis(const std::vector<double> & gamma, const Eigen::MatrixXd & local, const Eigen::MatrixXd & motion);
 
   std::size_t
@@ -120,7 +120,7 @@ NoiseOfModel(const FrameRegressors & regressors);
  * model. Throws NothingToMeasure if the pixels have one intensity.
  * \param knownOffsetDn offset that is used where the flicker does not determine it; without it the darkest level is
  * used, or \a blackDn if the scene has one level only [DN]
- * \param blackDn level that the offset is hardly below [DN]
+ * \param blackDn approximate lower limit of the offset [DN]
  * \param changesStrongly whether the illumination changes strongly; a scene of one level then has no model for the
  * noise of each frame, and neither local illumination nor motion is searched */
 SensorNoise_EXPORT SceneSeries

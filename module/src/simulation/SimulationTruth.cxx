@@ -125,8 +125,8 @@ DrawTruth(const SimulationSettings & settings, std::size_t width, std::size_t he
   return truth;
 }
 
-/** Writes the settings of the flaws, a member for each of them. The members have the names of the settings without the
- * units, which are DN, electrons, pixels and rows as there. */
+/** Writes the settings of the flaws, a member for each of them. The members have the names and the units of the
+ * settings, without the unit at the end of the name. */
 void
 WriteJson(JsonWriter & json, const SensorFlaws & flaws)
 {

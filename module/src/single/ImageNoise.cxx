@@ -192,7 +192,7 @@ SumFrame(const SingleFrame<TPixel> & frame,
          const LevelGrid &           grid,
          const ParallelFor &         parallelFor)
 {
-  // Tiles are handed out in strands, so that each has its room once.
+  // Each strand of tiles allocates its memory once.
   constexpr std::size_t  perStrand = 8;
   const std::size_t      size = tiles.Size();
   std::vector<LevelSums> parts((size + perStrand - 1) / perStrand);

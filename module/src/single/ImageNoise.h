@@ -33,11 +33,11 @@ struct PlaneOfFrame
 /** Noise of one frame. */
 struct ImageNoise
 {
-  std::vector<LevelSet> diagonal;      ///< by diagonal details
-  std::vector<LevelSet> sides;         ///< the same sets by horizontal and vertical details
-  NoiseLine             line;          ///< through the diagonal ones
-  double                finite{ 0.0 }; ///< positions without a pixel that is not finite
-  double                even{ 0.0 };   ///< those without edges and texture
+  std::vector<LevelSet> diagonal;      ///< level sets, with variances from the diagonal details
+  std::vector<LevelSet> sides;         ///< the same sets, with variances from horizontal and vertical details
+  NoiseLine             line;          ///< line through the variances of the diagonal details
+  double                finite{ 0.0 }; ///< number of positions whose pixels are all finite
+  double                even{ 0.0 };   ///< number of positions without edges and texture
 };
 
 /** Levels that the frames can have. */

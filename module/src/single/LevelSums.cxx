@@ -69,8 +69,9 @@ MakeStartingGroups(const std::vector<BandTile> & sample)
   {
     return starting;
   }
-  constexpr double outermost = 0.0005; // fraction of the positions beyond an end, so that no defect is one
-  const auto       at = [&](double fraction) {
+  constexpr double outermost =
+    0.0005; // fraction of the positions beyond either end, so that no defective pixel is an end
+  const auto at = [&](double fraction) {
     return static_cast<double>(
       positions[static_cast<std::size_t>(fraction * static_cast<double>(positions.size() - 1))].level);
   };

@@ -139,7 +139,8 @@ private:
 class BandTile;
 struct LevelLimits;
 
-/** Positions of about one level of a sample: the half of them with the least roughness. In units of SingleFrame. */
+/** Positions of a sample with about one level: the half of the positions with the least roughness. Its numbers are in
+ * units of SingleFrame. */
 struct StartingGroup
 {
   double level{ 0.0 };

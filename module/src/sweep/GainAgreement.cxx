@@ -201,7 +201,7 @@ FindCommonGain(const std::vector<SettingNoise> & settings)
     const double          size = std::abs(deviation.value);
     const double          errors = size / deviation.standardError;
     const bool            differs = size > InSweep.leastCommonGainDeviation && errors > Significance.severalTests;
-    // a setting that differs counts before others, whose deviation may be small and all the more significant
+    // A setting that differs takes precedence: the deviation of another setting may be small and more significant.
     if (differs == common.isSame ? differs : errors >= largest && (differs || common.isSame))
     {
       common.isSame = !differs;

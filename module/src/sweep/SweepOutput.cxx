@@ -143,7 +143,7 @@ ToJson(const SweepSummary & summary)
     json.Member("conversion_gain_switch", summary.conversionSwitch);
     json.Member("common_gain", summary.commonGains);
     json.ObjectMember("android", [&] {
-      // the file of the model is JSON itself, as a text
+      // the text of the model's file, which is JSON itself
       json.Member("model",
                   summary.android ? std::optional<std::string>(summary.android->files.front().bytes) : std::nullopt);
       json.Member("note", summary.android ? summary.android->note : summary.androidReason);

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""NumPy arrays that ITK can look at without a copy."""
+"""Makes NumPy arrays usable by ITK without a copy."""
 
 from typing import Any
 

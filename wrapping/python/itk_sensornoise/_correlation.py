@@ -128,8 +128,8 @@ def noise_correlation_estimator(
     """Measures the spatial and temporal correlation of the noise, and its total covariance over lags.
 
     Raw frames have white noise. A camera that smooths, resamples or mixes its frames lowers their variance: the gain of
-    a photon transfer (variance against mean) is then too small. `sum_over_lags` of the result is what it has to be
-    multiplied by, for any linear processing whose weights sum to 1.
+    a photon transfer (variance against mean) is then too small. `sum_over_lags` of the result is the factor that
+    corrects this gain, for any linear processing whose weights sum to 1.
 
     Parameters
     ----------
@@ -149,7 +149,7 @@ def noise_correlation_estimator(
     offset : float, optional
         Dark offset [DN]. Default: the darkest level if that is below 0.3 of the brightest, else 0.
     quantisation_step : float, optional
-        Spacing of the codes [DN]. Default: found; with `mean` and `mask`, 1 for integers.
+        Quantization step [DN]. Default: found in the frames; with `mean` and `mask`, 1 for integers.
 
     Returns
     -------

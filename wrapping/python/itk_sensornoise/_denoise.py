@@ -56,15 +56,15 @@ def denoise_with_noise_model(
         The noise model: a report of estimate_sensor_noise(), a mapping like it, or the name of its JSON file. Only its
         variance_slope and total_intercept are needed: a report without offset serves.
     denoiser : {"nlm", "itk"} or callable, default "nlm"
-        What removes white Gaussian noise of variance 1: a function that takes an array (y, x) of float32 and returns
+        Denoiser for white Gaussian noise of variance 1: a function that takes an array (y, x) of float32 and returns
         one of the same shape; "nlm", OpenCV's non-local means, which needs cv2 (pip install
         itk-sensornoise[denoise]); or "itk", ITK's bilateral filter, which needs itk-filtering (pip install
         itk-sensornoise[itk]).
     variance_slope, total_intercept : float, optional
-        The model by its numbers [DN/e-], above 0, and [DN^2], in place of a report. Nothing then tells on which scale
-        the levels are.
+        The model by its numbers [DN/e-], above 0, and [DN^2], in place of a report. The scale of the levels
+        cannot be tested then.
     strength : float, default 1
-        Of "nlm" and "itk", relative to what is best for the noise; above 0, at most 10.
+        Strength of "nlm" and "itk" relative to the best strength for the noise [1]; above 0, at most 10.
     dtype : dtype, optional
         The type of the result; integers are rounded and kept in range. Default: the type of `image`.
 

@@ -16,7 +16,7 @@ _CLASS = re.compile(r"\A\s*(?:ITK ERROR|itk::ERROR): [^\n]*?\(0x[0-9a-f]+\): ")
 # SWIG's words for an argument that does not fit, and for one that fits none of several functions of one name.
 _ARGUMENT = re.compile(r"\Ain method '[^']*', argument \d+ of type '([^']*)'")
 _OVERLOADED = "Wrong number or type of arguments"
-# What is expected where C++ has a type with these letters in its name; the first that fits.
+# Expected type for the first entry whose letters are in the name of the C++ type.
 _EXPECTED = (
     ("std::vector", "a sequence of numbers"),
     ("string", "a str"),

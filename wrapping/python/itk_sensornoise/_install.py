@@ -58,7 +58,7 @@ def _open(cls: type) -> None:
 
 
 def _document(cls: type, text: str, methods: dict[str, str]) -> None:
-    """Sets the docstring of a class, and puts what its header says of its methods before SWIG's words for them."""
+    """Sets the docstring of a class, and puts the comments of its header before SWIG's docstrings of its methods."""
     cls.__doc__ = text
     for name, words in methods.items():
         method = vars(cls).get(name)

@@ -124,8 +124,8 @@ class PagedRecord(Record):
         analogue_gain: float = 1.0,
         into: FileName | None = None,
     ) -> "NoiseExport":
-        """Writes the noise model for a program that asks for one, in its units. Parameters, result and errors are those
-        of export_noise_model().
+        """Writes the noise model for a program that asks for one, in its units. Parameters, result and errors are the
+        same as in export_noise_model().
 
         Examples
         --------

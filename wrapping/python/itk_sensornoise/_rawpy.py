@@ -37,7 +37,7 @@ def read_codes(name: FileName, is_new: bool = True) -> np.ndarray:
 
 
 def raw_metadata(name: FileName) -> dict[str, Any]:
-    """Reads what a raw file of a camera says of its codes.
+    """Reads the description of the digital numbers in a raw file of a camera.
 
     Parameters
     ----------

@@ -43,13 +43,13 @@ _COUNTS = {
     "repeat": ("SetRepeatCount", 1, 2**31 - 1),
     "repeat_period": ("SetRepeatPeriod", 1, 2**31 - 1),
 }
-# Setter of each flaw that is a name, and the names.
+# Setter of each flaw that is given by name, and the possible names.
 _NAMES = {
     "bayer": ("SetBayerPattern", ["none", "RGGB", "GRBG", "GBRG", "BGGR"]),
     "binning_interpolation": ("SetBinningInterpolation", ["nearest", "linear"]),
     "resampling_interpolation": ("SetResamplingInterpolation", ["linear", "cubic"]),
 }
-# What is expected of each flaw that is two numbers, and their setters.
+# Description of each flaw of two numbers, and the setters of the numbers.
 _PAIRS = {
     "hot_pixels": ("(fraction, factor), two numbers", "SetHotPixelFraction", "SetHotPixelNoiseFactor"),
     "read_noise_tail": ("(fraction, spread), two numbers", "SetReadNoiseTailFraction", "SetReadNoiseTailSpread"),
@@ -114,7 +114,8 @@ def simulate_sensor_noise(
     Parameters
     ----------
     camera, condition : {"A", "B", "C"}, {1, 2, 3}
-        Camera, illumination and floor of Table 1 of Sur & Grédiac 2015; each of their numbers can be replaced below.
+        Camera, illumination and vibration of Table 1 of Sur & Grédiac 2015; the other parameters replace single
+        numbers.
     frames : int, default 100
         Number of frames T, at least 1.
     size : (int, int), optional
@@ -124,17 +125,18 @@ def simulate_sensor_noise(
     seed : int, default 1
         Seed of the noise, 0 or more: the same seed gives the same bits. The scene stays the same.
     dtype : dtype, default uint16
-        uint8, uint16, int16, float32 or float64; floating point is neither rounded nor clipped to codes.
+        uint8, uint16, int16, float32 or float64; floating point is neither rounded nor clipped to digital numbers.
     gain, offset, read_noise, electrons : float, optional
-        Gain [DN/e-], offset [DN], read noise [DN], electrons of the brightest pixel [e-]. Default: the camera's.
+        Gain [DN/e-], offset [DN], read noise [DN], electrons of the brightest pixel [e-]. Default: the values of the
+        camera.
     illumination : str or sequence of float, default "steady"
         Illumination factor of the frames [1]: one number a frame, or the name of a shape with its lowest factor L and
         its period P [frames]: "pulses:L:P" (1 in every P-th frame, else L), "ramp:L" (L to 1), "decay:L"
         (exponential, 1 to L), "sine:L:P", "uniform:L" (random, L to 1), "exponential:L" (random, mean 1).
     flicker_sd, vibration_sd : float, (float, float), optional
-        Standard deviations of the flicker [1] and of the shifts (x, y) [pixel]. Default: the condition's.
+        Standard deviations of the flicker [1] and of the shifts (x, y) [pixel]. Default: the values of the condition.
     optical_blur : float, default 0.5
-        Standard deviation of a Gaussian blur of the scene's light, before the photons are counted [pixel].
+        Standard deviation of a Gaussian blur of the scene, before the photons are counted [pixel].
     rolling_shutter : float, default 0
         Period of pulsed illumination in rows of a rolling shutter; 0: the whole frame flickers.
     bit_depth : int, optional
@@ -142,12 +144,13 @@ def simulate_sensor_noise(
     clip : (float, float), optional
         Levels (low, high) between which the sensor itself is limited [DN]. Default: none.
     bayer, transmission : str, (float, float, float), optional
-        Mosaic of colour filters by its pattern, and what its filters (R, G, B) let through of the scene's electrons
-        [1]. Default: no filters; (0.6, 1, 0.5).
+        Mosaic of colour filters by its pattern, and the transmission of its filters (R, G, B) for the scene's
+        electrons [1]. Default: no filters; (0.6, 1, 0.5).
     prnu, dsnu : float, default 0
         Standard deviations of the pixels' efficiency, relative [1], and of their offset [DN].
     hot_pixels : (float, float), optional
-        (fraction, factor): so many pixels with so many times the read noise. Default: none.
+        (fraction, factor) [1]: fraction of the pixels, and their read noise over the read noise of the others. Default:
+        none.
     gain_pattern, column_gain_pattern : float, default 0
         Relative standard deviations of the gain, from pixel to pixel and from column to column [1], below 0.2.
     column_efficiency_pattern, column_offset_pattern : float, default 0

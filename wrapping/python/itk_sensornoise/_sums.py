@@ -125,8 +125,8 @@ class SensorNoiseSums:
 
     @property
     def is_done(self) -> bool:
-        """Whether all passes have ended: then there are no sums, but a report. There are three passes, and one more
-        each where frames are left out, as they are unlike the others, and where the illumination changes strongly."""
+        """Whether all passes have ended: then there are no sums, but a report. There are three passes. One more
+        pass follows if frames unlike the others are left out, and one if the illumination changes strongly."""
         with self._alone():
             return bool(self._sums.IsDone())
 

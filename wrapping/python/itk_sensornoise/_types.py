@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The types of what people give, by name: what a checker and a reader of the signatures want to know."""
+"""Names for the types of arguments, for type checkers and readers of the signatures."""
 
 import os
 from collections.abc import Callable, Iterator, Sequence

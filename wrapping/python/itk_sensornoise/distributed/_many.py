@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     import distributed
     import pandas as pd
 
-# What each source would have of its own, or only a person before a screen.
+# Parameters that differ between sources, or need a person before a screen.
 _NOT_OF_MANY = ("frames", "maps", "progress")
 _KILLED = Outcome("every worker that measured it was killed: it may need more memory than they have", None)
 _ADVICE = "the same call goes on with a new client"  # where the scheduler went away
