@@ -25,7 +25,7 @@ TEST(SensorNoiseDistinctFrames, PlacesCountTheOriginals)
   EXPECT_EQ(frames.Count(), 3U);
   EXPECT_EQ(frames.Places(), (Numbers{ 0, 0, 1, 0, 2, 1 }));
   EXPECT_EQ(frames.OfDistinct(Numbers{ 10, 11, 12, 13, 14, 15 }), (Numbers{ 10, 12, 14 }));
-  EXPECT_EQ(frames.OfGiven(Numbers{ 10, 12, 14 }, std::size_t{ 0 }), (Numbers{ 10, 10, 12, 10, 14, 12 }));
+  EXPECT_EQ(frames.ExpandToGiven(Numbers{ 10, 12, 14 }, std::size_t{ 0 }), (Numbers{ 10, 10, 12, 10, 14, 12 }));
   EXPECT_EQ(DistinctFrames().Count(), 0U);
 }
 

@@ -33,9 +33,9 @@ struct NormalSums
 /** Mean and variance of the pixels of a run, 0 for pixels that are not used. */
 struct RegressionRun
 {
-  OfRun mean;
-  OfRun variance;
-  OfRun has; ///< not 0: the pixel is used
+  RunValues mean;
+  RunValues variance;
+  RunValues has; ///< not 0: the pixel is used
 
   void
   Take(const RegressionData & data, std::size_t first, std::size_t count)
@@ -73,7 +73,7 @@ SumNormal(const RegressionData & data, const ParallelFor & parallelFor, TWeight 
   const double scale = 0.5 * (range.highest - range.lowest);
   const auto   parts = PartsOfBlocks<Sums>(data.pixels, parallelFor, [&](auto begin, auto end, Sums & part) {
     RegressionRun run{};
-    OfRun         power{};
+    RunValues     power{};
     ForRuns(begin, end, [&](std::size_t first, std::size_t count) {
       CallWithAvx2([&] {
         run.Take(data, first, count);

@@ -62,7 +62,7 @@ CallWithAvx2(const TFunction & function)
 inline constexpr std::size_t PixelsPerRun = 512;
 
 /** One number for each pixel of a run. */
-using OfRun = std::array<double, PixelsPerRun>;
+using RunValues = std::array<double, PixelsPerRun>;
 
 /** Calls function(first, pixels) for the runs of the pixels [begin, end), one after the other. */
 template <typename TFunction>

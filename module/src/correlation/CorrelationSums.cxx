@@ -322,7 +322,7 @@ namespace
 /** Returns the slope of the covariance along the signal, and its value at zero signal. Both are divided by the variance
  * in the sums, so that the bins have equal weight. */
 Eigen::Vector2d
-FitLineOf(const LagSums & sums)
+FitLine(const LagSums & sums)
 {
   constexpr auto  bins = static_cast<Eigen::Index>(NoiseResiduals::IntensityBins);
   Eigen::MatrixXd design = Eigen::MatrixXd::Zero(bins, 2);
@@ -354,7 +354,7 @@ FitCovarianceLines(const CorrelationSums & sums, const CorrelationSums::Lags & l
     for (const std::size_t lag : all)
     {
       const Eigen::Vector2d line =
-        FitLineOf(lag == 0 ? tiles.lags[0] : common.TakeOff(tiles.lags[lag], sums.GetLag(lag)));
+        FitLine(lag == 0 ? tiles.lags[0] : common.TakeOff(tiles.lags[lag], sums.GetLag(lag)));
       numbers.segment<2>(k) << line(0), line(1) - line(0) * blackDn;
       k += 2;
     }

@@ -105,15 +105,15 @@ private:
 };
 } // namespace
 
-LzwLength
-LengthOfLzw(FileBytes &     bytes,
-            std::uint64_t   offset,
-            std::uint64_t   count,
-            std::uint64_t   expected,
-            std::uint64_t   whole,
-            unsigned char * out)
+LzwResult
+DecodeLzw(FileBytes &     bytes,
+          std::uint64_t   offset,
+          std::uint64_t   count,
+          std::uint64_t   expected,
+          std::uint64_t   whole,
+          unsigned char * out)
 {
-  LzwLength   found;
+  LzwResult   found;
   LzwCodes    codes(bytes, offset, count);
   LzwStrings  strings(out, expected);
   std::size_t next = FirstString;

@@ -97,22 +97,22 @@ InflateFrom(FileBytes & bytes, std::uint64_t offset, std::uint64_t count, Inflat
 
 /** Number of decoded bytes of a strip that is compressed by LZW. LZW has no checksum, so that wrong bytes are not
  * detected. */
-struct LzwLength
+struct LzwResult
 {
   std::uint64_t bytes{ 0 };
-  std::string   error{}; // empty where all codes have a meaning
+  std::string   error{}; // empty: all codes have a meaning
 };
 
-/** Follows the codes in the bytes [offset, offset + count) until they stand for \a expected bytes, or, where a writer
- * has filled the strip up, for \a whole, or end. The first \a expected of these bytes go to \a out, where there is one.
+/** Decodes the LZW codes in the bytes [offset, offset + count) until they give \a expected bytes, or \a whole bytes if
+ * a writer has filled up the strip, or until the codes end. The first \a expected bytes go to \a out unless it is null.
  */
-LzwLength
-LengthOfLzw(FileBytes &     bytes,
-            std::uint64_t   offset,
-            std::uint64_t   count,
-            std::uint64_t   expected,
-            std::uint64_t   whole,
-            unsigned char * out = nullptr);
+LzwResult
+DecodeLzw(FileBytes &     bytes,
+          std::uint64_t   offset,
+          std::uint64_t   count,
+          std::uint64_t   expected,
+          std::uint64_t   whole,
+          unsigned char * out = nullptr);
 
 /** Returns the number of samples that the lossless JPEG (ITU-T T.81, Annex H: SOF3) in these bytes declares. Throws
  * FileError, whose sentence begins with \a piece, where the bytes are no JPEG or a JPEG that loses something, or where

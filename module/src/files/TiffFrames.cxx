@@ -73,7 +73,7 @@ UnpackChunk(FileBytes & file, TiffCompression compression, const TiffChunk & chu
       return UnpackBits(file, chunk, out);
     case TiffCompression::Lzw:
       return static_cast<std::size_t>(
-        std::min(LengthOfLzw(file, chunk.offset, chunk.count, chunk.bytes, chunk.wholeBytes, out).bytes, chunk.bytes));
+        std::min(DecodeLzw(file, chunk.offset, chunk.count, chunk.bytes, chunk.wholeBytes, out).bytes, chunk.bytes));
     default:
       file.Read(chunk.offset, out, static_cast<std::size_t>(chunk.bytes));
       return static_cast<std::size_t>(chunk.bytes);

@@ -90,7 +90,7 @@ private:
   void
   RequireLzw()
   {
-    const LzwLength found = LengthOfLzw(m_Bytes, m_Chunk.offset, m_Chunk.count, m_Chunk.bytes, m_Chunk.wholeBytes);
+    const LzwResult found = DecodeLzw(m_Bytes, m_Chunk.offset, m_Chunk.count, m_Chunk.bytes, m_Chunk.wholeBytes);
     if (!found.error.empty() || (found.bytes != m_Chunk.bytes && found.bytes != m_Chunk.wholeBytes))
     {
       Refuse("gives " + (found.error.empty() ? std::to_string(found.bytes) + " bytes" : found.error) +

@@ -261,7 +261,7 @@ public:
    * are left out have \a ofLeftOut. */
   template <typename TValue>
   std::vector<TValue>
-  OfGiven(const std::vector<TValue> & ofDistinct, const TValue & ofLeftOut) const
+  ExpandToGiven(const std::vector<TValue> & ofDistinct, const TValue & ofLeftOut) const
   {
     std::vector<TValue> values;
     for (const std::size_t place : m_Places)

@@ -171,7 +171,7 @@ SpreadOf(const std::vector<double> & values, std::size_t cells)
 
 /** Returns the distance of each of \a values above their median, in units of their standard deviation [1]. */
 std::vector<double>
-HowFar(const std::vector<double> & values, std::size_t cells)
+DeviationsFromMedian(const std::vector<double> & values, std::size_t cells)
 {
   const auto [median, spread] = SpreadOf(values, cells);
   std::vector<double> far;
@@ -185,10 +185,10 @@ HowFar(const std::vector<double> & values, std::size_t cells)
 
 /** Returns the distance of the frames from the others, the smaller one in both units [1]. */
 std::vector<double>
-HowUnlike(const MeanSquares & meanSquares, std::size_t cells)
+DeviationsFromOthers(const MeanSquares & meanSquares, std::size_t cells)
 {
-  std::vector<double>       far = HowFar(meanSquares.ofFactor, cells);
-  const std::vector<double> ofBoth = HowFar(meanSquares.ofBoth, cells);
+  std::vector<double>       far = DeviationsFromMedian(meanSquares.ofFactor, cells);
+  const std::vector<double> ofBoth = DeviationsFromMedian(meanSquares.ofBoth, cells);
   std::transform(
     far.begin(), far.end(), ofBoth.begin(), far.begin(), [](double a, double b) { return std::min(a, b); });
   return far;
@@ -260,7 +260,7 @@ FindOtherShapes(const FrameThumbnails & thumbnails, const Indices & cells, const
 {
   std::vector<double> mean = MeanOfFrames(thumbnails, cells, kept);
   MeanSquares         meanSquares = FindMeanSquares(thumbnails, cells, kept, mean);
-  std::vector<double> unlike = HowUnlike(meanSquares, cells.size());
+  std::vector<double> unlike = DeviationsFromOthers(meanSquares, cells.size());
   for (int round = 0; round < InMoments.roundsOfUnlikeFrames; ++round)
   {
     // Mean of the frames that are most alike: as many frames as may be left out are excluded.
@@ -275,7 +275,7 @@ FindOtherShapes(const FrameThumbnails & thumbnails, const Indices & cells, const
     }
     mean = MeanOfFrames(thumbnails, cells, alike);
     meanSquares = FindMeanSquares(thumbnails, cells, kept, mean);
-    unlike = HowUnlike(meanSquares, cells.size());
+    unlike = DeviationsFromOthers(meanSquares, cells.size());
   }
   std::vector<double> noise;
   for (const std::size_t t : kept)

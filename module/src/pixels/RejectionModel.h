@@ -38,14 +38,14 @@ struct SensorNoise_EXPORT RejectionModel
   double
   At(double meanDn) const
   {
-    OfRun variance{};
+    RunValues variance{};
     this->FillVariance(&meanDn, 1, variance);
     return variance[0];
   }
   /** Sets \a variance to the expected variance at the levels of \a pixels pixels, at most PixelsPerRun, with SIMD
    * instructions [DN^2]. */
   void
-  FillVariance(const double * meanDn, std::size_t pixels, OfRun & variance) const
+  FillVariance(const double * meanDn, std::size_t pixels, RunValues & variance) const
   {
     const VarianceLine own = line; // a copy that no pointer can alias, which SIMD instructions need
     for (std::size_t i = 0; i < pixels; ++i)
@@ -57,7 +57,7 @@ struct SensorNoise_EXPORT RejectionModel
       return;
     }
     // The ratio is interpolated as a sum of its increments from each level to the next.
-    OfRun ratio{};
+    RunValues ratio{};
     std::fill_n(ratio.begin(), pixels, ratios[0]);
     for (std::size_t k = 0; k + 1 < levels.size(); ++k)
     {
@@ -126,10 +126,10 @@ struct FarLimits
 /** Test of a run of pixels, inside and outside the mask, against a rejection model, with SIMD instructions. */
 struct TestedRun
 {
-  OfRun expected; ///< variance by the model at the pixel's level [DN^2]
-  OfRun ratio;    ///< variance over the expected variance [1]
-  OfRun isAbove;  ///< 1 where the ratio is beyond the upper limit of FarLimits, else 0
-  OfRun isOff;    ///< 1 where the ratio is beyond either limit of FarLimits, else 0
+  RunValues expected; ///< variance by the model at the pixel's level [DN^2]
+  RunValues ratio;    ///< variance over the expected variance [1]
+  RunValues isAbove;  ///< 1 where the ratio is beyond the upper limit of FarLimits, else 0
+  RunValues isOff;    ///< 1 where the ratio is beyond either limit of FarLimits, else 0
 
   /** Tests \a pixels pixels, at most PixelsPerRun, from pixel \a first on. */
   void

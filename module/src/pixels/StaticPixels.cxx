@@ -51,8 +51,8 @@ SumClasses(const ProjectedVariance &         projected,
   const ReferenceFrame & frame = projected.GetFrame();
   const double           sampling = 2.0 * line.varianceInflation / static_cast<double>(frame.frames - 1);
   const auto             sumRun = [&](std::size_t first, std::size_t pixels, TestedRun & run, double * sums) {
-    OfRun weight{};
-    OfRun error{};
+    RunValues weight{};
+    RunValues error{};
     CallWithAvx2([&,
                   level = frame.neighbourMean.data() + first,
                   divisor = projected.GetSquares().GetDivisor().data() + first,

@@ -158,16 +158,16 @@ private:
   /** Weights and values of a run of pixels, inside and outside the mask. */
   struct Run
   {
-    OfRun weight;
-    OfRun value;
+    RunValues weight;
+    RunValues value;
   };
 
   /** Weights, means above the pivot, and values of a run of pixels; all 0 outside the mask and at trimmed pixels. */
   struct KeptRun
   {
-    OfRun weight;
-    OfRun x;
-    OfRun value;
+    RunValues weight;
+    RunValues x;
+    RunValues value;
   };
 
   /** Sets the weights and values of \a pixels pixels from \a first on. */
@@ -183,7 +183,11 @@ private:
   /** Adds the sums of terms(a[i], b[i], c[i]) over a run, with SIMD instructions. */
   template <std::size_t VSums, typename TTerms>
   static void
-  AddTerms(const OfRun & a, const OfRun & b, const OfRun & c, TTerms terms, std::array<double, VSums> & sums)
+  AddTerms(const RunValues &           a,
+           const RunValues &           b,
+           const RunValues &           c,
+           TTerms                      terms,
+           std::array<double, VSums> & sums)
   {
     constexpr std::size_t lanes = 4; // independent sums, so that no addition waits for another
     CallWithAvx2([&a, &b, &c, &sums, terms] {
@@ -255,9 +259,9 @@ private:
   /** Contributions of a run of pixels to the sums of SetNoiseDispersion(). */
   struct DispersionTerms
   {
-    OfRun weight; // 0: trimmed, or outside the mask
-    OfRun more;   // squared excess minus its sampling variance, times the weight
-    OfRun chance; // sampling variance, times the weight
+    RunValues weight; // 0: trimmed, or outside the mask
+    RunValues more;   // squared excess minus its sampling variance, times the weight
+    RunValues chance; // sampling variance, times the weight
   };
   void
   EstimateNoiseDispersion(std::size_t first, std::size_t pixels, DispersionTerms & terms) const;

@@ -115,7 +115,7 @@ VarianceFit::WeighByDistance(std::size_t first, std::size_t pixels, Run & run) c
 {
   CallWithAvx2([&] {
     const Deviation of{ m_Line, m_Data, m_ReachDn2, m_ReachBelowDn2 };
-    OfRun           counts;
+    RunValues       counts;
     m_Data.variance.Fill(first, pixels, run.value.data());
     for (std::size_t i = 0; i < pixels; ++i)
     {
@@ -133,10 +133,10 @@ VarianceFit::WeighByLevel(std::size_t first, std::size_t pixels, Run & run) cons
   CallWithAvx2([&] {
     const VarianceLine line = m_Line; // copies that no pointer can alias
     const VarianceData data = m_Data;
-    OfRun              variance;
-    OfRun              dof;
-    OfRun              ratio;
-    OfRun              counts;
+    RunValues          variance;
+    RunValues          dof;
+    RunValues          ratio;
+    RunValues          counts;
     data.variance.Fill(first, pixels, variance.data());
     for (std::size_t i = 0; i < pixels; ++i)
     {
@@ -200,8 +200,8 @@ VarianceFit::EstimateNoiseDispersion(std::size_t first, std::size_t pixels, Disp
 {
   CallWithAvx2([&] {
     const Deviation of{ m_Line, m_Data, m_ReachDn2, m_ReachBelowDn2 };
-    OfRun           variance;
-    OfRun           counts;
+    RunValues       variance;
+    RunValues       counts;
     m_Data.variance.Fill(first, pixels, variance.data());
     for (std::size_t i = 0; i < pixels; ++i)
     {

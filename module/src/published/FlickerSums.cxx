@@ -34,7 +34,7 @@ void
 FlickerSums::WeightedPixels::ForRunsOf(const TPixel * frame, TValue value, TFunction function) const
 {
   ForRuns(0, pixels.size(), [&](std::size_t first, std::size_t count) {
-    OfRun values{};
+    RunValues values{};
     // Number of pixels of the next run, which are prefetched.
     const std::size_t ahead = std::min(count, pixels.size() - first - count);
     for (std::size_t i = 0; i < count; ++i)
@@ -58,7 +58,7 @@ FlickerSums::WeightedPixels::Average(const TPixel * frame, TValue value, double 
 {
   average = 0.0;
   double squares = 0.0;
-  this->ForRunsOf(frame, value, [&](std::size_t first, std::size_t count, const OfRun & values) {
+  this->ForRunsOf(frame, value, [&](std::size_t first, std::size_t count, const RunValues & values) {
     const double * const weight = weights.data() + first;
     average += SumOfRun(count, [&](std::size_t i) { return weight[i] * values[i]; });
     squares += SumOfRun(count, [&](std::size_t i) { return weight[i] * values[i] * values[i]; });
@@ -126,7 +126,7 @@ FlickerSums::AddFrame(const TPixel * frame, std::size_t t)
   m_Dark.Average(frame, residual, m_DarkResiduals[t], m_DarkVariances[t]);
 
   double * const rows = m_RowSums.data() + t * m_Rows;
-  m_RowSet.ForRunsOf(frame, ratio, [&](std::size_t first, std::size_t count, const OfRun & values) {
+  m_RowSet.ForRunsOf(frame, ratio, [&](std::size_t first, std::size_t count, const RunValues & values) {
     std::size_t row = m_RowOf[first];
     double      sum = rows[row]; // sum of the row of consecutive pixels
     for (std::size_t i = 0; i < count; ++i)

@@ -187,9 +187,9 @@ public:
   }
 
 private:
-  Products &                 m_Products;
-  std::array<OfRun, Columns> m_Columns{};
-  std::size_t                m_Pixels{ 0 };
+  Products &                     m_Products;
+  std::array<RunValues, Columns> m_Columns{};
+  std::size_t                    m_Pixels{ 0 };
 };
 
 /** Returns the coefficients of the scaled columns; null if the scene does not determine all of them. */

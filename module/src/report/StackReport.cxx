@@ -235,7 +235,7 @@ SpreadOverFrames(std::vector<TValue> & series, const DistinctFrames & frames, co
 {
   if (!series.empty())
   {
-    series = frames.OfGiven(series, ofLeftOut);
+    series = frames.ExpandToGiven(series, ofLeftOut);
   }
 }
 

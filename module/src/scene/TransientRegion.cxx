@@ -190,7 +190,7 @@ PixelsOfPart(const std::vector<std::size_t> & pixels, const FrameGeometry & geom
 /** Fits a model to \a part of the frame, extends it several times to all cells that fit it, and returns the best of
  * these models. */
 Candidate
-FollowPart(const VarianceSample & part, const VarianceSample & whole, const VarianceTiles & cells, double largestRatio)
+ExtendModel(const VarianceSample & part, const VarianceSample & whole, const VarianceTiles & cells, double largestRatio)
 {
   VariancePrediction drawn = StartFromMedians(part);
   Coefficients       theta = Coefficients::Zero();
@@ -282,7 +282,7 @@ FindBest(Candidate                        best,
     const std::vector<std::size_t> own = PixelsOfPart(pixels, frame.geometry, part);
     if (own.size() >= InScene.fewestPixels)
     {
-      Candidate found = FollowPart(SampleVariance(frame, own, model), whole, cells, model.largestRatio);
+      Candidate found = ExtendModel(SampleVariance(frame, own, model), whole, cells, model.largestRatio);
       if (found.Score() > best.Score())
       {
         best = std::move(found);
