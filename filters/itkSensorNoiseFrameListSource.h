@@ -140,8 +140,8 @@ public:
   std::string
   GetWarning();
 
-  /** Returns true: of every format a part of the frames can be read without the others. Checks the files first if they
-   * are not yet checked. */
+  /** Returns true: in every format, a part of the frames can be read without the other frames. Checks the files first
+   * if they are not yet checked. */
   bool
   CanStream();
 

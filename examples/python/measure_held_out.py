@@ -49,7 +49,8 @@ def variance_after(signal, read_noise):
 
 
 def law(signal, record):
-    """Returns this variance for an array of mean signals [e-]. The quantization noise is part of the read noise."""
+    """Returns the variance after the transform for an array of mean signals [e-]. The quantization noise is part of the
+    read noise."""
     read_noise = np.sqrt(record["read_noise"] ** 2 + 1 / 12) / record["gain"]
     grid = np.geomspace(1e-3, signal.max(), 80)
     return np.interp(np.log(signal), np.log(grid), [variance_after(value, read_noise) for value in grid])

@@ -253,7 +253,7 @@ private:
   std::string              m_Exposure; // name of its column
 };
 
-/** Returns whether the line begins as one of a descriptor: a letter by itself. */
+/** Returns whether the line begins like a line of an EMVA descriptor, with a single letter. */
 bool
 IsOfDescriptor(const ListLine & line)
 {

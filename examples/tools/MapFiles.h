@@ -55,7 +55,7 @@ public:
 private:
   std::vector<std::filesystem::path> m_Made; // folders that were made, the outermost first
   std::deque<SignalCleanup>          m_AtSignal;
-  std::deque<PendingFile>            m_Files; // in the order of NamesIn()
+  std::deque<PendingFile>            m_Files; // files of the maps, in the order of NamesIn()
   std::size_t                        m_Written{ 0 };
 };
 

@@ -76,7 +76,7 @@ ReadNoiseModel(const std::string & file)
   }
   catch (const std::invalid_argument & error)
   {
-    throw UnfitReport("the report " + file + " does not serve: " + error.what());
+    throw UnfitReport("the report " + file + " cannot be used: " + error.what());
   }
   ReadLevels(record, found);
   return found;

@@ -7,7 +7,7 @@ namespace sensornoise::tools
 {
 struct EstimateOptions;
 
-/** How many settings of a sweep were measured. */
+/** Result of a sweep: all, some or none of its settings were measured. */
 enum class SweepOutcome
 {
   All,

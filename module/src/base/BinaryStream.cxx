@@ -51,8 +51,9 @@ RequireSameStart(std::uint64_t found, std::uint64_t expected)
 {
   if (found != expected)
   {
-    throw std::runtime_error("sums cannot be merged: they are made with other settings, another mask or other sums of "
-                             "the passes before");
+    throw std::runtime_error(
+      "sums cannot be merged: they have other settings, another mask or other sums of the passes "
+      "before; start all processes with the same settings");
   }
 }
 

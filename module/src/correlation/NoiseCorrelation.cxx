@@ -280,7 +280,7 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   }
   if (inTime || inSpace)
   {
-    FindCoefficients(sums, found); // at all lags that were added
+    FindCoefficients(sums, found); // for all lags that were added
   }
   if (inTime)
   {

@@ -94,8 +94,8 @@ struct WeightedShape
 struct SensorNoise_EXPORT NoiseCorrelation
 {
   NoiseKind                   kind{ NoiseKind::NotMeasured }; ///< noise class
-  std::vector<LagCoefficient> space;                          ///< at one half plane of lags
-  std::vector<LagCoefficient> time;                           ///< at the temporal lags from 1 frame
+  std::vector<LagCoefficient> space;                          ///< coefficients at one half plane of lags
+  std::vector<LagCoefficient> time;                           ///< coefficients at the temporal lags, from 1 frame on
   /** Lines at the zero lag and at the spatial lags that are summed; empty without spatial correlation. */
   std::vector<CovarianceLine> covarianceLines;
   MeasuredNumber              rowsDn2;    ///< noise variance of whole rows [DN^2]

@@ -19,8 +19,8 @@
 namespace sensornoise
 {
 
-/** Longest name of a member of a profile [bytes], which the path of each member below it holds, too. Chosen: names have
- * 40. */
+/** Longest name of a member of a profile [bytes]. The path of each member below it contains the name. Chosen
+ * empirically: names have up to 40 bytes. */
 inline constexpr std::size_t MostProfileNameBytes = 256;
 
 /** The form in which a file gives the variance of a pixel at the level x. B is the black level, W the white level [DN].
@@ -88,7 +88,7 @@ ReadNoiseProfile(const StoredReport & values);
 
 /** Reads a noise profile from the bytes of a file that is no JSON: a DNG file with NoiseProfile or its numbers as text,
  * CAREamics' npz, YAML of PYME, picasso or DECODE, emva1288's XML, ThunderSTORM's macro, a FITS header. Throws
- * ExportError if it is of none, is damaged, or does not determine the variance. */
+ * ExportError if the file has none of these formats, is damaged, or does not determine the variance. */
 SensorNoise_EXPORT NoiseProfile
 ReadNoiseProfile(const std::string & file, const std::string & bytes);
 

@@ -233,8 +233,8 @@ ExplainProfile(const Report & frames, const ProfileVariance & profile)
   return text;
 }
 
-/** Returns the band that contradicts the profile most, in standard errors: one in which the profile has no variance
- * first. */
+/** Returns the band that contradicts the profile most, in standard errors. A band in which the profile has no variance
+ * takes precedence. */
 const Band &
 WorstBand(const std::vector<Band> & bands)
 {

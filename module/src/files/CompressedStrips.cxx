@@ -99,7 +99,7 @@ private:
   unsigned char *            m_Out;
   std::uint64_t              m_Capacity;
   std::uint64_t              m_Bytes{ 0 };
-  std::uint64_t              m_Last{ 0 }; // where the string that came last begins
+  std::uint64_t              m_Last{ 0 }; // beginning of the last string
   std::vector<std::uint32_t> m_Lengths = std::vector<std::uint32_t>(MaximumStrings);
   std::vector<std::uint64_t> m_Starts = std::vector<std::uint64_t>(MaximumStrings);
 };

@@ -149,7 +149,7 @@ public:
     return Add(m_Tables, offset, count, true);
   }
 
-  /** Returns the offset of a byte that holds pixels twice, or pixels and a table; none: there is no such byte. */
+  /** Returns the offset of a byte that holds pixels twice, or pixels and a table; none if there is no conflict. */
   std::optional<std::uint64_t>
   FirstConflict();
 

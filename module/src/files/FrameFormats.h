@@ -44,8 +44,8 @@ HeadOf(FileBytes & bytes);
 SensorNoise_EXPORT const FrameFormat *
 FindFrameFormat(const std::string & head, const std::string & name);
 
-/** Returns the paths of the files that hold the pixels, or the header, of a file, where they are not in it. They need
- * not exist. Nothing of a file that cannot be read. */
+/** Returns the paths of the other files that hold the pixels, or the header, of a file. They need not exist. The result
+ * is empty for a file that cannot be read. */
 SensorNoise_EXPORT std::vector<std::string>
 DataFilesOf(const std::string & name);
 
@@ -92,7 +92,7 @@ InspectTiff(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeI
 bool
 IsHeadOfPng(const std::string & head, const std::string & name);
 
-/** Fills in what a PNG file says of itself. \a file has its name and identity. Throws FileError unless all of its
+/** Fills in the description of a PNG file. \a file has its name and identity. Throws FileError unless all of its
  * chunks are there, in the right order and with the right checksums, and its pixels are grey values of 8 or 16 bits
  * that inflate to exactly as many as it declares. */
 void
@@ -102,7 +102,7 @@ InspectPng(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeIn
 bool
 IsHeadOfMetaImage(const std::string & head, const std::string & name);
 
-/** Fills in what a MetaImage says of itself. \a file has its name and identity. Throws FileError unless all of its
+/** Fills in the description of a MetaImage. \a file has its name and identity. Throws FileError unless all of its
  * pixels are there, in the file or in data files. */
 void
 InspectMetaImage(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
@@ -115,8 +115,8 @@ DataFilesOfMetaImage(FileBytes & bytes, const std::string & name);
 bool
 IsHeadOfNrrd(const std::string & head, const std::string & name);
 
-/** Fills in what a NRRD file says of itself. \a file has its name and identity. Throws FileError unless all of its
- * pixels are there, raw or in a stream of gzip that is whole, in the file or in data files. */
+/** Fills in the description of a NRRD file. \a file has its name and identity. Throws FileError unless all of its
+ * pixels are there, raw or in a complete gzip stream, in the file or in data files. */
 void
 InspectNrrd(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
@@ -128,9 +128,9 @@ DataFilesOfNrrd(FileBytes & bytes, const std::string & name);
 bool
 IsHeadOfSer(const std::string & head, const std::string & name);
 
-/** Fills in what a SER says of itself: "SER format description version 3" of G. Hahn, 2014. \a file has its name and
- * identity. Throws FileError unless it holds exactly the frames that it declares, with or without a time for each, and
- * of one value a pixel. Of a file that says 0 frames, because the program that wrote it did not close it, all whole
+/** Fills in the description of a SER file: "SER format description version 3" of G. Hahn, 2014. \a file has its name
+ * and identity. Throws FileError unless it holds exactly the frames that it declares, with or without a time for each,
+ * and of one value a pixel. Of a file that says 0 frames, because the program that wrote it did not close it, all whole
  * frames are read, and FrameFile::warning says so.
  *
  * Of the order of the bytes the description says one thing, and the first programs wrote the other, so that today

@@ -183,7 +183,7 @@ private:
     }
   }
 
-  /** Whole numbers, one a pixel, without loss. */
+  /** Throws FileError unless the pixels are whole numbers, one for each pixel, stored without loss. */
   void
   RequireCodes() const
   {

@@ -115,9 +115,9 @@ struct TiffPage
   StoredNumber          stored{ StoredNumber::SameAsPixel };
   TiffCompression       compression{ TiffCompression::None };
   std::uint64_t         predictor{ 1 };
-  std::uint64_t         orientation{ 1 };        // 1 to 8; says how a viewer turns the stored pixels
+  std::uint64_t         orientation{ 1 };        // 1 to 8: how a viewer turns the stored pixels
   bool                  isReduced{ false };      // a thumbnail or a mask, by NewSubfileType
-  std::array<double, 2> spacing{ { 1.0, 1.0 } }; // along x and y [mm], 1 where it is not said
+  std::array<double, 2> spacing{ { 1.0, 1.0 } }; // pixel spacing along x and y [mm]; 1: not recorded
   TiffChunks            chunks{};                // its strips or tiles
 
   /** Returns the bytes of a row of a strip or tile, without compression. */

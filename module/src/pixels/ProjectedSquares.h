@@ -137,8 +137,8 @@ private:
   const TemporalBasis &             m_Basis;
   const std::vector<std::uint8_t> & m_Mask;
   ParallelFor                       m_ParallelFor;
-  std::vector<double>               m_Variance; // with the gain 0 [DN^2]
-  std::vector<float>                m_PerGain;  // [DN]
+  std::vector<double>               m_Variance; // variance for the gain 0 [DN^2]
+  std::vector<float>                m_PerGain;  // rise of the variance with the gain [DN]
   std::vector<float>                m_Divisor;
   FrameDof                          m_FrameDof;
   double                            m_OffsetDn;

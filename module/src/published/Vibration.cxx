@@ -146,7 +146,7 @@ FindScales(const Maps & maps, const ParallelFor & parallelFor)
 class ProductSums
 {
 public:
-  static constexpr std::size_t Columns = 7; // with the variance
+  static constexpr std::size_t Columns = 7; // number of columns, including the variance
   using Products = std::array<double, Columns * Columns>;
 
   explicit ProductSums(Products & products)

@@ -74,7 +74,8 @@ TextOfFailure(const RefinedResults & found, const TestedGain & tested)
   }
 }
 
-/** Returns how the illumination of rows or columns, which adds \a effect to the slope, takes the gain away [1]. */
+/** Returns the reason why the illumination of rows or columns makes the gain not identifiable. It adds the fraction
+ * \a effect to the slope [1]. */
 std::string
 TextOfLineIllumination(const LineIllumination & lines, double effect)
 {

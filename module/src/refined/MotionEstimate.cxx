@@ -25,7 +25,7 @@ namespace
 struct AxisMotion
 {
   std::vector<double> series;       ///< shift of every frame, mean 0 [pixel]; empty: the derivative is not active
-  std::vector<double> leastSquares; ///< the same by least squares [pixel]
+  std::vector<double> leastSquares; ///< shift of every frame by least squares [pixel]
   Eigen::Index        place{ 0 };   ///< index of its derivative among the derivatives of the motion
   Quantity            sd{ Quantity::Without(EstimateStatus::NotIdentifiable) };
 };

@@ -247,7 +247,7 @@ private:
   std::optional<PixelProjections>  m_Projections;
   std::optional<PixelNoise>        m_Noise;
   std::optional<const ReestimatedComponents> m_Reestimated;
-  std::vector<double>                        m_Mean; // for display, when the report is made
+  std::vector<double>                        m_Mean; // map for display, filled when the report is made
   std::vector<double>                        m_CorrectedVariance;
   std::optional<const NothingToMeasure>      m_FailureReason;
   bool                                       m_HasScene{ false };

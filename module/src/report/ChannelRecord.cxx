@@ -178,7 +178,7 @@ std::vector<Warning>
 WarningsOf(const ChannelReports & reports)
 {
   std::vector<Warning>     all = reports.warnings;
-  std::vector<std::string> channels; // names, for each of ofChannels, of the channels with this warning
+  std::vector<std::string> channels; // for each of ofChannels, the names of its channels
   std::vector<Warning>     ofChannels;
   for (const Report & channel : reports.channels)
   {

@@ -70,10 +70,10 @@ RequireRelativeSd(double sd, const char * name)
 void
 CheckSettings(const PatternSettings & settings)
 {
-  RequireRelativeSd(settings.gainSd, "spread of the pixels' gain");
-  RequireRelativeSd(settings.columnGainSd, "spread of the columns' gain");
-  RequireRelativeSd(settings.columnEfficiencySd, "spread of the columns' efficiency");
-  RequireNotNegative(settings.columnOffsetSdDn, "spread of the columns' offset");
+  RequireRelativeSd(settings.gainSd, "standard deviation of the pixels' gain");
+  RequireRelativeSd(settings.columnGainSd, "standard deviation of the columns' gain");
+  RequireRelativeSd(settings.columnEfficiencySd, "standard deviation of the columns' efficiency");
+  RequireNotNegative(settings.columnOffsetSdDn, "standard deviation of the columns' offset");
 }
 
 std::vector<double>

@@ -21,7 +21,7 @@ using Band = NoiseModelCheck::Band;
 std::string
 WithDecimals(double number, int decimals)
 {
-  char buffer[512]; // room for every number
+  char buffer[512]; // fits every number
   std::snprintf(buffer, sizeof(buffer), "%.*f", decimals, number);
   return buffer;
 }

@@ -96,7 +96,7 @@ LineSentences(const SweepSummary & summary)
                      "the " +
                        std::to_string(gains) + " settings on it. Check the settings of the bursts.";
 }
-/** Returns whether the gains of a channel at all exposures are equal, and their mean. */
+/** Returns a sentence that says whether the gains of a channel are equal at all exposures, with their mean. */
 std::string
 CommonGainSentence(const CommonGain & common)
 {

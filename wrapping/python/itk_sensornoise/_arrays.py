@@ -98,7 +98,7 @@ def as_mask(values: object, name: str) -> np.ndarray:
 
 
 def image_words(image: ItkObject) -> str:
-    """Words for an image of a type that does not serve, for an error."""
+    """Returns the description of an image of an unsupported type, for an error."""
     import itk
 
     try:

@@ -23,8 +23,8 @@ from ._types import FileName
 
 Comparable: TypeAlias = Report | ChannelReports | FileName
 
-# A report may have so many standard errors more or less than the first before a difference is marked: one in 370 by
-# chance, as C++'s ChanceErrors in page/Comparison.h.
+# A difference from the first report is marked above this number of standard errors, which chance exceeds once in 370
+# differences: ChanceErrors of page/Comparison.h.
 _CHANCE_ERRORS = 3.0
 
 

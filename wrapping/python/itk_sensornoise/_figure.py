@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 #: Codes of the warnings of a non-linear response.
 NONLINEARITY_CODES = {"response-not-straight", "variance-not-affine"}
 
-#: Colours of the page, told apart without colour vision; markers and dashes differ, too.
+#: Colours of the page, distinguishable without colour vision; markers and dashes differ, too.
 BEFORE, AFTER, LINE = "#b85c00", "#0072b2", "#00795a"
 
 
