@@ -107,7 +107,7 @@ IsHeadOfMetaImage(const std::string & head, const std::string & name);
 void
 InspectMetaImage(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
-/** The paths of the files that hold its pixels. Throws FileError where the header cannot be read. */
+/** Returns the paths of the files that hold its pixels. Throws FileError if the header cannot be read. */
 std::vector<std::string>
 DataFilesOfMetaImage(FileBytes & bytes, const std::string & name);
 
@@ -120,7 +120,7 @@ IsHeadOfNrrd(const std::string & head, const std::string & name);
 void
 InspectNrrd(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
-/** The paths of the files that hold its pixels. Throws FileError where the header cannot be read. */
+/** Returns the paths of the files that hold its pixels. Throws FileError if the header cannot be read. */
 std::vector<std::string>
 DataFilesOfNrrd(FileBytes & bytes, const std::string & name);
 
@@ -150,7 +150,7 @@ IsHeadOfMraw(const std::string & head, const std::string & name);
 void
 InspectMraw(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
-/** The path of the other file of a recording. Throws FileError where it is missing. */
+/** Returns the path of the other file of a recording. Throws FileError if it is missing. */
 std::vector<std::string>
 DataFilesOfMraw(FileBytes & bytes, const std::string & name);
 

@@ -28,7 +28,7 @@ enum class RawTiffKind
   Mosaic ///< another one with the colours of a mosaic: NEF, ARW, PEF and others
 };
 
-/** Returns the kind by the first directory of a TIFF and the directories below it. Throws FileError where they are
+/** Returns the kind by the first directory of a TIFF and the directories below it. Throws FileError if they are
  * damaged. */
 RawTiffKind
 RawTiffKindOf(const std::string & file, FileBytes & bytes);

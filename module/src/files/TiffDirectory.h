@@ -67,7 +67,7 @@ public:
     return m_IsBig ? 16 : 8;
   }
 
-  /** Reads a directory; \a page begins the errors. Throws FileError where a part of it, or a value of its entries, is
+  /** Reads a directory; \a page begins the errors. Throws FileError if a part of it, or a value of its entries, is
    * not in the file. */
   TiffDirectory
   ReadDirectory(const std::string & page, std::uint64_t offset);
@@ -155,7 +155,7 @@ public:
   TiffEntry
   EntryOfEach(unsigned tag, const char * name, std::uint64_t count, const char * piece) const;
 
-  /** Throws FileError where a tag comes twice: programs take one or the other. */
+  /** Throws FileError if a tag comes twice: programs take one or the other. */
   void
   RequireEachOnce() const;
 
