@@ -40,7 +40,7 @@ struct ProfileVariance
   /** Whether the dark offset of the file changes the variance. False: neither a read noise nor a dark level is known.
    */
   bool           isOffsetTested{ true };
-  LibcameraNoise root;   ///< in place of slope and darkDn2, if the form is Root
+  LibcameraNoise root;   ///< model that replaces slope and darkDn2, if the form is Root
   CameraNoise    camera; ///< camera of the burst, which has the levels of libcamera's model
 
   /** Returns the variance at a level [DN^2]. */

@@ -64,7 +64,7 @@ FindTiffChunks(const TiffTags & tags, TiffChunks & chunks);
 struct TiffChunk
 {
   std::uint64_t index{ 0 };
-  std::uint64_t offset{ 0 };     // in the file
+  std::uint64_t offset{ 0 };     // first byte in the file
   std::uint64_t count{ 0 };      // number of bytes in the file
   std::uint64_t rows{ 0 };       // rows of pixels in the strip or tile
   std::uint64_t bytes{ 0 };      // bytes of these rows, without compression

@@ -165,7 +165,7 @@ StackPasses<TPixel>::MergeSums(std::istream & in)
   {
     const FrameThumbnails thumbnails = m_Thumbnails.ReadOther(in);
     m_Moments.Merge(in);
-    if (this->IsFirstPass()) // in another pass both have all thumbnails
+    if (this->IsFirstPass()) // in later passes both have all thumbnails
     {
       m_Thumbnails.Merge(thumbnails);
     }

@@ -58,7 +58,7 @@ Value(const Quantity & quantity)
 struct RoundedQuantity
 {
   std::string value{};
-  std::string error{};        // with the sign +-; "": no error is known
+  std::string error{};        // error with the sign +-; "": no error is known
   int         decimals{ -1 }; // number of decimals of the value; -1: no error is known
 };
 

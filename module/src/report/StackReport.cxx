@@ -119,7 +119,7 @@ WarnOfMosaic(Report &                    report,
 {
   if (const auto pattern = RecogniseMosaic(mean, geometry.width, geometry.height, parallelFor))
   {
-    const BayerPattern other = CutPattern(*pattern, 1, 1); // with red and blue exchanged
+    const BayerPattern other = CutPattern(*pattern, 1, 1); // the same pattern with red and blue exchanged
     report.Warn(WarningCode::Mosaic,
                 std::string("the levels of neighbouring pixels alternate as behind a Bayer mosaic, ") +
                   NameOf(*pattern) + " or " + NameOf(other) +

@@ -76,8 +76,8 @@ struct FrameSums::Batch
   const TPixel *                                 frames{ nullptr };
   std::size_t                                    first{ 0 };
   std::size_t                                    count{ 0 };
-  std::vector<std::vector<detail::ClassColumns>> parts;     // for each row of cells and each frame
-  std::vector<ColumnSums>                        ofColumns; // for each row of cells; empty: they are known
+  std::vector<std::vector<detail::ClassColumns>> parts;     // columns of each row of cells and each frame
+  std::vector<ColumnSums>                        ofColumns; // sums of each row of cells; empty: they are known
 
   /** Adds the sums over a row of cells. Different rows may be added at the same time. */
   void

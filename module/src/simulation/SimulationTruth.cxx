@@ -195,7 +195,7 @@ ToJson(const SimulationTruth & truth, std::size_t width, std::size_t height)
     json.Member("electrons", camera.electrons).Member("gain", camera.gainDnPerElectron);
     json.Member("offset", camera.offsetDn).Member("read_noise", camera.readNoiseDn);
     json.Member("intercept", intercept);
-    json.Member("total_intercept", intercept + 1.0 / 12.0); // with quantization noise
+    json.Member("total_intercept", intercept + 1.0 / 12.0); // includes the quantization noise
     json.Member("clip_low", settings.clipLowDn).Member("clip_high", settings.clipHighDn);
     json.Member("optical_blur", settings.opticalBlurPixels);
     json.Member("rolling_shutter_period", settings.rollingShutterPeriodRows);

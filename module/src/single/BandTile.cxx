@@ -74,7 +74,7 @@ void
 WeightWindows(const float * from, std::size_t stride, std::size_t count, float * sums, float * to)
 {
   constexpr std::size_t                     size = WaveletWindow::Size;
-  constexpr const std::array<float, size> & weights = WaveletWindow::level; // the same from both ends
+  constexpr const std::array<float, size> & weights = WaveletWindow::level; // symmetric weights
   static_assert(size == 6, "three pairs of equal weights");
   const float *const a = from, *const b = a + stride, *const c = b + stride, *const d = c + stride,
                      *const e = d + stride, *const f = e + stride;

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Axes that have names, as xarray's: which is time."""
+"""Finds the time axis among axes with names, as in xarray."""
 
 from typing import Any
 
