@@ -7,12 +7,16 @@
 #include "moments/Constants.h"
 #include "pixels/Constants.h"
 #include "refined/Constants.h"
+#include "scene/Constants.h"
 #include "series/Constants.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <functional>
 #include <stdexcept>
+#include <type_traits>
 
 namespace sensornoise::tools
 {
@@ -21,32 +25,32 @@ namespace
 {
 struct VariedConstant
 {
-  std::string  name;
-  double *     value;
-  const char * unit;
-  const char * what; ///< one-line description
+  std::string                 name;
+  std::function<double()>     get;
+  std::function<void(double)> set;
 };
+
+/** Returns a constant that is set to the nearest number of its type. A count stays above 0. */
+template <typename TNumber>
+VariedConstant
+MakeVaried(const char * name, TNumber & constant)
+{
+  return { name,
+           [&constant] { return static_cast<double>(constant); },
+           [&constant](double value) {
+             const double nearest = std::is_integral_v<TNumber> ? std::round(value) : value;
+             constant = static_cast<TNumber>(constant > TNumber{ 0 } && nearest <= 0.0 ? 1.0 : nearest);
+           } };
+}
 
 const std::vector<VariedConstant> &
 GetVariedConstants()
 {
+#define Constant(group, member) MakeVaried(#group "." #member, group.member),
   static const std::vector<VariedConstant> constants{
-    { "Significance.hint", &Significance.hint, "sd", "what widens an error" },
-    { "Significance.oneTest", &Significance.oneTest, "sd", "what is tested once" },
-    { "Significance.severalTests", &Significance.severalTests, "sd", "what is tested of lags, series and bins" },
-    { "Significance.manyTests", &Significance.manyTests, "sd", "what is tested at many places" },
-    { "Significance.everyPixel", &Significance.everyPixel, "sd", "what is tested of every pixel or frame" },
-    { "InMoments.defectiveNoiseFactor", &InMoments.defectiveNoiseFactor, "1", "noise of a defective pixel" },
-    { "InSeries.leastSignalFraction", &InSeries.leastSignalFraction, "1", "signal of a derivative of the motion" },
-    { "InSeries.edgeOfNoise", &InSeries.edgeOfNoise, "1", "edge of the noise, above which cells show light" },
-    { "InCorrelation.unseenErrors", &InCorrelation.unseenErrors, "1", "error by neighbours that are not summed" },
-    { "InRefined.leastVarianceInflation",
-      &InRefined.leastVarianceInflation,
-      "1",
-      "variance inflation for another test" },
-    { "InRefined.errorOfNonlinearity", &InRefined.errorOfNonlinearity, "1", "error by non-linearity, over its size" },
-    { "InRefined.largestNonlinearity", &InRefined.largestNonlinearity, "1", "non-linearity of failed estimates" },
+#include "InfluenceConstants.inc"
   };
+#undef Constant
   return constants;
 }
 } // namespace
@@ -56,7 +60,7 @@ PrintVariedConstants()
 {
   for (const VariedConstant & constant : GetVariedConstants())
   {
-    std::printf("%-32s %-8.4g %-3s %s\n", constant.name.c_str(), *constant.value, constant.unit, constant.what);
+    std::printf("%-42s %.4g\n", constant.name.c_str(), constant.get());
   }
 }
 
@@ -79,7 +83,7 @@ MultiplyConstants(const std::vector<std::string> & changes)
       throw std::invalid_argument("--constant is \"" + change +
                                   "\"; expected NAME=FACTOR with a name of --list-constants and a positive factor");
     }
-    *found->value *= factor;
+    found->set(factor * found->get());
   }
 }
 

@@ -9,15 +9,15 @@
 namespace sensornoise::tools
 {
 
-/** Prints the constants of the refined method that MultiplyConstants() can change: name, value, unit and purpose.
- * They are the most influential of all numbers in the Constants.h files of the components: half or twice their value
- * changed the results of the robustness cases most. */
+/** Prints name and value of all constants of the refined method that MultiplyConstants() can change. Unit, source and
+ * meaning of each are in the Constants.h files of the components. */
 void
 PrintVariedConstants();
 
 /** Multiplies constants of the refined method for the rest of the program. \a changes are of the form NAME=FACTOR,
- * with a name that PrintVariedConstants() prints and a positive factor: "Significance.manyTests=0.5". Throws
- * std::invalid_argument for another form or an unknown name. */
+ * with a name that PrintVariedConstants() prints and a positive factor: "Significance.manyTests=0.5". An integer
+ * becomes the nearest integer, at least 1 if it was positive. Throws std::invalid_argument for another form or an
+ * unknown name. */
 void
 MultiplyConstants(const std::vector<std::string> & changes);
 
