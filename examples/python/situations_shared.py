@@ -132,13 +132,18 @@ def recursive(random, electrons, weight, count):
     return Burst(digitise(frames[settling:], BITS), offset=OFFSET[BITS], read_noise=READ_NOISE)
 
 
-def replaced(random, electrons, fraction):
-    """Returns frames in which this fraction of the pixels, at random places, has the mean of its eight neighbours, as
-    where a camera corrects defective pixels and pixels of the autofocus."""
+AROUND = tuple((y, x) for y in (-1, 0, 1) for x in (-1, 0, 1) if (y, x) != (0, 0))
+BESIDE = ((0, -1), (0, 1))
+ABOVE = ((1, 0),)
+
+
+def replaced(random, electrons, fraction, neighbours=AROUND):
+    """Returns frames in which this fraction of the pixels, at random places, has the mean of these neighbours (y, x).
+
+    Cameras correct defective pixels, and pixels of the autofocus, in this way."""
     frames = expose(random, electrons, illumination(random), offset=OFFSET[BITS])
     places = random.random(SHAPE) < fraction
-    shifts = [(y, x) for y in (-1, 0, 1) for x in (-1, 0, 1) if (y, x) != (0, 0)]
-    means = sum(np.roll(frames, shift, axis=(1, 2)) for shift in shifts) / 8
+    means = sum(np.roll(frames, shift, axis=(1, 2)) for shift in neighbours) / len(neighbours)
     return Burst(digitise(np.where(places, means, frames), BITS), offset=OFFSET[BITS], read_noise=READ_NOISE)
 
 
@@ -148,6 +153,8 @@ SITUATIONS = (
         for weight, count in ((0.3, 24), (0.3, 80), (0.6, 24))
     ),
     *(line(f"replaced/{100 * fraction:g}%", replaced, fraction) for fraction in (0.005, 0.01, 0.03)),
+    *(line(f"replaced/pairs-{100 * fraction:g}%", replaced, fraction, BESIDE) for fraction in (0.01, 0.03)),
+    *(line(f"replaced/copies-{100 * fraction:g}%", replaced, fraction, ABOVE) for fraction in (0.01, 0.03)),
     *(line(f"filtered/after-read-out-{radius}", filtered, radius, 0.0) for radius in (0.5, 0.8, 1.2)),
     *(line(f"filtered/before-read-out-{radius}", filtered, radius, 1.0) for radius in (0.5, 0.8, 1.2)),
     line("filtered/between-0.8", filtered, 0.8, 0.5),

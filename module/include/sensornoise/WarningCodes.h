@@ -166,7 +166,8 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
   { WarningCode::NoisyPixels,
     "noisy-pixels",
     Severity::Note,
-    "More than 0.2 % of the pixels are noisier or quieter than the others: they are left out." },
+    "More than 0.2 % of the pixels are noisier or quieter than the others, or computed from their neighbours: they are "
+    "left out." },
   { WarningCode::LocalLight,
     "local-light",
     Severity::Note,

@@ -59,6 +59,26 @@ struct CorrelationConstants
   std::size_t leastPixelsOfWave{ 64 };
   ///@}
 
+  /** \name Pixels that are computed from their neighbours */
+  ///@{
+  /** Largest number of frames on which pixels are compared with their neighbours: by 32 frames one measured pixel in
+   * 10^6 differs from them as little as a computed one. */
+  std::size_t framesOfComparison{ 32 };
+  /** Largest mean square of the difference between a pixel and the mean of its neighbours, relative to the median of
+   * all pixels, for which the pixel may be computed [1], and its smallest value. Rounding makes 0.06 where the noise is
+   * of one quantization step. Of the pixels from whose mean another one is computed, the difference to it is 0.25 or
+   * more. */
+  float largestDifference{ 0.15F };
+  float smallestDifference{ 0.02F };
+  /** Smallest fraction of such pixels for which they are left out [1]: fewer change the gain by at most 0.1 %. */
+  double leastInterpolated{ 5e-4 };
+  /** Largest fraction of such pixels [1]: of a demosaiced frame half of the pixels or more are computed. */
+  double mostInterpolated{ 0.1 };
+  /** Largest fraction of the pixels found that may be found by chance [1], which changes the gain by a tenth of what
+   * computed pixels do. */
+  double mostByChance{ 0.1 };
+  ///@}
+
   /** \name Detection of spatial noise correlation */
   ///@{
   /** Reporting threshold of a correlation coefficient [1]. Chosen empirically: charge coupling of 0.3 % makes a

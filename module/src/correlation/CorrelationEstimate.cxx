@@ -12,6 +12,7 @@
 #include "report/ReportParts.h"
 #include "sensornoise/Version.h"
 #include "correlation/Interference.h"
+#include "correlation/InterpolatedPixels.h"
 #include "correlation/NoiseResiduals.h"
 
 #include <algorithm>
@@ -210,6 +211,28 @@ CorrelationSettings::Validate(std::size_t frames) const
   }
 }
 
+namespace
+{
+/** Leaves out the pixels that are computed from their neighbours, and if there are any, those that cannot be compared.
+ */
+void
+LeaveOutInterpolated(NoiseResiduals & residuals, std::vector<std::uint8_t> & taken, const ParallelFor & parallelFor)
+{
+  const InterpolatedPixels found = FindInterpolatedPixels(residuals, parallelFor);
+  if (!found.pixels.empty())
+  {
+    for (const std::vector<std::size_t> * const pixels : { &found.pixels, &found.notCompared })
+    {
+      for (const std::size_t p : *pixels)
+      {
+        taken[p] = 0;
+      }
+    }
+    residuals.Take(taken, parallelFor);
+  }
+}
+} // namespace
+
 CorrelationEstimate
 EstimateCorrelation(NoiseSample                       sample,
                     const std::vector<double> &       mean,
@@ -233,7 +256,8 @@ EstimateCorrelation(NoiseSample                       sample,
                            SeriesOf(settings, distinct, means),
                                   { mean, taken, blackDn, !std::isnan(settings.offsetDn) },
                            parallelFor);
-  NoiseCorrelation      correlation = MeasureWithoutInterference(residuals, codesDn2, parallelFor);
+  LeaveOutInterpolated(residuals, taken, parallelFor);
+  NoiseCorrelation correlation = MeasureWithoutInterference(residuals, codesDn2, parallelFor);
   MeasureSettledFrames(correlation, residuals, codesDn2, parallelFor);
 
   estimate.framesUsed = residuals.GetTiles().frames;

@@ -57,6 +57,11 @@ struct StaticVariance
   std::size_t notStatic{ 0 };
   /** Variance inflation by the spatial noise correlation, see RejectionModel [1]. */
   double varianceInflation{ 1.0 };
+  /** Fraction of the sampled pixels that are computed from their neighbours, and left out [1]. */
+  double interpolatedFraction{ 0.0 };
+  /** Variance that the pixels may lack because some are computed from their neighbours and were not found, relative to
+   * the variance [1]. */
+  double lostVariance{ 0.0 };
 };
 
 /** Finds the pixels that fit a static scene, and fits the line of their variance, from the flat classes to the rough

@@ -25,7 +25,8 @@ struct SensorLines
   VarianceLine  instrumentalLine; ///< instrumental-variable fit, see FitInstrumental(); may be not determined
   VarianceCurve fromFrames;       ///< see FitFramePhotonTransfer(); may be not determined
   VarianceCurve curve;            ///< deviations of the variance from its line
-  /** Covariance of gain and intercept by the uncertainty of the noise correlation [DN/e-, DN^2]. */
+  /** Covariance of gain and intercept by the uncertainty of the noise correlation, and by pixels that are computed from
+   * their neighbours [DN/e-, DN^2]. */
   Eigen::Matrix2d covarianceOfCorrelation{ Eigen::Matrix2d::Zero() };
   /** Curve by the pixels' own levels, see StaticVariance::ofOwnLevels. */
   VarianceCurve ofOwnLevels;

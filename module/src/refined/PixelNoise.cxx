@@ -4,6 +4,7 @@
 
 #include "correlation/FrameEnergies.h"
 #include "correlation/Interference.h"
+#include "correlation/InterpolatedPixels.h"
 #include "correlation/NoiseCorrelation.h"
 #include "correlation/NoiseResiduals.h"
 #include "moments/DarkFrames.h"
@@ -129,6 +130,42 @@ struct ChosenPixels
   std::vector<std::uint8_t> & pixelUse;
 };
 
+/** Leaves out the pixels that are computed from their neighbours, and returns whether there are any. */
+bool
+LeaveOutInterpolated(const InterpolatedPixels & found, const ChosenPixels & pixels)
+{
+  for (const std::size_t p : found.pixels)
+  {
+    pixels.chosen[p] = 0;
+    pixels.pixelUse[p] = static_cast<std::uint8_t>(PixelUse::Outlier);
+  }
+  return !found.pixels.empty();
+}
+
+/** Uses the pixels of \a variance in \a residuals, without those that are not compared with their neighbours. */
+void
+TakeCompared(NoiseResiduals &           residuals,
+             const StaticVariance &     variance,
+             const InterpolatedPixels & interpolated,
+             const ParallelFor &        parallelFor)
+{
+  std::vector<std::uint8_t> used = MaskOfUsed(variance.pixelUse);
+  for (const std::size_t p : interpolated.notCompared)
+  {
+    used[p] = 0;
+  }
+  residuals.Take(used, parallelFor);
+}
+
+/** Returns the fraction of the pixels of \a used that are not compared with their neighbours: outside the tiles of \a
+ * residuals, or on their borders [1]. */
+double
+FractionNotCompared(const std::vector<std::uint8_t> & used, const NoiseResiduals & residuals)
+{
+  const auto all = static_cast<double>(std::count_if(used.begin(), used.end(), [](auto own) { return own != 0; }));
+  return 1.0 - std::min(1.0, static_cast<double>(residuals.GetNumberOfPixels()) / std::max(1.0, all));
+}
+
 /** The illumination that is specific to rows or columns, and the squares without it. */
 struct AllowedLines
 {
@@ -186,6 +223,15 @@ ProjectSquares(ResidualSquares         squares,
            scene.frame.usable, parallelFor,  illumination,  replaced,           codeNoise };
 }
 
+/** Returns the gain by which the variances are corrected before the first line [DN/e-]. The initial model contains the
+ * variance of local illumination: its gain may be a hundred times too large, and would make the corrected variances
+ * negative. A gain of 0 changes them by a few per cent. */
+double
+FirstGain(const StaticScene & scene, const SceneSeries & series)
+{
+  return series.local.IsLocal() ? 0.0 : scene.model.slopeDn;
+}
+
 /** Compares the noise of the frames and, if it does not differ, of their parts. Frames of several scenes are not
  * comparable: nothing is left of what was found between them. */
 void
@@ -236,18 +282,13 @@ MeasurePixelNoise(ResidualSquares                          squares,
   AllowedLines allowed;
   if (settings.rollingShutter != RollingShutter::Off)
   {
-    allowed = AllowForLines(residuals,
-                            scene,
-                            { chosen, pixelUse },
-                            scene.model.brightestDn - blackDn,
-                            series->local.beyond > 1.0,
-                            parallelFor);
+    const double signalDn = scene.model.brightestDn - blackDn;
+    const bool   areSeriesLeft = series->local.beyond > 1.0;
+    allowed = AllowForLines(residuals, scene, { chosen, pixelUse }, signalDn, areSeriesLeft, parallelFor);
   }
   ProjectedSquares projected =
     ProjectSquares(std::move(squares), scene, *series, allowed.replaced, codeNoise, parallelFor);
-  // The initial model contains the variance of local illumination: its gain may be a hundred times too large, and would
-  // make the corrected variances negative. A gain of 0 changes them by a few per cent.
-  const double firstGain = series->local.IsLocal() ? 0.0 : scene.model.slopeDn;
+  const double firstGain = FirstGain(scene, *series);
   const auto   fit = [&](double varianceInflation) {
     StaticVariance variance =
       FitStaticVariance(projected, chosen, pixelUse, firstGain, offsetDn, blackDn, parallelFor, varianceInflation);
@@ -259,7 +300,15 @@ MeasurePixelNoise(ResidualSquares                          squares,
   {
     return noise;
   }
-  residuals.Take(MaskOfUsed(noise.variance.pixelUse), parallelFor);
+  InterpolatedPixels interpolated;
+  const auto         take = [&] { TakeCompared(residuals, noise.variance, interpolated, parallelFor); };
+  take();
+  interpolated = FindInterpolatedPixels(residuals, parallelFor);
+  if (LeaveOutInterpolated(interpolated, { chosen, pixelUse }))
+  {
+    noise.variance = fit(1.0);
+    take();
+  }
   const FrameComparison comparison{ residuals,
                                     projected,
                                     scene,
@@ -278,13 +327,15 @@ MeasurePixelNoise(ResidualSquares                          squares,
   if (noise.correlation.IsCorrelated() && varianceInflation > InRefined.leastVarianceInflation)
   {
     noise.variance = fit(varianceInflation);
-    residuals.Take(MaskOfUsed(noise.variance.pixelUse), parallelFor);
+    take();
     allowForFrames();
     noise.correlation = MeasureWithoutInterference(residuals, codesDn2, parallelFor);
     // Near an edge, the spatial covariance is a mean over both sides, and the pixel's variance is not on the line.
     LeaveOutEdges(scene.frame, noise.variance.line, chosen, pixelUse);
     noise.variance = fit(varianceInflation);
   }
+  noise.variance.interpolatedFraction = interpolated.fraction;
+  noise.variance.lostVariance = interpolated.lostVariance * FractionNotCompared(chosen, residuals);
   MeasureFrames(noise, comparison, blackDn, isOneScene, parallelFor);
   MeasureSettledFrames(noise.correlation, residuals, codesDn2, parallelFor);
   if (noise.correlation.kind != NoiseKind::NotMeasured)

@@ -98,11 +98,20 @@ WarnOfScene(Report & report, const RefinedResults & found)
                 percent(found.scene.nearClip + found.scene.summary.clipped) +
                   " of the pixels reach a clip level or could have, and are left out");
   }
+  std::string unlike;
   if (found.variance.line.trimmedFraction > InRefined.reportedTrimmed)
   {
-    report.Warn(WarningCode::NoisyPixels,
-                Percent(found.variance.line.trimmedFraction) +
-                  " of the pixels are noisier or quieter than the sensor's noise explains, and are left out");
+    unlike = Percent(found.variance.line.trimmedFraction) +
+             " of the pixels are noisier or quieter than the sensor's noise explains";
+  }
+  if (found.variance.interpolatedFraction > InRefined.reportedTrimmed)
+  {
+    unlike += (unlike.empty() ? "" : ", and ") + Percent(found.variance.interpolatedFraction) +
+              " of the pixels are copies or means of their neighbours, as where a camera corrects defective pixels";
+  }
+  if (!unlike.empty())
+  {
+    report.Warn(WarningCode::NoisyPixels, unlike + ". They are left out");
   }
 }
 

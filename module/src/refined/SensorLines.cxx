@@ -224,8 +224,9 @@ ErrorOf(const NoiseCorrelation & correlation,
 SensorLines
 LinesOf(const StaticVariance & variance)
 {
+  const Eigen::Vector2d lost = variance.lostVariance * Eigen::Vector2d(variance.line.gain, variance.line.intercept);
   return { variance.line,  variance.instrumentalLine, variance.fromFrames,
-           variance.curve, Eigen::Matrix2d::Zero(),   variance.ofOwnLevels };
+           variance.curve, lost * lost.transpose(),   variance.ofOwnLevels };
 }
 
 double
@@ -274,7 +275,8 @@ AddCovariances(const SensorLines & lines, const NoiseCorrelation & correlation, 
   sensor.fromFrames = CurveOfSensor(lines.fromFrames, shared, shared.SensorOf(lines.fromFrames.line, square));
   sensor.curve = CurveOfSensor(lines.curve, shared, shared.SensorOf(lines.curve.line, square));
   sensor.ofOwnLevels = CurveOfSensor(lines.ofOwnLevels, shared, shared.SensorOf(lines.ofOwnLevels.line, square));
-  sensor.covarianceOfCorrelation = ErrorOf(correlation, lines.all, sensor.all, square, blackDn, codesDn2);
+  sensor.covarianceOfCorrelation =
+    lines.covarianceOfCorrelation + ErrorOf(correlation, lines.all, sensor.all, square, blackDn, codesDn2);
   return sensor;
 }
 
