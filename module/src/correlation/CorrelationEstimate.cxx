@@ -211,28 +211,6 @@ CorrelationSettings::Validate(std::size_t frames) const
   }
 }
 
-namespace
-{
-/** Leaves out the pixels that are computed from their neighbours, and if there are any, those that cannot be compared.
- */
-void
-LeaveOutInterpolated(NoiseResiduals & residuals, std::vector<std::uint8_t> & taken, const ParallelFor & parallelFor)
-{
-  const InterpolatedPixels found = FindInterpolatedPixels(residuals, parallelFor);
-  if (!found.pixels.empty())
-  {
-    for (const std::vector<std::size_t> * const pixels : { &found.pixels, &found.notCompared })
-    {
-      for (const std::size_t p : *pixels)
-      {
-        taken[p] = 0;
-      }
-    }
-    residuals.Take(taken, parallelFor);
-  }
-}
-} // namespace
-
 CorrelationEstimate
 EstimateCorrelation(NoiseSample                       sample,
                     const std::vector<double> &       mean,
@@ -256,7 +234,11 @@ EstimateCorrelation(NoiseSample                       sample,
                            SeriesOf(settings, distinct, means),
                                   { mean, taken, blackDn, !std::isnan(settings.offsetDn) },
                            parallelFor);
-  LeaveOutInterpolated(residuals, taken, parallelFor);
+  if (const InterpolatedPixels found = FindInterpolatedPixels(residuals, parallelFor); !found.pixels.empty())
+  {
+    found.LeaveOutOf(taken);
+    residuals.Take(taken, parallelFor);
+  }
   NoiseCorrelation correlation = MeasureWithoutInterference(residuals, codesDn2, parallelFor);
   MeasureSettledFrames(correlation, residuals, codesDn2, parallelFor);
 

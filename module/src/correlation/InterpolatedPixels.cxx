@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -43,8 +45,8 @@ const std::vector<std::vector<Neighbour>> MeansOfNeighbours{
 /** Noise of a pixel compared with a mean of its neighbours. */
 struct Comparison
 {
-  float difference{ NotCompared }; ///< mean square of the difference, relative to that of independent noise [1]
-  float sum{ NotCompared };        ///< mean square of the sum, relative to that of independent noise [1]
+  float difference{ NotCompared }; ///< mean square of the difference over its value for independent noise [1]
+  float sum{ NotCompared };        ///< mean square of the sum over its value for independent noise [1]
   static constexpr float NotCompared = std::numeric_limits<float>::infinity();
 };
 
@@ -63,6 +65,11 @@ public:
     , m_Row(m_Side + 2)
     , m_Sums(Lags)
   {
+    m_VarianceDn2.fill(std::numeric_limits<float>::infinity());
+    for (std::size_t p = 0; p < m_Side * m_Side; ++p)
+    {
+      m_VarianceDn2[this->PlaceOf(p)] = 1.0F / residuals.WeightOf(i)[p]; // infinite at weight 0
+    }
     const SampleTiles & tiles = residuals.GetTiles();
     const std::size_t   frames = std::min(tiles.frames, InCorrelation.framesOfComparison);
     m_Dof = residuals.GetDof() * static_cast<double>(frames) / static_cast<double>(tiles.frames);
@@ -84,6 +91,13 @@ public:
   {
     return (p / m_Side + 1) * m_Row + p % m_Side + 1;
   }
+  /** Returns the typical noise variance of the pixels; infinite on the border, and at pixels that are left out [DN^2].
+   */
+  const Values &
+  GetVarianceDn2() const
+  {
+    return m_VarianceDn2;
+  }
   /** Returns the degrees of freedom of the sums. */
   double
   GetDof() const
@@ -98,12 +112,7 @@ public:
     {
       std::swap(a, b);
     }
-    const Values & products = m_Sums[LagOf(b.x - a.x, b.y - a.y)];
-    const float *  shifted = products.data() + this->StepTo(a);
-    for (std::size_t p = m_Row + 1; p + 1 < m_Row * (m_Side + 1); ++p)
-    {
-      sum[p] += factor * shifted[p];
-    }
+    this->AddShifted(m_Sums[LagOf(b.x - a.x, b.y - a.y)], a, factor, sum);
   }
   /** Adds \a factor times the values of the pixels at the distance \a a to \a sum. */
   void
@@ -153,38 +162,25 @@ private:
   std::size_t         m_Row;
   double              m_Dof{ 0.0 };
   std::vector<Values> m_Sums; // by LagOf()
+  Values              m_VarianceDn2{};
 };
 
-/** Compares the pixels of tile \a i with a mean of \a neighbours. */
+/** Compares the pixels of a tile of \a pixels pixels with a mean of \a neighbours. */
 std::vector<Comparison>
-CompareTile(const NoiseResiduals &         residuals,
-            const TileProducts &           products,
-            std::size_t                    i,
-            const std::vector<Neighbour> & neighbours)
+CompareTile(const TileProducts & products, std::size_t pixels, const std::vector<Neighbour> & neighbours)
 {
   const float          part = 1.0F / static_cast<float>(neighbours.size());
+  const Neighbour      itself{ 0, 0 };
   TileProducts::Values own{};      // square of the pixel plus square of the mean
   TileProducts::Values both{};     // twice their product
-  TileProducts::Values variance{}; // 0 at pixels that are left out and on the border
-  TileProducts::Values isUsed{};
-  TileProducts::Values expected{};
-  TileProducts::Values used{};
-  const std::size_t    pixels = residuals.GetTiles().Pixels();
-  for (std::size_t p = 0; p < pixels; ++p)
-  {
-    const float       weight = residuals.WeightOf(i)[p];
-    const std::size_t place = products.PlaceOf(p);
-    isUsed[place] = weight > 0.0F ? 1.0F : 0.0F;
-    variance[place] = weight > 0.0F ? 1.0F / weight : 0.0F;
-  }
+  TileProducts::Values expected{}; // variance of the pixel plus variance of the mean
   CallWithAvx2([&] {
-    products.AddProduct({ 0, 0 }, { 0, 0 }, 1.0F, own);
-    products.AddShifted(variance, { 0, 0 }, 1.0F, expected);
+    products.AddProduct(itself, itself, 1.0F, own);
+    products.AddShifted(products.GetVarianceDn2(), itself, 1.0F, expected);
     for (const Neighbour & neighbour : neighbours)
     {
-      products.AddProduct({ 0, 0 }, neighbour, 2.0F * part, both);
-      products.AddShifted(variance, neighbour, part * part, expected);
-      products.AddShifted(isUsed, neighbour, 1.0F, used);
+      products.AddProduct(itself, neighbour, 2.0F * part, both);
+      products.AddShifted(products.GetVarianceDn2(), neighbour, part * part, expected);
       for (const Neighbour & other : neighbours)
       {
         products.AddProduct(neighbour, other, part * part, own);
@@ -195,7 +191,7 @@ CompareTile(const NoiseResiduals &         residuals,
   for (std::size_t p = 0; p < pixels; ++p)
   {
     const std::size_t place = products.PlaceOf(p);
-    if (isUsed[place] > 0.0F && used[place] == static_cast<float>(neighbours.size()))
+    if (std::isfinite(expected[place])) // the pixel and all neighbours are used
     {
       const float ofNoise = static_cast<float>(products.GetDof()) * expected[place];
       compared[p] = { (own[place] - both[place]) / ofNoise, (own[place] + both[place]) / ofNoise };
@@ -243,7 +239,7 @@ CompareWithNeighbours(const NoiseResiduals & residuals, const ParallelFor & para
   parallelFor(count, [&](std::size_t i) { products[i].emplace(residuals, i); });
   for (const std::vector<Neighbour> & neighbours : MeansOfNeighbours)
   {
-    parallelFor(count, [&](std::size_t i) { sample[i] = CompareTile(residuals, *products[i], i, neighbours); });
+    parallelFor(count, [&](std::size_t i) { sample[i] = CompareTile(*products[i], size, neighbours); });
     const auto lower = [&](float Comparison::* member, std::vector<float> & ratios) {
       const double median = MedianOf(sample, member);
       for (std::size_t p = 0; p < ratios.size(); ++p)
@@ -278,6 +274,18 @@ LargestRatio(const SmallestRatios & smallest)
 }
 } // namespace
 
+void
+InterpolatedPixels::LeaveOutOf(std::vector<std::uint8_t> & take) const
+{
+  for (const std::vector<std::size_t> * const left : { &pixels, &notCompared })
+  {
+    for (const std::size_t p : *left)
+    {
+      take[p] = 0;
+    }
+  }
+}
+
 InterpolatedPixels
 FindInterpolatedPixels(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
 {
@@ -295,8 +303,9 @@ FindInterpolatedPixels(const NoiseResiduals & residuals, const ParallelFor & par
         found.pixels.push_back(residuals.PixelOf(i, p));
         lost += 1.0 - residuals.SquaresOf(i)[p] * residuals.WeightOf(i)[p] / residuals.GetDof();
       }
-      const bool isInside =
-        std::min(p % tiles.side, p / tiles.side) > 0 && std::max(p % tiles.side, p / tiles.side) + 1 < tiles.side;
+      const std::size_t x = p % tiles.side;
+      const std::size_t y = p / tiles.side;
+      const bool        isInside = std::min(x, y) > 0 && std::max(x, y) + 1 < tiles.side;
       if (!isInside)
       {
         found.notCompared.push_back(residuals.PixelOf(i, p));

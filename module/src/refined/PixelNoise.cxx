@@ -150,10 +150,7 @@ TakeCompared(NoiseResiduals &           residuals,
              const ParallelFor &        parallelFor)
 {
   std::vector<std::uint8_t> used = MaskOfUsed(variance.pixelUse);
-  for (const std::size_t p : interpolated.notCompared)
-  {
-    used[p] = 0;
-  }
+  interpolated.LeaveOutOf(used);
   residuals.Take(used, parallelFor);
 }
 
