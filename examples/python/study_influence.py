@@ -72,10 +72,10 @@ def effect_on(new, old):
     """Returns the effect on a report, an index of EFFECTS."""
     if new == old:
         return 0
-    pairs = list(zip(quantities_of(new), quantities_of(old), strict=False))
-    if verdicts_of(new) != verdicts_of(old) or len(list(quantities_of(new))) != len(list(quantities_of(old))):
+    news, olds = list(quantities_of(new)), list(quantities_of(old))
+    if verdicts_of(new) != verdicts_of(old) or len(news) != len(olds):
         return 2
-    for (new_path, value, error, status), (path, old_value, old_error, old_status) in pairs:
+    for (new_path, value, error, status), (path, old_value, old_error, old_status) in zip(news, olds, strict=True):
         if (new_path, status, value is None, error is None) != (path, old_status, old_value is None, old_error is None):
             return 2
         if value is not None and old_error and abs(value - old_value) > LITTLE * old_error:
