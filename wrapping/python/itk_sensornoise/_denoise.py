@@ -180,8 +180,7 @@ def _require_scale(levels: np.ndarray, slope: float, intercept: float, record: M
 
 
 def _code_spacing(levels: np.ndarray) -> int:
-    """Returns the largest number of which all distances between grey values are multiples [DN]; 0 if there are too few
-    grey values."""
+    """Returns the greatest common divisor of the distances between grey values [DN]; 0 if there are too few values."""
     codes = np.unique(levels).astype(np.int64)
     return int(np.gcd.reduce(np.diff(codes))) if codes.size >= _LEAST_CODES else 0
 

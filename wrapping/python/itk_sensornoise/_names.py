@@ -65,8 +65,8 @@ def refuse_other_formats(names: Iterable[FileName]) -> None:
         for endings, (kind, opened) in _LIBRARIES.items():
             if ending.endswith(endings):
                 raise ValueError(
-                    f"{name}: a file of {kind} format is opened by its own package; expected its array, of which "
-                    f"a few frames are read at a time: itk.estimate_sensor_noise({opened.format(repr(name))})"
+                    f"{name}: a file of {kind} format is opened by its own package; expected its array. A few "
+                    f"frames are read at a time: itk.estimate_sensor_noise({opened.format(repr(name))})"
                 )
         if ending.endswith(_VIDEOS):
             raise ValueError(
