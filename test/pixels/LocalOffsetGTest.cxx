@@ -130,6 +130,27 @@ TEST(SensorNoiseLocalOffset, GradientsOfTheIlluminationDoNotShiftTheOffset)
   EXPECT_LT(found->phi, 2.0); // 20 tiles with 2 lines each scatter by 0.2
 }
 
+// A spot in the middle is curved within every tile: the lines meet where its curvature is projected out.
+TEST(SensorNoiseLocalOffset, LinesMeetUnderCurvedIllumination)
+{
+  const Scene scene([](std::size_t p, double mean) {
+    const double x = static_cast<double>(p % Width) / Width - 0.5;
+    const double y = static_cast<double>(p / Width) / Height - 0.5;
+    return Eigen::Vector2d((mean - OffsetDn) * (1.0 - 4.0 * (x * x + y * y)), 0.0);
+  });
+  const auto  found = FindLocalOffset(scene.Data());
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->doLinesMeet);
+  EXPECT_LT(found->standardError, 20.0);
+  EXPECT_NEAR(found->offset + CentreDn, OffsetDn, 3.0 * found->standardError);
+}
+
+TEST(SensorNoiseLocalOffset, SlopesOfNoiseHaveNoCommonZero)
+{
+  const Scene scene([](std::size_t, double) { return Eigen::Vector2d(0.0, 0.0); });
+  EXPECT_FALSE(FindLocalOffset(scene.Data()));
+}
+
 TEST(SensorNoiseLocalOffset, DriftingLevelIsOneLineOverTheFrame)
 {
   EXPECT_TRUE(IsOffsetDrift(Scene(OneSourceAndADrift).Data()));

@@ -91,11 +91,12 @@ struct LocalOffset
 };
 
 /** Estimates the dark offset where the illumination is local. The response of a pixel to an illumination component is
- * S_j = rho_j (mean - mu), with rho_j nearly linear over a tile. Without the slopes of rho_j, the lines of all tiles
- * and components cross zero at mu. Tiles of 8 to 64 pixels and strips of rows are tried. Where rho_j is curved within
- * tiles, their lines do not meet in one zero. Some partitions have lines that meet. Of these, the partition with the
- * smallest error is used that agrees with the partitions of larger errors (Lepski 1990). The dispersion of the lines
- * widens the error. Null if no tile determines a line. Estimator.md, 3.7. */
+ * S_j = rho_j (mean - mu), with rho_j nearly linear or quadratic over a tile. Without the slopes and curvature of
+ * rho_j, the lines of all tiles and components cross zero at mu. Tiles of 8 to 64 pixels and strips of rows are tried.
+ * Linear terms do not suffice where curvature is significant. Where rho_j varies even more within tiles, their lines do
+ * not meet in one zero. Of the fits whose lines meet, the one with the smallest error is used that agrees with the fits
+ * of larger errors (Lepski 1990). The dispersion of the lines widens the error. Null if no tile determines a line.
+ * Estimator.md, 3.7. */
 SensorNoise_EXPORT std::optional<LocalOffset>
 FindLocalOffset(const IlluminationResponses & data, const ParallelFor & parallelFor = SerialFor);
 

@@ -100,6 +100,7 @@ struct ZeroErrors
 {
   double full{ 0.0 };        // sum of squares that free lines explain
   double information{ 0.0 }; // information on the zero [1/DN^2]
+  double scatter{ 0.0 };     // variance of this information [1/DN^4]
   double number{ 0.0 };      // number of lines
 };
 
@@ -111,18 +112,23 @@ SumErrors(const std::vector<TileSums> & tiles, double zero)
   {
     const double precision = s.Precision(zero);
     const double across = s.g12 - zero * s.g11;
+    const double leverage = (s.g11 - across * across / precision) / precision;
     for (std::size_t j = 0; j < s.r1.size(); ++j)
     {
       const double r = s.r2[j] - zero * s.r1[j];
+      const double signal = r * r / precision - 1.0; // square of the slope over its variance, without its noise
       sums.full +=
         (s.g22 * s.r1[j] * s.r1[j] - 2.0 * s.g12 * s.r1[j] * s.r2[j] + s.g11 * s.r2[j] * s.r2[j]) / s.Determinant();
-      sums.information += (r * r / (precision * precision) - 1.0 / precision) * (s.g11 - across * across / precision);
+      sums.information += signal * leverage;
+      sums.scatter += (2.0 + 4.0 * std::max(0.0, signal)) * leverage * leverage; // noncentral chi-square
       sums.number += 1.0;
     }
   }
   return sums;
 }
 
+/** Returns the common zero of \a tiles. Null: they determine none. The information on it is diminished by its own
+ * scatter: many slopes of mere noise have a common zero by chance. */
 std::optional<LocalOffset>
 FitTiles(const std::vector<TileSums> & tiles, const IlluminationResponses & data)
 {
@@ -131,16 +137,17 @@ FitTiles(const std::vector<TileSums> & tiles, const IlluminationResponses & data
   result.offset = FindCommonZero(tiles, start, data.rangeDn);
   result.tiles = tiles.size();
   const ZeroErrors errors = SumErrors(tiles, result.offset);
-  const double     top = Explained(tiles, result.offset);
+  const double     information = errors.information - Significance.oneTest * std::sqrt(errors.scatter);
+  if (!(information > 0.0))
+  {
+    return std::nullopt;
+  }
+  const double top = Explained(tiles, result.offset);
   result.phi = errors.number > 1.0 ? (errors.full - top) / (errors.number - 1.0) : 1.0;
   const double widening = std::max(1.0, result.phi);
   result.doLinesMeet =
     result.phi - 1.0 < std::max(InPattern.smallDispersion, Significance.oneTest * std::sqrt(2.0 / errors.number));
-  if (!(errors.information > 0.0))
-  {
-    return std::nullopt;
-  }
-  result.standardError = std::sqrt(widening / errors.information);
+  result.standardError = std::sqrt(widening / information);
   const double far =
     std::max(Explained(tiles, start - 20.0 * data.rangeDn), Explained(tiles, start + 20.0 * data.rangeDn));
   const double student = StudentQuantile(0.975, std::max(1.0, errors.number - 1.0));
@@ -152,48 +159,62 @@ FitTiles(const std::vector<TileSums> & tiles, const IlluminationResponses & data
   return result;
 }
 
-/** Number of the terms of a Surface. */
-constexpr int Terms = Surface::SizeAtCompileTime;
+/** Number of the terms of a surface whose coefficients vary linearly over a tile, and of one whose coefficients are
+ * also curved. */
+constexpr int Linear = Surface::SizeAtCompileTime;
+constexpr int Curved = 2 * Linear;
+
+/** Terms of a curved surface: those of Surface, then x^2, x y and y^2, and then these times I. */
+using CurvedSurface = Eigen::Matrix<double, Curved, 1>;
+
+/** Returns the terms of \a linear, and the same times the place \a x, \a y of second order. */
+CurvedSurface
+WithCurvature(const Surface & linear, double x, double y)
+{
+  const Eigen::Vector3d second(x * x, x * y, y * y);
+  return (CurvedSurface() << linear, second * linear(0), second * linear(1)).finished();
+}
 
 /** Sums over a tile of the products of the terms of its surface, and of these terms with each response. */
 struct TileMoments
 {
-  double                              n{ 0.0 };
-  Eigen::Matrix<double, Terms, Terms> gram{ Eigen::Matrix<double, Terms, Terms>::Zero() };
-  std::vector<Surface>                products;
+  double                                n{ 0.0 };
+  Eigen::Matrix<double, Curved, Curved> gram{ Eigen::Matrix<double, Curved, Curved>::Zero() };
+  std::vector<CurvedSurface>            products;
 
-  /** Returns the sums of 1 and I after the regression of both on the other terms (Frisch & Waugh 1933). Null if the
-   * contrast of the tile does not determine I x and I y: they differ from x and y by no more than the noise of the
-   * means of \a frames frames. */
+  /** Returns the sums of 1 and I after the regression of both on the other terms of the first \a terms (Frisch & Waugh
+   * 1933). Null if the contrast of the tile does not determine I x and I y: they differ from x and y by no more than
+   * the noise of the means of \a frames frames. */
   std::optional<TileSums>
-  WithoutPlace(double frames) const
+  WithoutPlace(double frames, int terms) const
   {
     const Eigen::Matrix2d ofPlace = gram.block<2, 2>(2, 2);
     const Eigen::Matrix2d both = gram.block<2, 2>(2, 4);
     const Eigen::Matrix2d contrast = gram.block<2, 2>(4, 4) - both.transpose() * ofPlace.ldlt().solve(both);
     const double          noise = n / (12.0 * frames); // noise of the coefficient of I x: the mean square of x is 1/12
-    if (!(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(contrast).eigenvalues()(0) >
-          InPattern.leastTileContrast * noise))
+    if (!(n > InPattern.leastTilePixels && Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(contrast).eigenvalues()(0) >
+                                             InPattern.leastTileContrast * noise))
     {
       return std::nullopt;
     }
-    const Eigen::Matrix<double, Terms - 2, 2> slopes =
-      gram.bottomRightCorner<Terms - 2, Terms - 2>().ldlt().solve(gram.bottomLeftCorner<Terms - 2, 2>());
-    const Eigen::Matrix2d left = gram.topLeftCorner<2, 2>() - gram.topRightCorner<2, Terms - 2>() * slopes;
+    const Eigen::MatrixXd slopes = gram.block(2, 2, terms - 2, terms - 2).ldlt().solve(gram.block(2, 0, terms - 2, 2));
+    const Eigen::Matrix2d left = gram.topLeftCorner<2, 2>() - gram.block(0, 2, 2, terms - 2) * slopes;
     TileSums              sums{ n, left(0, 0), left(0, 1), left(1, 1), {}, {} };
-    for (const Surface & product : products)
+    for (const CurvedSurface & product : products)
     {
-      const Eigen::Vector2d own = product.head<2>() - slopes.transpose() * product.tail<Terms - 2>();
+      const Eigen::Vector2d own = product.head<2>() - slopes.transpose() * product.segment(2, terms - 2);
       sums.r1.push_back(own(0));
       sums.r2.push_back(own(1));
     }
-    return sums;
+    const double determinant = sums.Determinant();
+    const bool   isLine = determinant > InPattern.leastTileContrast * sums.g11 * n / frames &&
+                        determinant > 1e-6 * sums.g11 * std::abs(sums.g22);
+    return isLine ? std::optional<TileSums>(std::move(sums)) : std::nullopt;
   }
 };
 
-/** Returns the sums of the tiles that determine a line: those with enough pixels whose levels differ by more than their
- * noise. */
-std::vector<TileSums>
+/** Returns the sums of the tiles of a partition. */
+std::vector<TileMoments>
 SumTiles(const IlluminationResponses &            data,
          const std::vector<std::vector<double>> & responses,
          std::size_t                              tileHeight,
@@ -207,17 +228,19 @@ SumTiles(const IlluminationResponses &            data,
   std::vector<TileMoments> moments(tiles.across * ((frame.geometry.height + tileHeight - 1) / tileHeight));
   for (TileMoments & own : moments)
   {
-    own.products.assign(factors, Surface::Zero());
+    own.products.assign(factors, CurvedSurface::Zero());
   }
   for (std::size_t p = 0; p < data.mask.size(); ++p)
   {
     if (data.mask[p] != 0)
     {
-      const double  w = 1.0 / data.line.At(frame.neighbourMean[p]);
-      const double  centred = frame.mean[p] - data.centreDn;
-      const Surface terms = tiles.SurfaceAt(p, width, centred);
-      const Surface ofMean = (Surface() << 0.0, 1.0, 0.0, 0.0, terms.segment<2>(2)).finished(); // derivative by I
-      TileMoments & own = moments[tiles.Of(p, width)];
+      const double        w = 1.0 / data.line.At(frame.neighbourMean[p]);
+      const double        centred = frame.mean[p] - data.centreDn;
+      const Surface       linear = tiles.SurfaceAt(p, width, centred);
+      const Surface       ofLinear = (Surface() << 0.0, 1.0, 0.0, 0.0, linear.segment<2>(2)).finished();
+      const CurvedSurface terms = WithCurvature(linear, linear(2), linear(3));
+      const CurvedSurface ofMean = WithCurvature(ofLinear, linear(2), linear(3)); // derivative by I
+      TileMoments &       own = moments[tiles.Of(p, width)];
       own.n += 1.0;
       own.gram += w * terms * terms.transpose() - ofMean * ofMean.transpose() / frames; // the noise of the mean
       for (std::size_t j = 0; j < factors; ++j)
@@ -226,21 +249,68 @@ SumTiles(const IlluminationResponses &            data,
       }
     }
   }
-  std::vector<TileSums> good;
-  for (const TileMoments & own : moments)
+  return moments;
+}
+
+/** Returns whether the illumination is curved within \a tiles: whether x^2, x y and y^2 times the signal above \a zero
+ * explain more of the responses than chance does. */
+bool
+IsCurvedWithin(const std::vector<TileMoments> & tiles, double zero)
+{
+  constexpr int                         half = Linear / 2;
+  Eigen::Matrix<double, Curved, Linear> ofSignal = Eigen::Matrix<double, Curved, Linear>::Zero(); // I minus the zero
+  constexpr std::array<int, Linear>     unit{ 0, 2, 3, 6, 7, 8 };
+  constexpr std::array<int, Linear>     mean{ 1, 4, 5, 9, 10, 11 };
+  for (int k = 0; k < Linear; ++k)
   {
-    if (!(own.n > InPattern.leastTilePixels))
+    ofSignal(mean[static_cast<std::size_t>(k)], k) = 1.0;
+    ofSignal(unit[static_cast<std::size_t>(k)], k) = -zero;
+  }
+  double explained = 0.0;
+  double number = 0.0;
+  for (const TileMoments & tile : tiles)
+  {
+    if (!(tile.n > InPattern.leastTilePixels))
     {
       continue;
     }
-    const std::optional<TileSums> s = own.WithoutPlace(frames);
-    if (s && s->Determinant() > InPattern.leastTileContrast * s->g11 * s->n / frames &&
-        s->Determinant() > 1e-6 * s->g11 * std::abs(s->g22))
+    const Eigen::Matrix<double, Linear, Linear> gram = ofSignal.transpose() * tile.gram * ofSignal;
+    const Eigen::Matrix3d slopes = gram.topLeftCorner<half, half>().ldlt().solve(gram.topRightCorner<half, half>());
+    const Eigen::Matrix3d left = gram.bottomRightCorner<half, half>() - gram.bottomLeftCorner<half, half>() * slopes;
+    if (!(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(left).eigenvalues()(0) > 0.0))
     {
-      good.push_back(*s);
+      continue;
+    }
+    for (const CurvedSurface & product : tile.products)
+    {
+      const Eigen::Matrix<double, Linear, 1> all = ofSignal.transpose() * product;
+      const Eigen::Vector3d                  own = all.tail<half>() - slopes.transpose() * all.head<half>();
+      explained += own.dot(left.ldlt().solve(own));
+      number += half;
     }
   }
-  return good;
+  return explained - number > Significance.oneTest * std::sqrt(2.0 * number);
+}
+
+/** Returns the fit of lines after the first \a terms of the surface of each tile. Null: there is none. */
+std::optional<LocalOffset>
+FitPartition(const std::vector<TileMoments> & moments, const IlluminationResponses & data, int terms)
+{
+  std::vector<TileSums> lines;
+  for (const TileMoments & own : moments)
+  {
+    if (const std::optional<TileSums> line = own.WithoutPlace(static_cast<double>(data.frame.frames), terms))
+    {
+      lines.push_back(*line);
+    }
+  }
+  std::optional<LocalOffset> fit = lines.empty() ? std::nullopt : FitTiles(lines, data);
+  if (fit) // only the lines of other tiles test a curved surface
+  {
+    const bool isPlausible = terms == Curved ? fit->tiles > 1 : !IsCurvedWithin(moments, fit->offset);
+    fit->doLinesMeet = fit->doLinesMeet && isPlausible;
+  }
+  return fit;
 }
 
 /** Returns the fit of the smallest standard error of those whose lines meet, and whose offset agrees with the weighted
@@ -276,27 +346,39 @@ ChoosePartition(std::vector<LocalOffset> fits)
 std::optional<LocalOffset>
 FindLocalOffset(const IlluminationResponses & data, const ParallelFor & parallelFor)
 {
-  const std::size_t                                    width = data.frame.geometry.width;
-  const auto                                           responses = RemoveMotionLeakage(data, parallelFor);
-  constexpr std::size_t                                trials = 6;
-  const std::array<std::array<std::size_t, 2>, trials> sizes{
-    { { 64, 64 }, { 32, 32 }, { 16, 16 }, { 8, 8 }, { 4, width }, { 16, width } }
+  const std::size_t width = data.frame.geometry.width;
+  const auto        responses = RemoveMotionLeakage(data, parallelFor);
+  /** Size of the tiles of a partition [pixel], and whether their surfaces may be curved: not in a tile of few pixels,
+   * nor in a strip, where the illumination is no curve of second order. */
+  struct TriedTiles
+  {
+    std::size_t height;
+    std::size_t width;
+    bool        mayBeCurved;
   };
-  std::array<std::optional<LocalOffset>, trials> fits;
+  constexpr std::size_t                trials = 6;
+  const std::array<TriedTiles, trials> partitions{
+    { { 64, 64, true }, { 32, 32, true }, { 16, 16, true }, { 8, 8, false }, { 4, width, false }, { 16, width, false } }
+  };
+  std::array<std::array<std::optional<LocalOffset>, 2>, trials> fits;
   parallelFor(trials, [&](std::size_t trial) {
-    const auto [tileHeight, tileWidth] = sizes[trial];
-    const std::vector<TileSums> tiles = SumTiles(data, responses, tileHeight, tileWidth);
-    if (!tiles.empty())
+    const TriedTiles &             partition = partitions[trial];
+    const std::vector<TileMoments> tiles = SumTiles(data, responses, partition.height, partition.width);
+    fits[trial][0] = FitPartition(tiles, data, Linear);
+    if (partition.mayBeCurved)
     {
-      fits[trial] = FitTiles(tiles, data);
+      fits[trial][1] = FitPartition(tiles, data, Curved);
     }
   });
   std::vector<LocalOffset> found;
-  for (const std::optional<LocalOffset> & fit : fits)
+  for (const auto & ofPartition : fits)
   {
-    if (fit)
+    for (const std::optional<LocalOffset> & fit : ofPartition)
     {
-      found.push_back(*fit);
+      if (fit)
+      {
+        found.push_back(*fit);
+      }
     }
   }
   return ChoosePartition(std::move(found));
