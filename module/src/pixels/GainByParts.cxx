@@ -5,7 +5,6 @@
 #include "base/Constants.h"
 #include "base/Quantiles.h"
 #include "pixels/Constants.h"
-#include "pixels/PartRegression.h"
 
 #include <algorithm>
 #include <cmath>

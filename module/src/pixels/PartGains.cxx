@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/PartGains.h"
+#include "pixels/GainByParts.h"
 
 #include "base/Constants.h"
 #include "pixels/Constants.h"
-#include "pixels/PartRegression.h"
 
 #include <algorithm>
 #include <cstddef>
