@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/IlluminationResponses.h"
 #include "base/Eigen.h"
-#include "pixels/ProjectedSquares.h"
+#include "pixels/ProjectedVariance.h"
 #include "pixels/VarianceLine.h"
 #include "helpers/ProjectionTestHelper.h"
 

@@ -4,7 +4,7 @@
 #include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Report.h"
-#include "pixels/ProjectedSquares.h"
+#include "pixels/ProjectedVariance.h"
 #include "helpers/ProjectionTestHelper.h"
 
 #include <cmath>

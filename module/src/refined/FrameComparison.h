@@ -4,7 +4,7 @@
 #define sensornoise_refined_FrameComparison_h
 
 #include "correlation/NoiseResiduals.h"
-#include "pixels/ProjectedSquares.h"
+#include "pixels/ProjectedVariance.h"
 #include "pixels/StaticVariance.h"
 #include "refined/FramePhotonTransfer.h"
 #include "scene/StaticScene.h"

@@ -6,7 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "correlation/FrameSample.h"
 #include "correlation/NoiseCorrelation.h"
-#include "pixels/ProjectedSquares.h"
+#include "pixels/ProjectedVariance.h"
 #include "pixels/StaticVariance.h"
 #include "pixels/VarianceLine.h"
 #include "refined/FramePhotonTransfer.h"

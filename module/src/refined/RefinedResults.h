@@ -8,7 +8,7 @@
 #include "correlation/NoiseResiduals.h"
 #include "moments/Exposures.h"
 #include "pixels/IlluminationResponses.h"
-#include "pixels/ProjectedSquares.h"
+#include "pixels/ProjectedVariance.h"
 #include "pixels/ProjectionSums.h"
 #include "pixels/StaticVariance.h"
 #include "refined/FramePhotonTransfer.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/ProjectedSquares.h"
+#include "pixels/ProjectedVariance.h"
 
 #include "base/Simd.h"
 #include "base/BoxSum.h"
@@ -8,9 +8,6 @@
 #include "base/Stencils.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/Constants.h"
-#include "pixels/ProjectedVariance.h"
-#include "pixels/RoughnessClasses.h"
-#include "pixels/VarianceLine.h"
 #include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
 #include "series/MotionSeries.h"
