@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/RejectionModel.h"
+#include "pixels/StaticVariance.h"
 #include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/Constants.h"

@@ -8,7 +8,6 @@
 #include "pixels/RoughnessClasses.h"
 #include "pixels/GainByParts.h"
 #include "pixels/UnequalIllumination.h"
-#include "pixels/RejectionModel.h"
 #include "pixels/FixedPatternEstimate.h"
 #include "pixels/ProjectedVariance.h"
 #include "pixels/VarianceFit.h"

@@ -8,16 +8,192 @@
 #include "pixels/CodeNoise.h"
 #include "pixels/GainByParts.h"
 #include "pixels/FixedPatternEstimate.h"
-#include "pixels/RejectionModel.h"
 #include "pixels/VarianceCurve.h"
 #include "pixels/VarianceLine.h"
+#include "base/Simd.h"
+#include "base/Constants.h"
+#include "pixels/ProjectedVariance.h"
+#include "scene/ReferenceFrame.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace sensornoise
 {
+
+/** Rejection model: the variance that pixels are tested against. It is a line times the deviation from the line that
+ * the whole sensor has, for example by a non-linear response, and it includes the dispersion of the noise from pixel to
+ * pixel. Pixels are not rejected for these. */
+struct SensorNoise_EXPORT RejectionModel
+{
+  VarianceLine        line;   ///< the line, with the dispersion of the noise from pixel to pixel
+  std::vector<double> levels; ///< levels in rising order [DN]; empty: the model is the line
+  std::vector<double> ratios; ///< variance over the line at these levels [1]
+  bool byNeighbours{ false }; ///< true: a pixel's level is its neighbours' mean, because its own offset is not signal
+  /** Variance inflation of the mean of many pixels by the spatial noise correlation: the sum over all lags of the
+   * squared correlation coefficients [1]. */
+  double varianceInflation{ 1.0 };
+
+  /** Returns the expected variance at the level \a meanDn [DN^2]. */
+  double
+  At(double meanDn) const
+  {
+    RunValues variance{};
+    this->FillVariance(&meanDn, 1, variance);
+    return variance[0];
+  }
+  /** Sets \a variance to the expected variance at the levels of \a pixels pixels, at most PixelsPerRun, with SIMD
+   * instructions [DN^2]. */
+  void
+  FillVariance(const double * meanDn, std::size_t pixels, RunValues & variance) const
+  {
+    const VarianceLine own = line; // a copy that no pointer can alias, which SIMD instructions need
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      variance[i] = own.At(meanDn[i]);
+    }
+    if (levels.empty())
+    {
+      return;
+    }
+    // The ratio is interpolated as a sum of its increments from each level to the next.
+    RunValues ratio{};
+    std::fill_n(ratio.begin(), pixels, ratios[0]);
+    for (std::size_t k = 0; k + 1 < levels.size(); ++k)
+    {
+      const double low = levels[k];
+      const double high = levels[k + 1];
+      const double slope = (ratios[k + 1] - ratios[k]) / (high - low);
+      for (std::size_t i = 0; i < pixels; ++i)
+      {
+        ratio[i] += slope * (std::max(low, std::min(high, meanDn[i])) - low);
+      }
+    }
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      variance[i] *= ratio[i];
+    }
+  }
+  /** Returns the levels of the pixels of \a frame at which they are tested [DN]. */
+  const std::vector<double> &
+  LevelsOf(const ReferenceFrame & frame) const
+  {
+    return byNeighbours ? frame.neighbourMean : frame.mean;
+  }
+  /** Returns the degrees of freedom of a pixel's variance, reduced by the dispersion of the noise from pixel to
+   * pixel. */
+  double
+  EffectiveDof(double dof, double varianceDn2) const
+  {
+    return line.EffectiveDof(dof, varianceDn2);
+  }
+};
+
+/** Measures the deviation of the whole sensor from \a line. The sensor deviates everywhere, moving objects do so in
+ * places. Therefore the frame is divided into tiles of 16 x 16 pixels, which are sorted into up to 16 bins of the
+ * level. The deviation in a bin is the median excess of its smoother half of tiles. The dispersion of the noise from
+ * pixel to pixel is the median over the dark tiles.
+ *
+ * The result is \a line alone if no deviation exceeds InPixels.leastDeviation by Significance.hint standard errors.
+ * \a blackDn is as in EstimateFixedPattern(). */
+SensorNoise_EXPORT RejectionModel
+FitRejectionModel(const VarianceLine &              line,
+                  const ProjectedVariance &         projected,
+                  const std::vector<std::uint8_t> & mask,
+                  double                            blackDn,
+                  const ParallelFor &               parallelFor);
+
+/** Limits beyond which a chi-square variable over its degrees of freedom deviates from 1 by more than
+ * Significance.manyTests standard deviations. The cube root of the variable is about normal (Wilson & Hilferty
+ * 1931). */
+struct FarLimits
+{
+  double low;  ///< lower limit [1]
+  double high; ///< upper limit [1]
+
+  /** Computes the limits for \a freedom degrees of freedom, above 0. */
+  explicit FarLimits(double dof)
+  {
+    const double s = 2.0 / (9.0 * dof);
+    const double far = Significance.manyTests * std::sqrt(s);
+    const double above = 1.0 - s + far;
+    const double below = 1.0 - s - far;
+    low = below * below * below;
+    high = above * above * above;
+  }
+};
+
+/** Test of a run of pixels, inside and outside the mask, against a rejection model, with SIMD instructions. */
+struct TestedRun
+{
+  RunValues expected; ///< variance by the model at the pixel's level [DN^2]
+  RunValues ratio;    ///< variance over the expected variance [1]
+  RunValues isAbove;  ///< 1 where the ratio is beyond the upper limit of FarLimits, else 0
+  RunValues isOff;    ///< 1 where the ratio is beyond either limit of FarLimits, else 0
+
+  /** Tests \a pixels pixels, at most PixelsPerRun, from pixel \a first on. */
+  void
+  Test(const ProjectedVariance & projected, const RejectionModel & model, std::size_t first, std::size_t pixels)
+  {
+    const ReferenceFrame & frame = projected.GetFrame();
+    const double * const   level = model.LevelsOf(frame).data() + first;
+    const float * const    dof = projected.GetDof().data() + first;
+    const VarianceLine     line = model.line;
+    model.FillVariance(level, pixels, expected);
+    projected.GetVariance().Fill(first, pixels, ratio.data());
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      ratio[i] /= expected[i];
+      const FarLimits far(line.EffectiveDof(dof[i], expected[i]));
+      isAbove[i] = ratio[i] < far.high ? 0.0 : 1.0;
+      isOff[i] = ratio[i] > far.low ? isAbove[i] : 1.0;
+    }
+  }
+};
+
+/** Result of the test of the roughness classes against a rejection model. */
+struct ClassFit
+{
+  /** First rejected class; all rougher classes are rejected, too. */
+  std::size_t         firstBad{ ProjectedVariance::Classes };
+  std::vector<double> pixels; ///< number of pixels of each class
+  /** Mean of variance over model of each class, without outliers [1]. */
+  std::vector<double> ratio;
+  /** Reduced chi-square of the ratios of the classes that are kept [1]. */
+  double reducedChi2{ 1.0 };
+};
+
+/** Compares the mean variance of each roughness class with the flat classes. A class fails if its mean is higher by
+ * more than 3 standard errors and 0.15 %, or if its fraction of outliers is higher by 1 %. The first of two failing
+ * classes in a row, and all rougher ones, are rejected. Estimator.md, 3.5. */
+SensorNoise_EXPORT ClassFit
+TestClasses(const ProjectedVariance &         projected,
+            const RejectionModel &            line,
+            const std::vector<std::uint8_t> & mask,
+            const ParallelFor &               parallelFor);
+
+/** Marks the pixels of \a mask whose variance is less than the variance of their shot noise alone, by more than chance.
+ * They are no measurements: cameras replace defective pixels, and pixels of the autofocus, by the mean of their
+ * neighbours. What these pixels share with their neighbours would count twice in the sums over lags. Empty if there
+ * are too few to matter. Estimator.md, 3.5. */
+SensorNoise_EXPORT std::vector<std::uint8_t>
+FindQuietPixels(const ProjectedVariance &         projected,
+                const VarianceLine &              line,
+                const std::vector<std::uint8_t> & mask,
+                const ParallelFor &               parallelFor);
+
+/** Marks the pixels of neighbourhoods that do not fit the rejection model. A neighbourhood is rejected if the mean
+ * variance of its 15 x 15 pixels exceeds the model by 5 standard deviations and 4 %, or if it holds 15 % outliers.
+ * Single noisy pixels are not marked; the fit trims them. Estimator.md, 3.5. */
+SensorNoise_EXPORT std::vector<std::uint8_t>
+RejectNeighbourhoods(const ProjectedVariance &         projected,
+                     const RejectionModel &            line,
+                     const std::vector<std::uint8_t> & mask,
+                     const ParallelFor &               parallelFor);
 
 class ProjectedSquares;
 
