@@ -4,17 +4,170 @@
 #define sensornoise_refined_RefinedEstimate_h
 
 #include "SensorNoiseExport.h"
-#include "refined/FlickerSeries.h"
-#include "refined/MotionEstimate.h"
 #include "refined/OffsetEstimate.h"
 #include "refined/RefinedResults.h"
-#include "refined/SensorQuantities.h"
 #include "sensornoise/Settings.h"
+#include "pixels/PartTiles.h"
+#include "refined/GainEstimate.h"
+#include "sensornoise/Report.h"
+#include "base/Eigen.h"
 
+#include <array>
+#include <cstdint>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace sensornoise
 {
+
+/** Reason why the standard deviation of the flicker is not identifiable. */
+enum class FlickerFailure : std::uint8_t
+{
+  None,            ///< it is identifiable, or an upper limit
+  UnknownOffset,   ///< the change of the illumination has no bounds, as the offset has none
+  UncertainOffset, ///< the error of the offset leaves the change of the illumination too uncertain
+  NoiseOfFrames    ///< the flicker is not distinguished from the noise of the frames
+};
+
+/** Flicker, relative to the signal above an offset. */
+struct SeriesOfFlicker
+{
+  std::vector<double>     gamma; ///< illumination factor of every frame, minus 1 [1]
+  Quantity                sd;    ///< its standard deviation over the frames [1]
+  FlickerFailure          failure{ FlickerFailure::None };
+  double                  scaleError{ 0.0 }; ///< relative error of the change by the error of the offset [1]
+  std::optional<Interval> limit;             ///< 95 % interval of the standard deviation, also after a failure [1]
+};
+
+/** Estimates the flicker at the dark offset \a offset. \a modelError is the relative error of the flicker by a
+ * non-linear response [1]. */
+SensorNoise_EXPORT SeriesOfFlicker
+EstimateFlicker(const RefinedResults & found, const UsedOffset & offset, double modelError);
+
+/** Motion of the scene. */
+struct SeriesOfMotion
+{
+  std::vector<std::array<double, 2>> shifts; ///< shift of every frame [pixel]; NaN: too dark. Empty: not identifiable
+  Quantity                           sdX;    ///< [pixel]
+  Quantity                           sdY;    ///< [pixel]
+  Quantity                           covariance; ///< [pixel^2]
+};
+
+/** Estimates the motion beside the flicker \a gamma of the frames, at the same offset. An error of the offset turns a
+ * part of the flicker into apparent motion. */
+SensorNoise_EXPORT SeriesOfMotion
+EstimateMotion(const RefinedResults & found, const std::vector<double> & gamma, const UsedOffset & offset);
+
+/** Verdict on the slope of the variance: whether it is the gain of a sensor, or the reason why not. */
+enum class GainVerdict : std::uint8_t
+{
+  Identified,
+  // The data do not determine the gain.
+  TooFewPixels,   ///< too few of the pixels that are not clipped fit a static scene
+  FewLitFrames,   ///< flicker and motion take up the shot noise of the few frames that hold the illumination
+  LevelsTooAlike, ///< the levels of the scene differ too little
+  // The data contradict a sensor of one gain.
+  FramesDiffer,        ///< the noise variance of the frames does not follow their levels
+  IlluminationIsLeft,  ///< the noise correlation, which changes the gain much, may be due to the illumination
+  NotAffine,           ///< the variance deviates from its line
+  GainDependsOnOffset, ///< the variance is a curve of the mean, and the gain depends on the assumed read noise
+  NotRising,           ///< the variance does not rise with the mean
+  LineIllumination,    ///< the illumination differs between rows or columns of one frame
+  NoiseNotLinear       ///< medians, compression or repeated frames made the noise
+};
+
+/** Returns the verdict on the slope of \a gain by the fit and the pixels: all but LineIllumination and NoiseNotLinear,
+ * which do not depend on the fit. */
+SensorNoise_EXPORT GainVerdict
+TestGain(const RefinedResults & found, const GainEstimate & gain);
+
+/** Returns the status of the sensor's quantities by the verdict. */
+SensorNoise_EXPORT EstimateStatus
+StatusBy(GainVerdict verdict);
+
+/** Returns the factor by which the noise correlation changes the slope of the variance, 1 or more [1]. */
+SensorNoise_EXPORT double
+CorrectionByCorrelation(const RefinedResults & found, const GainEstimate & gain);
+
+/** Bounds of the gain by a known offset alone: the line passes the offset with a variance between 0 and the lowest
+ * variance of the frames [DN/e-]. Null: the offset is not known, or dark frames with their variance are. */
+SensorNoise_EXPORT std::optional<Interval>
+GainBounds(const RefinedResults & found, const GainEstimate & gain);
+
+/** Frames that hold most of the illumination. */
+struct LitFrames
+{
+  std::vector<Eigen::Index> frames;               ///< indices of the frames, in rising order
+  double                    illumination{ 0.0 };  ///< their fraction of the illumination of all frames [1]
+  double                    noiseFraction{ 0.0 }; ///< fraction of the shot noise that flicker and motion leave [1]
+};
+
+/** Returns the frames that hold the illumination, if they are few and flicker and motion take up nearly all of their
+ * shot noise. Estimator.md, 3.5. */
+SensorNoise_EXPORT std::optional<LitFrames>
+FindFewLitFrames(const RefinedResults & found);
+
+/** Gains of parts of the frame or of the burst that differ. */
+struct UnlikeParts
+{
+  Partition         partition; ///< how the pixels or frames are divided
+  double            rms;       ///< rms of the parts' gains about their mean, beyond chance, relative to it [1]
+  GainByPartsRecord record;    ///< gain of every part
+
+  /** Returns the parts of the lowest and of the highest gain. */
+  SensorNoise_EXPORT std::pair<const GainByPartsRecord::Part &, const GainByPartsRecord::Part &>
+  Extremes() const;
+};
+
+/** A line of the variance, the verdict on it, and its quantities. */
+struct TestedGain
+{
+  GainEstimate             line;
+  GainVerdict              verdict{ GainVerdict::NoiseNotLinear };
+  Quantity                 gain;           ///< [DN/e-]
+  Quantity                 varianceSlope;  ///< with the slope of the quantization noise [DN/e-]
+  Quantity                 intercept;      ///< sigma^2 - g mu, without quantization noise [DN^2]
+  Quantity                 totalIntercept; ///< with quantization noise [DN^2]
+  std::vector<UnlikeParts> parts;          ///< empty: the gain is uniform, or is not identified
+
+  bool
+  IsIdentified() const
+  {
+    return verdict == GainVerdict::Identified;
+  }
+};
+
+/** Returns the quantities of \a line as far as \a verdict lets them be identified. The intervals contain the gains of
+ * all parts of the levels, the frame and the burst. \a quantisationDn2 is the variance of the quantization noise
+ * [DN^2]. */
+SensorNoise_EXPORT TestedGain
+QuantitiesBy(GainVerdict verdict, const GainEstimate & line, const RefinedResults & found, double quantisationDn2);
+
+/** Dark offset and read noise. */
+struct DarkQuantities
+{
+  Quantity offset;                                                                ///< [DN]
+  Quantity readNoise;                                                             ///< [DN]
+  Quantity readNoiseMedian{ Quantity::Without(EstimateStatus::NotIdentifiable) }; ///< [DN]
+  Quantity readNoiseElectrons;                                                    ///< [e-]
+  /** Covariance matrix of the errors of gain, intercept and offset; null: not known, see Report::covariance. */
+  std::optional<std::array<std::array<double, 3>, 3>> covariance;
+};
+
+/** Returns what the dark frames or the user say of offset and read noise. Quantities that they do not determine have
+ * \a status. \a quantisationDn2 is the variance of the quantization noise [DN^2]. */
+SensorNoise_EXPORT DarkQuantities
+QuantitiesOfDarkFrames(const RefinedSettings & settings, double quantisationDn2, EstimateStatus status);
+
+/** Returns offset and read noise beside an identified gain. The offset is the known one, if there is one, else
+ * \a flicker. \a quantisationDn2 is the variance of the quantization noise [DN^2]. */
+SensorNoise_EXPORT DarkQuantities
+QuantitiesByOffset(const RefinedResults & found,
+                   const GainEstimate &   gain,
+                   const OffsetLimits &   limits,
+                   const OffsetEstimate & flicker,
+                   double                 quantisationDn2);
 
 /** Estimates of the refined method from the results of its passes: every number with its error and verdict, and the
  * numbers of messages, but no message. MakeRefinedReport() makes the report of it. */

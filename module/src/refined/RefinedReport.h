@@ -8,7 +8,6 @@
 #include "correlation/NoiseCorrelation.h"
 #include "refined/RefinedEstimate.h"
 #include "refined/RefinedResults.h"
-#include "refined/SensorQuantities.h"
 #include "scene/StaticScene.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Report.h"
