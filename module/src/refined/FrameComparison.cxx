@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "refined/FrameComparison.h"
+#include "refined/FramePhotonTransfer.h"
 
 #include "correlation/FrameEnergies.h"
 #include "pixels/RoughnessClasses.h"

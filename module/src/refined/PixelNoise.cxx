@@ -9,7 +9,6 @@
 #include "correlation/NoiseResiduals.h"
 #include "moments/DarkFrames.h"
 #include "refined/Constants.h"
-#include "refined/FrameComparison.h"
 #include "refined/FramePhotonTransfer.h"
 #include "report/StackReport.h"
 #include "sensornoise/Report.h"
