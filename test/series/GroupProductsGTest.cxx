@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "series/GroupProducts.h"
+#include "series/RegressorBand.h"
 #include "simulation/Random.h"
 
 #include <algorithm>
