@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "series/CellNoise.h"
-#include "base/Eigen.h"
 #include "series/LocalIllumination.h"
+#include "base/Eigen.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "series/CellNoise.h"
+#include "series/LocalIllumination.h"
 
 #include "series/Constants.h"
 

@@ -4,7 +4,6 @@
 
 #include "base/Constants.h"
 #include "base/Quantiles.h"
-#include "series/CellNoise.h"
 #include "series/Constants.h"
 
 #include <algorithm>
