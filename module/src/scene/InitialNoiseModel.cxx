@@ -7,7 +7,6 @@
 #include "base/Quantiles.h"
 #include "base/Stencils.h"
 #include "scene/Constants.h"
-#include "scene/SharpScene.h"
 
 #include <algorithm>
 #include <cmath>

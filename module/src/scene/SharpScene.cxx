@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/SharpScene.h"
+#include "scene/InitialNoiseModel.h"
 
 #include "base/Quantiles.h"
 #include "base/Stencils.h"

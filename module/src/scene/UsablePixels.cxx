@@ -8,7 +8,7 @@
 #include "base/Stencils.h"
 #include "base/Text.h"
 #include "base/BoxSum.h"
-#include "scene/SharpScene.h"
+#include "scene/InitialNoiseModel.h"
 
 #include <algorithm>
 #include <array>
