@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/TransientRegion.h"
+#include "scene/UsablePixels.h"
 #include "base/Stencils.h"
 #include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"

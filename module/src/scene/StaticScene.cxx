@@ -8,7 +8,6 @@
 #include "base/Stencils.h"
 #include "moments/StackFrames.h"
 #include "scene/Constants.h"
-#include "scene/TransientRegion.h"
 #include "scene/UsablePixels.h"
 
 #include <algorithm>
