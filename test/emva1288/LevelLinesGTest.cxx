@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "emva1288/LevelLines.h"
+#include "emva1288/EvaluationSteps.h"
 #include "simulation/Random.h"
 
 #include <cmath>

@@ -5,7 +5,6 @@
 #include "base/Text.h"
 #include "emva1288/Constants.h"
 #include "emva1288/EvaluationSteps.h"
-#include "emva1288/LevelLines.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,6 @@
 
 #include "base/ChiSquare.h"
 #include "emva1288/Constants.h"
-#include "emva1288/LevelLines.h"
 #include "moments/Exposures.h"
 #include "report/Quantities.h"
 

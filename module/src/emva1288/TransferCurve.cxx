@@ -5,7 +5,6 @@
 #include "base/ChiSquare.h"
 #include "base/Text.h"
 #include "emva1288/Constants.h"
-#include "emva1288/LevelLines.h"
 
 #include <algorithm>
 #include <cmath>
