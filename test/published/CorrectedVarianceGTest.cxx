@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "published/CorrectedVariance.h"
+#include "published/Flicker.h"
 #include "sensornoise/FrameGeometry.h"
 #include "base/PixelLayout.h"
-#include "published/Flicker.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "published/CorrectedVariance.h"
+#include "published/Flicker.h"
 
 #include "base/BinaryStream.h"
 #include "base/ParallelWork.h"

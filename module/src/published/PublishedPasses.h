@@ -9,7 +9,6 @@
 #include "sensornoise/Parallel.h"
 #include "base/PixelLayout.h"
 #include "moments/StackPasses.h"
-#include "published/CorrectedVariance.h"
 #include "published/Flicker.h"
 #include "published/PublishedEstimate.h"
 #include "published/PublishedScene.h"
