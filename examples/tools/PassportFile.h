@@ -3,7 +3,7 @@
 #ifndef PassportFile_h
 #define PassportFile_h
 
-#include "sweep/NoiseInterpolation.h"
+#include "sweep/Setting.h"
 #include "sweep/SweepSummary.h"
 
 #include <nlohmann/json.hpp>

@@ -3,7 +3,7 @@
 // Writes the noise model of a report of estimate-sensor-noise in the format of another program:
 //   export-noise-model report.json --format dng --output noise_profile.txt
 
-#include "sweep/NoiseInterpolation.h"
+#include "sweep/Setting.h"
 #include "tools/ErrorSentence.h"
 #include "tools/ExportOptions.h"
 #include "tools/FilesInUse.h"

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sweep/GainLine.h"
 #include "sweep/SweepSummary.h"
 
 #include "helpers/PageTestHelper.h"

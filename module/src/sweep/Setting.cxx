@@ -3,7 +3,6 @@
 #include "sweep/Setting.h"
 
 #include "base/Text.h"
-#include "sweep/NoiseInterpolation.h"
 
 #include <algorithm>
 #include <cmath>

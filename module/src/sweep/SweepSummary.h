@@ -4,8 +4,6 @@
 #define sensornoise_sweep_SweepSummary_h
 
 #include "SensorNoiseExport.h"
-#include "sweep/GainLine.h"
-#include "sweep/NoiseInterpolation.h"
 #include "sweep/Setting.h"
 
 #include <array>
@@ -14,8 +12,116 @@
 #include <string>
 #include <vector>
 
+/** \file
+ * The gains of the settings of a sweep: the level that most of them share, their lines with the switch of the
+ * conversion gain, and the common gain of exposures. With them, the summary of the sweep. */
+
 namespace sensornoise
 {
+
+/** ln(gain / setting) of one setting. */
+struct GainRatio
+{
+  double setting{ 0.0 };
+  double logRatio{ 0.0 };
+  double standardError{ 0.0 }; ///< with SweepConstants::gainRounding
+};
+
+/** Level of the largest group of ratios. */
+struct GainLevel
+{
+  double logRatio{ 0.0 };
+  double standardError{ 0.0 };
+  double loss{ 0.0 }; ///< sum of squared deviations over their errors, each at most Significance.severalTests squared
+  double chi2{ 0.0 }; ///< chi-square of the settings on the level alone
+  std::size_t settings{ 0 }; ///< settings on the level
+};
+
+/** Returns the ratios of all settings with a gain. */
+std::vector<GainRatio>
+GainRatiosOf(const std::vector<SettingNoise> & settings);
+
+/** Returns whether a ratio is on the level: within Significance.oneTest errors or SweepConstants::leastGainDeviation.
+ */
+bool
+IsOnLevel(const GainRatio & ratio, const GainLevel & level);
+
+/** Finds the level of the least loss, of the ratios from \a first to before \a last. There must be one or more. */
+GainLevel
+FindGainLevel(const std::vector<GainRatio> & ratios, std::size_t first, std::size_t last);
+
+/** Place at which a camera switches its conversion gain, and what changes there. One of the two steps is there. */
+struct GainSwitch
+{
+  double below{ 0.0 }; ///< highest setting before the switch
+  double above{ 0.0 }; ///< lowest setting behind the switch
+  /** Gain over setting behind the switch, relative to before [1]; none: not significant. Cameras whose ISO speeds are
+   * true have none. */
+  std::optional<NumberWithError> gainStep;
+  /** Read noise in electrons behind the switch, relative to the read noise without it, at the geometric mean of below
+   * and above [1]; none: not significant. */
+  std::optional<NumberWithError> readNoiseStep;
+};
+
+/** Finds the switch of the conversion gain in a sweep, for instance of a sensor with dual conversion gain.
+ *
+ * Two signs are tested at each place with two settings or more on both sides, which a single deviating setting cannot
+ * show. The read noise in electrons follows sigma^2 = A + B / setting^2, noise before and behind the amplifier; the
+ * switch lowers A and leaves B. The logarithm of gain / setting is constant, and a step divides it in two levels, each
+ * shared by two settings or more. A sign counts if it exceeds its least size (SweepConstants), and its chi-square
+ * Significance.severalTests squared. The chi-square of the read noise is divided by the reduced chi-square of the model
+ * with the switch, if that is above 1. Where both signs are found at places that exclude each other, the more
+ * significant one counts. Returns none if no sign counts. Throws std::invalid_argument as RequireSettings(). */
+SensorNoise_EXPORT std::optional<GainSwitch>
+FindGainSwitch(const std::vector<SettingNoise> & settings);
+
+/** The lines gain = scale x setting of a sweep. */
+struct GainLine
+{
+  /** One line: settings from the lowest to the highest one. */
+  struct Part
+  {
+    NumberWithError scale;          ///< gain over setting [DN/e-]
+    double          lowest{ 0.0 };  ///< lowest setting of the part
+    double          highest{ 0.0 }; ///< highest setting of the part
+    std::size_t     settings{ 0 };  ///< settings on the line
+    /** Reduced chi-square of the settings on the line, with SweepConstants::gainRounding [1]. */
+    double reducedChi2{ 0.0 };
+  };
+  std::vector<Part> parts; ///< one; two if the switch changes gain / setting; none: no line
+  /** Deviation of the gain of each setting from its line, relative to it [1]; none: no gain, or no line. */
+  std::vector<std::optional<double>> deviation;
+  std::vector<bool> isBeside; ///< whether the setting leaves the line, for instance an extended ISO speed
+};
+
+/** Fits gain = scale x setting by weighted least squares of the logarithms. The line goes through the largest group of
+ * settings that agree: a setting leaves it if its gain deviates by more than Significance.oneTest standard errors and
+ * SweepConstants::leastGainDeviation. There is no line if fewer than two settings, or not more than half of them, are
+ * on it. Throws std::invalid_argument as RequireSettings(). */
+SensorNoise_EXPORT GainLine
+FitGainLine(const std::vector<SettingNoise> & settings, const std::optional<GainSwitch> & conversionSwitch);
+
+/** The gain that settings share which differ in the exposure time alone, and whether they share it. */
+struct CommonGain
+{
+  std::string     channel{ "mono" };
+  NumberWithError gain;               ///< weighted mean of the gains [DN/e-]
+  std::size_t     settings{ 0 };      ///< settings with a gain and its error
+  double          reducedChi2{ 0.0 }; ///< scatter of the gains over their errors, squared [1]
+  bool            isSame{ true };     ///< whether no setting differs from the others
+  double          setting{ 0.0 }; ///< setting that deviates most in standard errors, of those that differ if any does
+  NumberWithError deviation;      ///< its gain over the weighted mean of the others, less 1 [1]
+};
+
+/** Tests whether the gains of settings are equal, and pools them as their mean, weighted by 1 / error squared.
+ *
+ * Each gain is compared with the weighted mean of all others. A setting differs if its deviation exceeds both
+ * SweepConstants::leastCommonGainDeviation and Significance.severalTests standard errors. If the
+ * gains scatter by more than their errors, the error of the mean is multiplied by the root of the reduced chi-square.
+ * Returns none if fewer than two settings have a gain with an error above 0. Throws std::invalid_argument as
+ * RequireSettings(). */
+SensorNoise_EXPORT std::optional<CommonGain>
+FindCommonGain(const std::vector<SettingNoise> & settings);
 
 /** Numbers of one channel of a camera at one setting; none where a number is not identified. */
 struct SweepRow
