@@ -4,7 +4,6 @@
 
 #include "base/Eigen.h"
 #include "base/Constants.h"
-#include "pixels/NormalEquations.h"
 
 #include <algorithm>
 #include <cmath>
