@@ -35,7 +35,7 @@
 // Numbers agree to 1e-9 of themselves, zeros and text exactly, messages but for the numbers in them, which are rounded
 // to a few digits. No number has an absolute tolerance: those that are differences (flicker, shifts, intercepts) are
 // far enough from 0 here. Built with and without fused multiply-add, which rounds differently, the reports agree to
-// 3e-11. An offset that is identified beside local light would not, to 1e-7 only: RefinedRollingShutter has none.
+// 3e-11.
 //
 // Not stored: the version, which changes without the numbers, and, to keep the files short, all but every 16th bin of
 // `scatter` and every 16th row of `flicker_rows`.

@@ -63,6 +63,23 @@ Explained(const std::vector<TileSums> & tiles, double m)
   return sum;
 }
 
+/** Returns the derivative of Explained() by \a m. */
+double
+SlopeOfExplained(const std::vector<TileSums> & tiles, double m)
+{
+  double sum = 0.0;
+  for (const TileSums & s : tiles)
+  {
+    const double precision = s.Precision(m);
+    for (std::size_t j = 0; j < s.r1.size(); ++j)
+    {
+      const double slope = (s.r2[j] - m * s.r1[j]) / precision;
+      sum += 2.0 * slope * (slope * (s.g12 - m * s.g11) - s.r1[j]);
+    }
+  }
+  return sum;
+}
+
 /** Returns the zero that explains most, within \a range of \a start. */
 double
 FindCommonZero(const std::vector<TileSums> & tiles, double start, double range)
@@ -81,16 +98,13 @@ FindCommonZero(const std::vector<TileSums> & tiles, double start, double range)
       best = m;
     }
   }
-  // Golden-section search between the neighbours of the best point of the grid.
-  constexpr double ratio = 0.6180339887498949;
-  double           low = best - step;
-  double           high = best + step;
+  // The derivative is positive below the maximum. Its root is exact to the last bits, which the maximum is not.
+  double low = best - step;
+  double high = best + step;
   for (int i = 0; i < 60; ++i)
   {
-    const double a = high - ratio * (high - low);
-    const double b = low + ratio * (high - low);
-    const bool   isLeft = Explained(tiles, a) > Explained(tiles, b);
-    (isLeft ? high : low) = isLeft ? b : a;
+    const double middle = 0.5 * (low + high);
+    (SlopeOfExplained(tiles, middle) > 0.0 ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
@@ -252,15 +266,17 @@ SumTiles(const IlluminationResponses &            data,
   return moments;
 }
 
-/** Returns whether the illumination is curved within \a tiles: whether x^2, x y and y^2 times the signal above \a zero
- * explain more of the responses than chance does. */
+/** Returns whether the illumination is curved within \a tiles: whether y^2, x^2 and x y times the signal above \a zero
+ * explain more of the responses than chance does. In strips, y^2 does not count: rows behind a rolling shutter differ,
+ * but all of a strip have nearly the same levels. */
 bool
-IsCurvedWithin(const std::vector<TileMoments> & tiles, double zero)
+IsCurvedWithin(const std::vector<TileMoments> & tiles, double zero, bool areStrips)
 {
-  constexpr int                         half = Linear / 2;
+  const Eigen::Index                    known = Linear / 2 + (areStrips ? 1 : 0); // 1, x, y, and y^2 in strips
+  const Eigen::Index                    tested = Linear - known;
   Eigen::Matrix<double, Curved, Linear> ofSignal = Eigen::Matrix<double, Curved, Linear>::Zero(); // I minus the zero
-  constexpr std::array<int, Linear>     unit{ 0, 2, 3, 6, 7, 8 };
-  constexpr std::array<int, Linear>     mean{ 1, 4, 5, 9, 10, 11 };
+  constexpr std::array<int, Linear>     unit{ 0, 2, 3, 8, 6, 7 };
+  constexpr std::array<int, Linear>     mean{ 1, 4, 5, 11, 9, 10 };
   for (int k = 0; k < Linear; ++k)
   {
     ofSignal(mean[static_cast<std::size_t>(k)], k) = 1.0;
@@ -274,19 +290,19 @@ IsCurvedWithin(const std::vector<TileMoments> & tiles, double zero)
     {
       continue;
     }
-    const Eigen::Matrix<double, Linear, Linear> gram = ofSignal.transpose() * tile.gram * ofSignal;
-    const Eigen::Matrix3d slopes = gram.topLeftCorner<half, half>().ldlt().solve(gram.topRightCorner<half, half>());
-    const Eigen::Matrix3d left = gram.bottomRightCorner<half, half>() - gram.bottomLeftCorner<half, half>() * slopes;
-    if (!(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(left).eigenvalues()(0) > 0.0))
+    const Eigen::MatrixXd gram = ofSignal.transpose() * tile.gram * ofSignal;
+    const Eigen::MatrixXd slopes = gram.topLeftCorner(known, known).ldlt().solve(gram.topRightCorner(known, tested));
+    const Eigen::MatrixXd left = gram.bottomRightCorner(tested, tested) - gram.bottomLeftCorner(tested, known) * slopes;
+    if (!(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(left).eigenvalues()(0) > 0.0))
     {
       continue;
     }
     for (const CurvedSurface & product : tile.products)
     {
-      const Eigen::Matrix<double, Linear, 1> all = ofSignal.transpose() * product;
-      const Eigen::Vector3d                  own = all.tail<half>() - slopes.transpose() * all.head<half>();
+      const Eigen::VectorXd all = ofSignal.transpose() * product;
+      const Eigen::VectorXd own = all.tail(tested) - slopes.transpose() * all.head(known);
       explained += own.dot(left.ldlt().solve(own));
-      number += half;
+      number += static_cast<double>(tested);
     }
   }
   return explained - number > Significance.oneTest * std::sqrt(2.0 * number);
@@ -294,7 +310,7 @@ IsCurvedWithin(const std::vector<TileMoments> & tiles, double zero)
 
 /** Returns the fit of lines after the first \a terms of the surface of each tile. Null: there is none. */
 std::optional<LocalOffset>
-FitPartition(const std::vector<TileMoments> & moments, const IlluminationResponses & data, int terms)
+FitPartition(const std::vector<TileMoments> & moments, const IlluminationResponses & data, int terms, bool areStrips)
 {
   std::vector<TileSums> lines;
   for (const TileMoments & own : moments)
@@ -307,7 +323,7 @@ FitPartition(const std::vector<TileMoments> & moments, const IlluminationRespons
   std::optional<LocalOffset> fit = lines.empty() ? std::nullopt : FitTiles(lines, data);
   if (fit) // only the lines of other tiles test a curved surface
   {
-    const bool isPlausible = terms == Curved ? fit->tiles > 1 : !IsCurvedWithin(moments, fit->offset);
+    const bool isPlausible = terms == Curved ? fit->tiles > 1 : !IsCurvedWithin(moments, fit->offset, areStrips);
     fit->doLinesMeet = fit->doLinesMeet && isPlausible;
   }
   return fit;
@@ -364,10 +380,10 @@ FindLocalOffset(const IlluminationResponses & data, const ParallelFor & parallel
   parallelFor(trials, [&](std::size_t trial) {
     const TriedTiles &             partition = partitions[trial];
     const std::vector<TileMoments> tiles = SumTiles(data, responses, partition.height, partition.width);
-    fits[trial][0] = FitPartition(tiles, data, Linear);
+    fits[trial][0] = FitPartition(tiles, data, Linear, partition.width == width);
     if (partition.mayBeCurved)
     {
-      fits[trial][1] = FitPartition(tiles, data, Curved);
+      fits[trial][1] = FitPartition(tiles, data, Curved, false);
     }
   });
   std::vector<LocalOffset> found;
