@@ -93,9 +93,21 @@ def uneven(random, electrons, difference):
     return changing(random, (1 + flicker * (1 + difference * x)) * electrons)
 
 
+def spot(random, electrons, strength):
+    """Returns a burst with a second light source, a spot of 10 to 40 % of the width, whose illumination fluctuates by
+    this fraction (rms)."""
+    y, x = np.indices(SHAPE)
+    radius = random.uniform(0.1, 0.4) * SHAPE[1]
+    centre = random.random(2) * SHAPE
+    profile = np.exp(-((y - centre[0]) ** 2 + (x - centre[1]) ** 2) / radius**2)
+    series = strength * random.normal(size=(FRAMES, 1, 1))
+    return changing(random, illumination(random)[:, None, None] * (1 + series * profile) * electrons)
+
+
 KINDS = {
     "bleached-spot": (bleached, (0.03, 0.1)),
     "uneven-flicker": (uneven, (0.1, 0.3)),
+    "spot": (spot, (0.01, 0.04)),
     "calcium": (calcium, (0.1, 0.3)),
     "led-bands": (bands, (0.003, 0.01)),
     "caustics": (caustics, (0.002, 0.01)),

@@ -147,6 +147,17 @@ def replaced(random, electrons, fraction, neighbours=AROUND):
     return Burst(digitise(np.where(places, means, frames), BITS), offset=OFFSET[BITS], read_noise=READ_NOISE)
 
 
+def cleaned(random, electrons, sigmas, count, both):
+    """Returns `count` frames without cosmic rays: values further than this number of standard deviations above, or on
+    both sides of, the median of their pixel over time were replaced by the median."""
+    frames = expose(random, electrons, illumination(random, frames=count), offset=OFFSET[BITS])
+    median = np.median(frames, axis=0)
+    noise = np.sqrt(GAIN * np.clip(median - OFFSET[BITS], 0, None) + READ_NOISE**2)
+    distance = frames - median
+    outlying = (np.abs(distance) if both else distance) > sigmas * noise
+    return Burst(digitise(np.where(outlying, median, frames), BITS), offset=OFFSET[BITS], read_noise=READ_NOISE)
+
+
 SITUATIONS = (
     *(
         line(f"recursive/weight-{weight:g}-frames-{count}", recursive, weight, count, expected=MAY_REFUSE)
@@ -155,6 +166,11 @@ SITUATIONS = (
     *(line(f"replaced/{100 * fraction:g}%", replaced, fraction) for fraction in (0.005, 0.01, 0.03)),
     *(line(f"replaced/pairs-{100 * fraction:g}%", replaced, fraction, BESIDE) for fraction in (0.01, 0.03)),
     *(line(f"replaced/copies-{100 * fraction:g}%", replaced, fraction, ABOVE) for fraction in (0.01, 0.03)),
+    *(
+        line(f"cleaned/{name}-frames-{count}", cleaned, 3, count, name == "both", expected=MUST_REFUSE)
+        for name in ("both", "above")
+        for count in (12, 20, 60)
+    ),
     *(line(f"filtered/after-read-out-{radius}", filtered, radius, 0.0) for radius in (0.5, 0.8, 1.2)),
     *(line(f"filtered/before-read-out-{radius}", filtered, radius, 1.0) for radius in (0.5, 0.8, 1.2)),
     line("filtered/between-0.8", filtered, 0.8, 0.5),

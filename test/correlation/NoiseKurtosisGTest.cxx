@@ -26,7 +26,7 @@ std::vector<KurtosisSums>
 SumKurtosis(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
 {
   const MixtureKurtosis normal(residuals);
-  return OfTiles(residuals, parallelFor, [&](std::size_t i) { return KurtosisOfTile(residuals, i, normal); });
+  return OfTiles(residuals, parallelFor, [&](std::size_t i) { return KurtosisOfTile(residuals, i, normal, 0.0); });
 }
 
 JackknifeEstimate
@@ -57,6 +57,16 @@ Independent(TDraw draw)
     }
     return frame;
   };
+}
+
+/** Measures the excess of the upper tail. */
+JackknifeEstimate
+MeasureTail(std::size_t frames, const FrameOf & noise)
+{
+  const NoiseResiduals residuals = ComputeResiduals(Geometry, frames, Ramp(Geometry, 10.0, 200.0), noise);
+  return Jackknife(SumKurtosis(residuals, SerialFor), [](const KurtosisSums & sums) {
+    return Eigen::VectorXd(Eigen::VectorXd::Constant(1, sums.UpperTailExcess()));
+  });
 }
 
 constexpr std::size_t ManyFrames = 200;
@@ -130,6 +140,27 @@ TEST(SensorNoiseNoiseKurtosis, NormalNoiseHasNoneWhateverPixelsAndFilter)
   for (Eigen::Index k = 0; k < found.value.size(); ++k)
   {
     ExpectFigure(found, k, 0.0, 0.04);
+  }
+}
+
+TEST(SensorNoiseNoiseKurtosis, NormalNoiseHasItsTailHoweverFewTheFrames)
+{
+  for (const std::size_t frames : { 5, 12, 60 })
+  {
+    // The values in the tail are counted: 0.00023 of all, with a Poisson error.
+    ExpectFigure(MeasureTail(frames, WhiteNoise(Geometry, 40 + frames)), 0, 0.0, 0.35);
+  }
+}
+
+TEST(SensorNoiseNoiseKurtosis, RemovedOutliersAreMissingInTheTail)
+{
+  for (const std::size_t frames : { 12, 60 })
+  {
+    const auto cut = MeasureTail(frames, Independent([](CounterSeededRandom & random) {
+                                   const double value = random.Normal();
+                                   return value > 3.0 ? 0.0 : value;
+                                 }));
+    EXPECT_LT(cut.value(0), -0.5 - 4.0 * cut.StandardError(0)) << frames;
   }
 }
 

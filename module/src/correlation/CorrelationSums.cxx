@@ -183,7 +183,7 @@ CorrelationSums::CorrelationSums(const NoiseResiduals & residuals,
   const MixtureKurtosis kurtosis(residuals);
   parallelFor(m_Tiles.size(), [&](std::size_t i) {
     m_Tiles[i].shared = SumDistantCovariance(residuals, i);
-    m_Tiles[i].kurtosis = KurtosisOfTile(residuals, i, kurtosis);
+    m_Tiles[i].kurtosis = KurtosisOfTile(residuals, i, kurtosis, m_CodesDn2);
     m_Tiles[i].lags = lags.OfTile(i);
   });
 }

@@ -67,6 +67,7 @@ FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
     {
       figures.push_back(tiles.kurtosis.Excess(k));
     }
+    figures.push_back(tiles.kurtosis.UpperTailExcess());
     double total = 1.0;
     for (const std::size_t k : within)
     {
@@ -97,6 +98,7 @@ FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
   found.rowsDn2 = LineVariance(next(), rows, residuals.GetDof());
   found.columnsDn2 = LineVariance(next(), columns, residuals.GetDof());
   std::generate(found.kurtosis.begin(), found.kurtosis.end(), next);
+  found.upperTail = next();
   found.spaceFactor = next();
   for (MeasuredNumber & factor : found.spaceFactorOfBins)
   {
@@ -155,7 +157,7 @@ IsLinear(const CorrelationSums & sums, const NoiseCorrelation & found)
   }
   MeasuredNumber own = found.kurtosis[0];
   own.value += 1.2 * sums.GetCodesDn2() * sums.GetCodesDn2() * square;
-  if (own.value < 0.0 && own.Exceeds(InCorrelation.largestExcess, Significance.severalTests))
+  if (found.LacksTail() || (own.value < 0.0 && own.Exceeds(InCorrelation.largestExcess, Significance.severalTests)))
   {
     return false;
   }
@@ -230,6 +232,13 @@ NoiseCorrelation::StructuredNoise() const
 }
 
 bool
+NoiseCorrelation::LacksTail() const
+{
+  return upperTail.value < -InCorrelation.largestTailDeficit &&
+         upperTail.value < -Significance.severalTests * upperTail.standardError;
+}
+
+bool
 NoiseCorrelation::HasLocalMotion() const
 {
   return localMotion.value > 0.0 && localMotion.Exceeds(InCorrelation.leastLocalMotion, Significance.severalTests);
@@ -285,6 +294,7 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   if (inTime)
   {
     CorrectKurtosisForTemporalCorrelation(residuals.GetBasis(), found);
+    found.upperTail = {}; // what the frames have in common, as flicker, need not be normally distributed
   }
   if (!IsLinear(sums, found))
   {

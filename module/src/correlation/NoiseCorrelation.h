@@ -104,6 +104,9 @@ struct SensorNoise_EXPORT NoiseCorrelation
   std::vector<PeriodicInterference> interference;
   /** Excess kurtosis of each kind of series, see KurtosisSums [1]. */
   std::array<MeasuredNumber, KurtosisSums::Kinds> kurtosis;
+  /** Fraction of the residuals in the upper tail, relative to normal noise, minus 1 [1]: see KurtosisSums; 0 where
+   * frames are correlated. */
+  MeasuredNumber upperTail;
 
   /** Possible dependences of the spatial covariance on the signal, by CovarianceShape. */
   std::array<WeightedShape, NumberOfShapes> shapes;
@@ -125,6 +128,10 @@ struct SensorNoise_EXPORT NoiseCorrelation
   MeasuredNumber localMotion;
   /** Position-dependent correlation; only for enlarged frames. */
   std::optional<EnlargementTrace> enlargement;
+  /** Returns whether outliers were removed: much of the upper tail is missing. What is common to all pixels, as
+   * flicker, need not be normally distributed, so that the tail does not count where frames are correlated. */
+  bool
+  LacksTail() const;
   /** Largest distance of the spatial lags that are summed [pixels]. */
   int reach{ 1 };
   /** Sum of the coefficients over all spatial lags within reach, including the zero lag [1]: the factor from the

@@ -120,7 +120,56 @@ struct TakenRuns
     return all;
   }
 };
+
+/** Adds the residuals of tile \a i in the upper tail to \a sums. \a squares are the sums over time of the squares of
+ * each pixel. Normal noise is scaled by the tile's own variance, so that an error of the model does not look like a
+ * tail. */
+void
+CountTail(const NoiseResiduals & residuals,
+          std::size_t            i,
+          const PowerSums &      powers,
+          double                 codesDn2,
+          KurtosisSums &         sums)
+{
+  const std::size_t  size = residuals.GetTiles().side * residuals.GetTiles().side;
+  const float *      weight = residuals.WeightOf(i);
+  const auto         least = static_cast<float>(InCorrelation.leastVarianceOfTail * codesDn2);
+  std::vector<float> scale(size, 0.0F); // inverse standard deviation; 0: the pixel does not count
+  double             pixels = 0.0;
+  double             energy = 0.0;
+  for (std::size_t p = 0; p < size; ++p)
+  {
+    if (weight[p] > 0.0F && weight[p] * least < 1.0F)
+    {
+      scale[p] = std::sqrt(weight[p]);
+      pixels += 1.0;
+      energy += static_cast<double>(powers.squares[0][p]) * weight[p];
+    }
+  }
+  const Eigen::MatrixXd & basis = residuals.GetBasis();
+  const double            variance = energy / (std::max(1.0, pixels) * residuals.GetDof());
+  for (Eigen::Index t = 0; t < basis.rows(); ++t)
+  {
+    const double  kept = std::max(0.0, 1.0 - basis.row(t).squaredNorm());
+    const auto    limit = static_cast<float>(InCorrelation.tailBegins * std::sqrt(kept * variance));
+    const float * frame = residuals.OfTile(i) + static_cast<std::size_t>(t) * size;
+    std::size_t   above = 0;
+    for (std::size_t p = 0; p < size; ++p)
+    {
+      above += frame[p] * scale[p] > limit ? 1 : 0;
+    }
+    sums.inTail += static_cast<double>(above);
+  }
+  sums.values += pixels * static_cast<double>(basis.rows());
+}
 } // namespace
+
+double
+KurtosisSums::UpperTailExcess() const
+{
+  const double ofNormal = 0.5 * std::erfc(InCorrelation.tailBegins / std::sqrt(2.0));
+  return values > 0.0 ? inTail / (values * ofNormal) - 1.0 : 0.0;
+}
 
 KurtosisSums &
 KurtosisSums::operator+=(const KurtosisSums & other)
@@ -130,6 +179,8 @@ KurtosisSums::operator+=(const KurtosisSums & other)
     series[k] += other.series[k];
     ratio[k] += other.ratio[k];
   }
+  values += other.values;
+  inTail += other.inTail;
   return *this;
 }
 
@@ -142,7 +193,7 @@ NormalKurtosis(const NoiseResiduals & residuals)
 }
 
 KurtosisSums
-KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKurtosis & normal)
+KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKurtosis & normal, double codesDn2)
 {
   const std::size_t side = residuals.GetTiles().side;
   const float *     weight = residuals.WeightOf(i);
@@ -153,6 +204,7 @@ KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKur
   side == SampleTiles::Side ? SumPowers<SampleTiles::Side>(residuals, i, powers)
                                     : SumPowers<SampleTiles::SmallSide>(residuals, i, powers);
   KurtosisSums sums;
+  CountTail(residuals, i, powers, codesDn2, sums);
   for (std::size_t kind = 0; kind < KurtosisSums::Kinds; ++kind)
   {
     for (std::size_t p = 0; p < side * side; ++p)

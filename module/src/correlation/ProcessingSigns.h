@@ -36,6 +36,9 @@ struct KurtosisSums
   std::array<double, Kinds> series{}; ///< number of series
   std::array<double, Kinds> ratio{};  ///< sum of K over its expectation for normal noise
 
+  double values{ 0.0 }; ///< number of residuals that were compared with InCorrelation.tailBegins
+  double inTail{ 0.0 }; ///< number of those that are above it
+
   KurtosisSums &
   operator+=(const KurtosisSums & other);
   /** Returns the excess kurtosis [1]; 0 without series. */
@@ -44,6 +47,10 @@ struct KurtosisSums
   {
     return series[kind] > 0.0 ? 3.0 * (ratio[kind] / series[kind] - 1.0) : 0.0;
   }
+  /** Returns the fraction of the residuals that lie in the upper tail, relative to normal noise, minus 1 [1]; 0 without
+   * residuals. Few electrons make it positive. Where outliers are removed it is -1. */
+  double
+  UpperTailExcess() const;
 };
 
 /** Returns the expected K of normal noise with the same variance in all frames. */
@@ -101,9 +108,10 @@ private:
   double                     m_Mean{ 0.0 }; // N_0 / n
 };
 
-/** Returns the sums of tile \a i; \a normal gives the expected K of normal noise. */
+/** Returns the sums of tile \a i; \a normal gives the expected K of normal noise, \a codesDn2 is the variance of the
+ * quantization [DN^2]: the tail is that of pixels whose noise exceeds the quantization step. */
 SensorNoise_EXPORT KurtosisSums
-KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKurtosis & normal);
+KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKurtosis & normal, double codesDn2);
 
 /** \struct BlockPhases
  * \brief Noise covariance of nearest neighbours by their position in a block of 8 pixels.

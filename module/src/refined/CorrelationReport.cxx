@@ -131,6 +131,17 @@ WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const Lag
         "or record it at rest");
     return;
   }
+  if (correlation.LacksTail())
+  {
+    report.Warn(
+      WarningCode::NoiseNotLinear,
+      "of the values more than " + Text(InCorrelation.tailBegins) +
+        " standard deviations above their mean that normal noise has, " + Percent(-correlation.upperTail.value) +
+        " are missing (expected at most " + Percent(InCorrelation.largestTailDeficit) +
+        "): outliers were removed, as of cosmic rays or defects, and noise with them, so that the gain is not "
+        "identifiable. Give the frames as the camera read them");
+    return;
+  }
   const MeasuredNumber & own = correlation.kurtosis.front();
   const std::size_t      kind = MostUnusualDifference(correlation);
   const MeasuredNumber & other = correlation.kurtosis.at(kind);
