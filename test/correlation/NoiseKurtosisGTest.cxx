@@ -164,6 +164,17 @@ TEST(SensorNoiseNoiseKurtosis, RemovedOutliersAreMissingInTheTail)
   }
 }
 
+TEST(SensorNoiseNoiseKurtosis, DeficitOfTheTailIsAsSignificantAsThePoissonDistributionSays)
+{
+  KurtosisSums sums;
+  sums.values = 4.0 / 2.326290790355401e-4; // 4 values are expected above 3.5 standard deviations
+  EXPECT_NEAR(sums.SignificanceOfDeficit(), std::sqrt(8.0), 1e-6); // P(0) = exp(-4)
+  sums.inTail = 1.0;
+  EXPECT_NEAR(sums.SignificanceOfDeficit(), std::sqrt(2.0 * (3.0 - std::log(4.0))), 1e-6);
+  sums.inTail = 5.0;
+  EXPECT_EQ(sums.SignificanceOfDeficit(), 0.0);
+}
+
 TEST(SensorNoiseNoiseKurtosis, UniformNoiseHasMinusSixFifthsAndSumsANthOfIt)
 {
   const auto draw = [](CounterSeededRandom & random) { return random.Uniform(); };

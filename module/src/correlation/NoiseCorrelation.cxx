@@ -99,6 +99,10 @@ FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
   found.columnsDn2 = LineVariance(next(), columns, residuals.GetDof());
   std::generate(found.kurtosis.begin(), found.kurtosis.end(), next);
   found.upperTail = next();
+  // In tiles without a value in the tail there is no scatter, so that chance is that of the count of all tiles.
+  const double significance = std::max(1e-9, sums.Total().kurtosis.SignificanceOfDeficit());
+  found.upperTail.standardError =
+    std::max(found.upperTail.standardError, std::abs(found.upperTail.value) / significance);
   found.spaceFactor = next();
   for (MeasuredNumber & factor : found.spaceFactorOfBins)
   {

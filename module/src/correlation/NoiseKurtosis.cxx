@@ -121,6 +121,13 @@ struct TakenRuns
   }
 };
 
+/** Returns the fraction of normal noise in the upper tail [1]. */
+double
+FractionInTail()
+{
+  return 0.5 * std::erfc(InCorrelation.tailBegins / std::sqrt(2.0));
+}
+
 /** Adds the residuals of tile \a i in the upper tail to \a sums. \a squares are the sums over time of the squares of
  * each pixel. Normal noise is scaled by the tile's own variance, so that an error of the model does not look like a
  * tail. */
@@ -167,8 +174,20 @@ CountTail(const NoiseResiduals & residuals,
 double
 KurtosisSums::UpperTailExcess() const
 {
-  const double ofNormal = 0.5 * std::erfc(InCorrelation.tailBegins / std::sqrt(2.0));
-  return values > 0.0 ? inTail / (values * ofNormal) - 1.0 : 0.0;
+  const double expected = values * FractionInTail();
+  return expected > 0.0 ? inTail / expected - 1.0 : 0.0;
+}
+
+double
+KurtosisSums::SignificanceOfDeficit() const
+{
+  const double expected = values * FractionInTail();
+  if (inTail >= expected)
+  {
+    return 0.0;
+  }
+  const double likelihood = inTail > 0.0 ? inTail * std::log(inTail / expected) : 0.0;
+  return std::sqrt(2.0 * std::max(0.0, expected - inTail + likelihood));
 }
 
 KurtosisSums &

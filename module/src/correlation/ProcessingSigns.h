@@ -51,6 +51,10 @@ struct KurtosisSums
    * residuals. Few electrons make it positive. Where outliers are removed it is -1. */
   double
   UpperTailExcess() const;
+  /** Returns the significance of a deficit in the upper tail, in standard deviations of a normal distribution: the
+   * root of the deviance of a Poisson distribution; 0 without a deficit. */
+  double
+  SignificanceOfDeficit() const;
 };
 
 /** Returns the expected K of normal noise with the same variance in all frames. */
