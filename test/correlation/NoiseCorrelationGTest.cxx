@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <gtest/gtest.h>
+#include <random>
 #include <vector>
 
 using namespace sensornoise;
@@ -23,9 +24,10 @@ namespace
 constexpr std::size_t Size = 256;
 constexpr std::size_t Frames = 30;
 
-/** Returns the residuals of a static scene with camera B, without quantization. */
+/** Returns the residuals of a static scene with camera B, without quantization. The sensitivity of each pixel drifts by
+ * \a driftRms [1] until the last frame. */
 NoiseResiduals
-ComputeResiduals(const SensorFlaws & flaws, std::size_t size = Size, std::size_t frames = Frames)
+ComputeResiduals(const SensorFlaws & flaws, std::size_t size = Size, std::size_t frames = Frames, double driftRms = 0.0)
 {
   SimulationSettings settings = simulator::StaticSettings('B', frames);
   settings.flaws = flaws;
@@ -38,8 +40,12 @@ ComputeResiduals(const SensorFlaws & flaws, std::size_t size = Size, std::size_t
   for (std::size_t t = 0; t < frames; ++t)
   {
     simulator.RenderFrame(t, stack.data() + t * pixels);
+    std::mt19937               random(41);
+    std::normal_distribution<> normal(0.0, driftRms * static_cast<double>(t + 1) / static_cast<double>(frames));
     for (std::size_t p = 0; p < pixels; ++p)
     {
+      stack[t * pixels + p] +=
+        driftRms > 0.0 ? normal(random) * (stack[t * pixels + p] - settings.camera.offsetDn) : 0.0;
       mean[p] += stack[t * pixels + p] / static_cast<double>(frames);
     }
   }
@@ -148,6 +154,14 @@ TEST(SensorNoiseNoiseCorrelation, RepellingChargeGrowsWithTheSquareOfTheSignal)
   EXPECT_GT(found.Shape(CovarianceShape::Square).probability, 0.5);
   ExpectNumber(
     found.Shape(CovarianceShape::Square).coefficient, 8.0 * k, 0.2 * 8.0 * k); // to first order, which is 2 % too large
+}
+
+TEST(SensorNoiseNoiseCorrelation, SensitivityThatDriftsIsNoFilterOfFrames)
+{
+  // The frames share noise that grows with the square of the signal; a filter makes it grow with the variance.
+  const NoiseCorrelation found = MeasureNoiseCorrelation(ComputeResiduals({}, Size, Frames, 0.02), 0.0, SerialFor);
+  EXPECT_EQ(found.kind, NoiseKind::NotLinear);
+  EXPECT_TRUE(found.isBySensitivity);
 }
 
 TEST(SensorNoiseNoiseCorrelation, MixedFramesAreTemporalAndTheSumIsThatOfTheFilter)

@@ -300,7 +300,7 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
     CorrectKurtosisForTemporalCorrelation(residuals.GetBasis(), found);
     found.upperTail = {}; // what the frames have in common, as flicker, need not be normally distributed
   }
-  if (!IsLinear(sums, found))
+  if (found.isBySensitivity || !IsLinear(sums, found))
   {
     found.kind = NoiseKind::NotLinear;
   }

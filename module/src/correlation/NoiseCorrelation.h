@@ -124,6 +124,9 @@ struct SensorNoise_EXPORT NoiseCorrelation
   /** Whether the spatial covariance grows with the squared signal and reaches further than coupled charge: the
    * illumination changes from place to place. The class is then NotLinear. */
   bool isByIllumination{ false };
+  /** Whether the temporal covariance grows with the squared signal, as no filter makes it: the sensitivity of pixels
+   * drifts, or the illumination changes in fine patterns. The class is then NotLinear. */
+  bool isBySensitivity{ false };
   /** See FindLocalMotion(); measured only where the noise is spatially correlated. */
   MeasuredNumber localMotion;
   /** Position-dependent correlation; only for enlarged frames. */

@@ -178,6 +178,7 @@ FitTimeShapes(const CorrelationSums & sums, const AutocovarianceFit & fit, Noise
   const auto     errors = Jackknife(sums.GetTiles(), inBins).StandardErrors();
   const auto     fits = FitAllShapes(sums, inBins, errors, sums.GetCodesDn2());
   const TileSums all = sums.Total();
+  found.isBySensitivity = IsProportionalToSquare(fits);
   found.timeShapes =
     WeighShapes(fits, ProbabilitiesOf(fits.value.tail(NumberOfShapes), false), sums.ShapesOf(all, sums.GetCodesDn2()));
 }

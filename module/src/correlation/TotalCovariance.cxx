@@ -148,17 +148,6 @@ Chi2OfTotalVariance(const CorrelationSums & sums, const TileSums & all, const Ei
   return chi2.cwiseMin(chi2.minCoeff() + InCorrelation.mostEvidenceOfCurvature);
 }
 
-/** Returns whether the squared signal describes the spatial covariance better than all other shapes, by
- * InCommon.strongEvidence in chi-square. */
-bool
-IsProportionalToSquare(const Eigen::VectorXd & coefficients, Eigen::VectorXd chi2)
-{
-  const auto   square = static_cast<Eigen::Index>(CovarianceShape::Square);
-  const double own = chi2(square);
-  chi2(square) = std::numeric_limits<double>::infinity();
-  return coefficients(square) > 0.0 && own + InCommon.strongEvidence < chi2.minCoeff();
-}
-
 /** Returns whether the variance is curved as by the brighter-fatter effect, and the covariance of the nearest
  * neighbours makes it linear. Either one alone may be statistical scatter, or a non-linear response. */
 bool
@@ -180,6 +169,16 @@ LinearizesVariance(const CorrelationSums & sums, const Eigen::VectorXd & errors,
          Significance.oneTest * Significance.oneTest;
 }
 } // namespace
+
+bool
+IsProportionalToSquare(const JackknifeEstimate & fits)
+{
+  const auto      square = static_cast<Eigen::Index>(CovarianceShape::Square);
+  Eigen::VectorXd chi2 = fits.value.tail(NumberOfShapes);
+  const double    own = chi2(square);
+  chi2(square) = std::numeric_limits<double>::infinity();
+  return fits.value(square) > 0.0 && own + InCommon.strongEvidence < chi2.minCoeff();
+}
 
 bool
 IsCorrelatedInSpace(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients)
@@ -250,7 +249,7 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
     constant > InCorrelation.roundingProbability || chi2.minCoeff() > InCorrelation.largestChi2;
   const bool isRounding = (shared.value < -Significance.hint * shared.standardError && isUnlikeFilter) ||
                           (shared.value < 0.0 && RmsOfPhases(sums.SumPhases()) > InCorrelation.largestRmsOfPhases);
-  found.isByIllumination = !mayBeCharge && IsProportionalToSquare(fits.value.head(NumberOfShapes), chi2);
+  found.isByIllumination = !mayBeCharge && IsProportionalToSquare(fits);
   if (isRounding || found.isByIllumination)
   {
     found.kind = NoiseKind::NotLinear;

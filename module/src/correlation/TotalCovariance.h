@@ -119,6 +119,11 @@ WeighShapes(const JackknifeEstimate &                  fits,
             const std::array<double, NumberOfShapes> & probabilities,
             const CovarianceShapes &                   predicted);
 
+/** Returns whether the squared signal describes the covariance better than all other shapes, by
+ * InCommon.strongEvidence in chi-square. \a fits is from FitAllShapes(). */
+bool
+IsProportionalToSquare(const JackknifeEstimate & fits);
+
 /** Returns whether the spatial noise correlation exceeds the reporting threshold: the nearest neighbours together
  * exceed InCorrelation.leastEffect, or one of \a coefficients exceeds InCorrelation.leastCoefficient, both
  * significantly. Covariances that grow with the signal are tested in the brightest bin. */
