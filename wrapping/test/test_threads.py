@@ -12,9 +12,12 @@ import numpy as np
 import pytest
 from itk_sensornoise._denoise import named_denoiser
 
+LEAST_TICKS = 10  # with the lock held, another thread runs once or twice, before and after the call
 
-def ticks_during(work) -> tuple[float, list[float], float]:
-    """Returns the start of work() in this thread, the times at which another thread ran meanwhile, and the end [s]."""
+
+def ticks_during(work) -> list[float]:
+    """Returns the times at which another thread ran during work() in this thread [s]: each millisecond, or less often
+    on a machine with other work."""
     ticks, is_done = [], threading.Event()
 
     def tick():
@@ -29,15 +32,13 @@ def ticks_during(work) -> tuple[float, list[float], float]:
     end = time.perf_counter()
     is_done.set()
     thread.join()
-    return start, [at for at in ticks if start < at < end], end
+    return [at for at in ticks if start < at < end]
 
 
 def test_threads_run_during_a_call_that_has_no_observer():
-    """The frames are drawn in one call of ITK, which shows no progress: with the lock held, the thread waits for nearly
-    all of the time. Half of it leaves room for a machine with other work."""
+    """The frames are drawn in one call of ITK, which shows no progress: with the lock held, the other thread waits."""
     itk.simulate_sensor_noise(frames=8, size=(64, 48))  # loads the library
-    start, ticks, end = ticks_during(lambda: itk.simulate_sensor_noise(frames=30, size=(512, 512)))
-    assert np.diff([start, *ticks, end]).max() < 0.5 * (end - start)
+    assert len(ticks_during(lambda: itk.simulate_sensor_noise(frames=30, size=(512, 512)))) >= LEAST_TICKS
 
 
 def test_result_does_not_depend_on_other_threads(burst):
@@ -93,8 +94,7 @@ def test_threads_run_while_frames_are_added():
     """One call of ITK adds all frames, as in test_threads_run_during_a_call_that_has_no_observer()."""
     stack = np.tile(sn.simulate_sensor_noise(frames=100, size=(128, 128))[0], (1, 8, 8))
     sums = sn.SensorNoiseSums(stack.shape, stack.dtype, bayer="none", threads=1)
-    start, ticks, end = ticks_during(lambda: sums.add(stack))
-    assert np.diff([start, *ticks, end]).max() < 0.5 * (end - start)
+    assert len(ticks_during(lambda: sums.add(stack))) >= LEAST_TICKS
 
 
 def test_two_threads_add_frames_to_the_same_sums(burst):
@@ -121,5 +121,4 @@ def test_threads_run_while_the_bilateral_filter_works():
     remove = named_denoiser("itk", 1.0)
     frame = np.random.default_rng(1).normal(10.0, 1.0, (1200, 1600)).astype(np.float32)
     remove(frame[:16, :16])  # loads the library
-    start, ticks, end = ticks_during(lambda: remove(frame))
-    assert np.diff([start, *ticks, end]).max() < 0.5 * (end - start)
+    assert len(ticks_during(lambda: remove(frame))) >= LEAST_TICKS
