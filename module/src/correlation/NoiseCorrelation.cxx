@@ -99,10 +99,12 @@ FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
   found.columnsDn2 = LineVariance(next(), columns, residuals.GetDof());
   std::generate(found.kurtosis.begin(), found.kurtosis.end(), next);
   found.upperTail = next();
-  // In tiles without a value in the tail there is no scatter, so that chance is that of the count of all tiles.
-  const double significance = std::max(1e-9, sums.Total().kurtosis.SignificanceOfDeficit());
-  found.upperTail.standardError =
-    std::max(found.upperTail.standardError, std::abs(found.upperTail.value) / significance);
+  if (found.upperTail.value < 0.0)
+  {
+    // Tiles without a value in the tail do not scatter; the count of all tiles still does.
+    const double significance = sums.Total().kurtosis.SignificanceOfDeficit();
+    found.upperTail.standardError = std::max(found.upperTail.standardError, -found.upperTail.value / significance);
+  }
   found.spaceFactor = next();
   for (MeasuredNumber & factor : found.spaceFactorOfBins)
   {

@@ -131,10 +131,6 @@ struct SensorNoise_EXPORT NoiseCorrelation
   MeasuredNumber localMotion;
   /** Position-dependent correlation; only for enlarged frames. */
   std::optional<EnlargementTrace> enlargement;
-  /** Returns whether outliers were removed: much of the upper tail is missing. What is common to all pixels, as
-   * flicker, need not be normally distributed, so that the tail does not count where frames are correlated. */
-  bool
-  LacksTail() const;
   /** Largest distance of the spatial lags that are summed [pixels]. */
   int reach{ 1 };
   /** Sum of the coefficients over all spatial lags within reach, including the zero lag [1]: the factor from the
@@ -148,6 +144,10 @@ struct SensorNoise_EXPORT NoiseCorrelation
    * significant [DN^2]. */
   MeasuredNumber
   StructuredNoise() const;
+
+  /** Returns whether outliers were removed: much of the upper tail is missing. */
+  bool
+  LacksTail() const;
 
   /** Returns whether local motion of the scene causes a part of the spatial correlation. */
   bool

@@ -128,7 +128,7 @@ FractionInTail()
   return 0.5 * std::erfc(InCorrelation.tailBegins / std::sqrt(2.0));
 }
 
-/** Adds the residuals of tile \a i in the upper tail to \a sums. \a squares are the sums over time of the squares of
+/** Adds the residuals of tile \a i in the upper tail to \a sums. \a powers are the sums over time of the squares of
  * each pixel. Normal noise is scaled by the tile's own variance, so that an error of the model does not look like a
  * tail. */
 void

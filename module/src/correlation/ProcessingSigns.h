@@ -20,7 +20,7 @@ namespace sensornoise
 {
 
 /** \struct KurtosisSums
- * \brief Sums for the excess kurtosis of the noise and of its differences between neighbours.
+ * \brief Sums for the excess kurtosis of the noise and of its differences between neighbours, and for its upper tail.
  *
  * A linear filter leaves normal noise normal. A non-linear step does not: a median, the correction of supposed
  * defects, or coarse quantization of blocks. Second moments cannot detect it. Each series is scaled by itself, so that
@@ -113,7 +113,7 @@ private:
 };
 
 /** Returns the sums of tile \a i; \a normal gives the expected K of normal noise, \a codesDn2 is the variance of the
- * quantization [DN^2]: the tail is that of pixels whose noise exceeds the quantization step. */
+ * quantization [DN^2]: only pixels whose noise exceeds the quantization step count in the tail. */
 SensorNoise_EXPORT KurtosisSums
 KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKurtosis & normal, double codesDn2);
 

@@ -113,8 +113,8 @@ FindOtherCauses(NoiseCorrelation &     correlation,
     correlation.localMotion = FindLocalMotion(residuals, parallelFor);
     correlation.kind = correlation.HasLocalMotion() ? NoiseKind::NotLinear : correlation.kind;
   }
-  const bool mayRepeat =
-    correlation.kind == NoiseKind::Temporal || correlation.kind == NoiseKind::Enlarged || correlation.isByIllumination;
+  const bool mayRepeat = correlation.kind == NoiseKind::Temporal || correlation.kind == NoiseKind::Enlarged ||
+                         correlation.isByIllumination || correlation.isBySensitivity;
   if (mayRepeat && repeated > InRefined.largestRepeatedFraction)
   {
     correlation.kind = NoiseKind::NotLinear; // a filter blends values, and repeats none
