@@ -6,6 +6,7 @@
 #include "base/Eigen.h"
 #include "base/Constants.h"
 #include "sensornoise/Parallel.h"
+#include "pixels/CommonZero.h"
 #include "pixels/Constants.h"
 #include "pixels/VarianceLine.h"
 #include "scene/ReferenceFrame.h"
@@ -23,128 +24,10 @@ namespace sensornoise
 
 namespace
 {
-/** Sums over a tile in which the illumination may have gradients. They are the Gram matrix of 1 and I, the mean minus
- * the centre, corrected for the noise of the means, and for each response z the sums r1 = sum w z and r2 = sum w I z.
- */
-struct TileSums
-{
-  double              n{ 0.0 };
-  double              g11{ 0.0 };
-  double              g12{ 0.0 };
-  double              g22{ 0.0 };
-  std::vector<double> r1;
-  std::vector<double> r2;
-
-  double
-  Determinant() const
-  {
-    return g11 * g22 - g12 * g12;
-  }
-  /** Returns the inverse variance of the slope of a line that crosses zero at \a m. */
-  double
-  Precision(double m) const
-  {
-    return g22 - 2.0 * m * g12 + m * m * g11;
-  }
-};
-
-/** Returns the sum of squares of the responses that lines through zero at \a m explain. */
-double
-Explained(const std::vector<TileSums> & tiles, double m)
-{
-  double sum = 0.0;
-  for (const TileSums & s : tiles)
-  {
-    for (std::size_t j = 0; j < s.r1.size(); ++j)
-    {
-      sum += std::pow(s.r2[j] - m * s.r1[j], 2) / s.Precision(m);
-    }
-  }
-  return sum;
-}
-
-/** Returns the derivative of Explained() by \a m. */
-double
-SlopeOfExplained(const std::vector<TileSums> & tiles, double m)
-{
-  double sum = 0.0;
-  for (const TileSums & s : tiles)
-  {
-    const double precision = s.Precision(m);
-    for (std::size_t j = 0; j < s.r1.size(); ++j)
-    {
-      const double slope = (s.r2[j] - m * s.r1[j]) / precision;
-      sum += 2.0 * slope * (slope * (s.g12 - m * s.g11) - s.r1[j]);
-    }
-  }
-  return sum;
-}
-
-/** Returns the zero that explains most, within \a range of \a start. */
-double
-FindCommonZero(const std::vector<TileSums> & tiles, double start, double range)
-{
-  double        best = start;
-  double        highest = -1.0;
-  constexpr int steps = 60;
-  const double  step = 2.0 * range / steps;
-  for (int i = 0; i <= steps; ++i)
-  {
-    const double m = start - 1.5 * range + i * step;
-    const double value = Explained(tiles, m);
-    if (value > highest)
-    {
-      highest = value;
-      best = m;
-    }
-  }
-  // The derivative is positive below the maximum. Its root is exact to the last bits, which the maximum is not.
-  double low = best - step;
-  double high = best + step;
-  for (int i = 0; i < 60; ++i)
-  {
-    const double middle = 0.5 * (low + high);
-    (SlopeOfExplained(tiles, middle) > 0.0 ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
-/** Sums for the error of a common zero. */
-struct ZeroErrors
-{
-  double full{ 0.0 };        // sum of squares that free lines explain
-  double information{ 0.0 }; // information on the zero [1/DN^2]
-  double scatter{ 0.0 };     // variance of this information [1/DN^4]
-  double number{ 0.0 };      // number of lines
-};
-
-ZeroErrors
-SumErrors(const std::vector<TileSums> & tiles, double zero)
-{
-  ZeroErrors sums;
-  for (const TileSums & s : tiles)
-  {
-    const double precision = s.Precision(zero);
-    const double across = s.g12 - zero * s.g11;
-    const double leverage = (s.g11 - across * across / precision) / precision;
-    for (std::size_t j = 0; j < s.r1.size(); ++j)
-    {
-      const double r = s.r2[j] - zero * s.r1[j];
-      const double signal = r * r / precision - 1.0; // square of the slope over its variance, without its noise
-      sums.full +=
-        (s.g22 * s.r1[j] * s.r1[j] - 2.0 * s.g12 * s.r1[j] * s.r2[j] + s.g11 * s.r2[j] * s.r2[j]) / s.Determinant();
-      sums.information += signal * leverage;
-      sums.scatter += (2.0 + 4.0 * std::max(0.0, signal)) * leverage * leverage; // noncentral chi-square
-      sums.number += 1.0;
-    }
-  }
-  return sums;
-}
-
 /** Returns the common zero of \a tiles. Null: they determine none. The information on it is diminished by its own
  * scatter: many slopes of mere noise have a common zero by chance. */
 std::optional<LocalOffset>
-FitTiles(const std::vector<TileSums> & tiles, const IlluminationResponses & data)
+FitTiles(const std::vector<TileLines> & tiles, const IlluminationResponses & data)
 {
   const double start = data.darkestDn - data.centreDn;
   LocalOffset  result;
@@ -199,7 +82,7 @@ struct TileMoments
   /** Returns the sums of 1 and I after the regression of both on the other terms of the first \a terms (Frisch & Waugh
    * 1933). Null if the contrast of the tile does not determine I x and I y: they differ from x and y by no more than
    * the noise of the means of \a frames frames. */
-  std::optional<TileSums>
+  std::optional<TileLines>
   WithoutPlace(double frames, int terms) const
   {
     const Eigen::Matrix2d ofPlace = gram.block<2, 2>(2, 2);
@@ -213,7 +96,7 @@ struct TileMoments
     }
     const Eigen::MatrixXd slopes = gram.block(2, 2, terms - 2, terms - 2).ldlt().solve(gram.block(2, 0, terms - 2, 2));
     const Eigen::Matrix2d left = gram.topLeftCorner<2, 2>() - gram.block(0, 2, 2, terms - 2) * slopes;
-    TileSums              sums{ n, left(0, 0), left(0, 1), left(1, 1), {}, {} };
+    TileLines             sums{ n, left(0, 0), left(0, 1), left(1, 1), {}, {} };
     for (const CurvedSurface & product : products)
     {
       const Eigen::Vector2d own = product.head<2>() - slopes.transpose() * product.segment(2, terms - 2);
@@ -223,7 +106,7 @@ struct TileMoments
     const double determinant = sums.Determinant();
     const bool   isLine = determinant > InPattern.leastTileContrast * sums.g11 * n / frames &&
                         determinant > 1e-6 * sums.g11 * std::abs(sums.g22);
-    return isLine ? std::optional<TileSums>(std::move(sums)) : std::nullopt;
+    return isLine ? std::optional<TileLines>(std::move(sums)) : std::nullopt;
   }
 };
 
@@ -312,10 +195,10 @@ IsCurvedWithin(const std::vector<TileMoments> & tiles, double zero, bool areStri
 std::optional<LocalOffset>
 FitPartition(const std::vector<TileMoments> & moments, const IlluminationResponses & data, int terms, bool areStrips)
 {
-  std::vector<TileSums> lines;
+  std::vector<TileLines> lines;
   for (const TileMoments & own : moments)
   {
-    if (const std::optional<TileSums> line = own.WithoutPlace(static_cast<double>(data.frame.frames), terms))
+    if (const std::optional<TileLines> line = own.WithoutPlace(static_cast<double>(data.frame.frames), terms))
     {
       lines.push_back(*line);
     }

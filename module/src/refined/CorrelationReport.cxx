@@ -121,11 +121,11 @@ WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const Lag
   }
   if (correlation.isBySensitivity)
   {
-    report.Warn(
-      WarningCode::NoiseNotLinear,
-      "the noise correlation between frames grows with the square of the signal, as no filter makes it: the sensitivity "
-      "of pixels drifts during the burst, or the illumination changes in patterns too fine to be removed. "
-      "Record a shorter burst, let the sensor settle, or choose an evenly lit part (--roi)");
+    report.Warn(WarningCode::NoiseNotLinear,
+                "the noise correlation between frames grows with the square of the signal, as no filter makes it: the "
+                "sensitivity "
+                "of pixels drifts during the burst, or the illumination changes in patterns too fine to be removed. "
+                "Record a shorter burst, let the sensor settle, or choose an evenly lit part (--roi)");
     return;
   }
   if (correlation.HasLocalMotion())
