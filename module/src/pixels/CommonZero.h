@@ -17,7 +17,6 @@ namespace sensornoise
  */
 struct TileLines
 {
-  double              n{ 0.0 };
   double              g11{ 0.0 };
   double              g12{ 0.0 };
   double              g22{ 0.0 };

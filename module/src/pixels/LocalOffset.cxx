@@ -96,7 +96,7 @@ struct TileMoments
     }
     const Eigen::MatrixXd slopes = gram.block(2, 2, terms - 2, terms - 2).ldlt().solve(gram.block(2, 0, terms - 2, 2));
     const Eigen::Matrix2d left = gram.topLeftCorner<2, 2>() - gram.block(0, 2, 2, terms - 2) * slopes;
-    TileLines             sums{ n, left(0, 0), left(0, 1), left(1, 1), {}, {} };
+    TileLines             sums{ left(0, 0), left(0, 1), left(1, 1), {}, {} };
     for (const CurvedSurface & product : products)
     {
       const Eigen::Vector2d own = product.head<2>() - slopes.transpose() * product.segment(2, terms - 2);
@@ -193,7 +193,7 @@ IsCurvedWithin(const std::vector<TileMoments> & tiles, double zero, bool areStri
 
 /** Returns the fit of lines after the first \a terms of the surface of each tile. Null: there is none. */
 std::optional<LocalOffset>
-FitPartition(const std::vector<TileMoments> & moments, const IlluminationResponses & data, int terms, bool areStrips)
+FitPartition(const std::vector<TileMoments> & moments, const IlluminationResponses & data, int terms)
 {
   std::vector<TileLines> lines;
   for (const TileMoments & own : moments)
@@ -203,13 +203,39 @@ FitPartition(const std::vector<TileMoments> & moments, const IlluminationRespons
       lines.push_back(*line);
     }
   }
-  std::optional<LocalOffset> fit = lines.empty() ? std::nullopt : FitTiles(lines, data);
-  if (fit) // only the lines of other tiles test a curved surface
+  return lines.empty() ? std::nullopt : FitTiles(lines, data);
+}
+
+/** Division of the frame into tiles that is tried. */
+struct TriedTiles
+{
+  std::size_t height; ///< height of a tile [pixel]
+  std::size_t width;  ///< width of a tile [pixel]
+  bool        isOfStrips;
+  /** Whether the surfaces may be curved: not in a tile of few pixels, nor in a strip, where the illumination is no
+   * curve of second order. */
+  bool mayBeCurved;
+};
+
+/** Returns the fits of a partition: with linear surfaces, and with curved ones if they are allowed. */
+std::vector<LocalOffset>
+FitSurfaces(const TriedTiles &                       partition,
+            const IlluminationResponses &            data,
+            const std::vector<std::vector<double>> & responses)
+{
+  const std::vector<TileMoments> tiles = SumTiles(data, responses, partition.height, partition.width);
+  std::vector<LocalOffset>       fits;
+  if (std::optional<LocalOffset> fit = FitPartition(tiles, data, Linear))
   {
-    const bool isPlausible = terms == Curved ? fit->tiles > 1 : !IsCurvedWithin(moments, fit->offset, areStrips);
-    fit->doLinesMeet = fit->doLinesMeet && isPlausible;
+    fit->doLinesMeet = fit->doLinesMeet && !IsCurvedWithin(tiles, fit->offset, partition.isOfStrips);
+    fits.push_back(*fit);
   }
-  return fit;
+  if (std::optional<LocalOffset> fit = partition.mayBeCurved ? FitPartition(tiles, data, Curved) : std::nullopt)
+  {
+    fit->doLinesMeet = fit->doLinesMeet && fit->tiles > 1; // only the lines of other tiles test it
+    fits.push_back(*fit);
+  }
+  return fits;
 }
 
 /** Returns the fit of the smallest standard error of those whose lines meet, and whose offset agrees with the weighted
@@ -245,40 +271,21 @@ ChoosePartition(std::vector<LocalOffset> fits)
 std::optional<LocalOffset>
 FindLocalOffset(const IlluminationResponses & data, const ParallelFor & parallelFor)
 {
-  const std::size_t width = data.frame.geometry.width;
-  const auto        responses = RemoveMotionLeakage(data, parallelFor);
-  /** Size of the tiles of a partition [pixel], and whether their surfaces may be curved: not in a tile of few pixels,
-   * nor in a strip, where the illumination is no curve of second order. */
-  struct TriedTiles
-  {
-    std::size_t height;
-    std::size_t width;
-    bool        mayBeCurved;
-  };
-  constexpr std::size_t                trials = 6;
-  const std::array<TriedTiles, trials> partitions{
-    { { 64, 64, true }, { 32, 32, true }, { 16, 16, true }, { 8, 8, false }, { 4, width, false }, { 16, width, false } }
-  };
-  std::array<std::array<std::optional<LocalOffset>, 2>, trials> fits;
-  parallelFor(trials, [&](std::size_t trial) {
-    const TriedTiles &             partition = partitions[trial];
-    const std::vector<TileMoments> tiles = SumTiles(data, responses, partition.height, partition.width);
-    fits[trial][0] = FitPartition(tiles, data, Linear, partition.width == width);
-    if (partition.mayBeCurved)
-    {
-      fits[trial][1] = FitPartition(tiles, data, Curved, false);
-    }
-  });
+  const std::size_t                            width = data.frame.geometry.width;
+  const auto                                   responses = RemoveMotionLeakage(data, parallelFor);
+  constexpr std::size_t                        trials = 6;
+  const std::array<TriedTiles, trials>         partitions{ { { 64, 64, false, true },
+                                                             { 32, 32, false, true },
+                                                             { 16, 16, false, true },
+                                                             { 8, 8, false, false },
+                                                             { 4, width, true, false },
+                                                             { 16, width, true, false } } };
+  std::array<std::vector<LocalOffset>, trials> fits;
+  parallelFor(trials, [&](std::size_t trial) { fits[trial] = FitSurfaces(partitions[trial], data, responses); });
   std::vector<LocalOffset> found;
-  for (const auto & ofPartition : fits)
+  for (const std::vector<LocalOffset> & ofPartition : fits)
   {
-    for (const std::optional<LocalOffset> & fit : ofPartition)
-    {
-      if (fit)
-      {
-        found.push_back(*fit);
-      }
-    }
+    found.insert(found.end(), ofPartition.begin(), ofPartition.end());
   }
   return ChoosePartition(std::move(found));
 }
