@@ -41,11 +41,11 @@ ComputeResiduals(const SensorFlaws & flaws, std::size_t size = Size, std::size_t
   {
     simulator.RenderFrame(t, stack.data() + t * pixels);
     std::mt19937               random(41);
-    std::normal_distribution<> normal(0.0, driftRms * static_cast<double>(t + 1) / static_cast<double>(frames));
+    std::normal_distribution<> normal;
+    const double               drift = driftRms * static_cast<double>(t + 1) / static_cast<double>(frames);
     for (std::size_t p = 0; p < pixels; ++p)
     {
-      stack[t * pixels + p] +=
-        driftRms > 0.0 ? normal(random) * (stack[t * pixels + p] - settings.camera.offsetDn) : 0.0;
+      stack[t * pixels + p] += drift * normal(random) * (stack[t * pixels + p] - settings.camera.offsetDn);
       mean[p] += stack[t * pixels + p] / static_cast<double>(frames);
     }
   }
