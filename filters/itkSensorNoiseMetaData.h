@@ -19,7 +19,7 @@
 #define itkSensorNoiseMetaData_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/CameraSettings.h"
+#include "sensornoise/Settings.h"
 #include "itkMetaDataDictionary.h"
 
 namespace sensornoise

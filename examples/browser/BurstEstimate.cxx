@@ -9,8 +9,7 @@
 #include "mosaic/DarkFrameSums.h"
 #include "report/StackSettings.h"
 #include "sensornoise/MosaicMethod.h"
-#include "sensornoise/PublishedMethod.h"
-#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/StackMethod.h"
 #include "sensornoise/Settings.h"
 #include "sensornoise/SingleImageMethod.h"
 

@@ -4,8 +4,7 @@
 #define MeasuredStack_h
 
 #include "sensornoise/FrameGeometry.h"
-#include "sensornoise/PublishedMethod.h"
-#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/StackMethod.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/ReportText.h"
 

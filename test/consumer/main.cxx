@@ -3,7 +3,7 @@
 #include "itkSensorNoiseEstimator.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/FrameFile.h"
-#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/StackMethod.h"
 #include "sensornoise/Settings.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/Version.h"

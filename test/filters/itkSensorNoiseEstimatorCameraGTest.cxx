@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/CameraSettings.h"
+#include "sensornoise/Settings.h"
 #include "sensornoise/ReportText.h"
 #include "itkImage.h"
 #include "itkMetaDataObject.h"

@@ -3,7 +3,7 @@
 #ifndef sensornoise_test_MergeTestHelper_h
 #define sensornoise_test_MergeTestHelper_h
 
-#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/StackMethod.h"
 #include "helpers/RefinedTestHelper.h"
 
 #include <cstddef>

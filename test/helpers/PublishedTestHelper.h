@@ -6,7 +6,7 @@
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Settings.h"
-#include "sensornoise/PublishedMethod.h"
+#include "sensornoise/StackMethod.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/ReportText.h"
 #include "sensornoise/SimulationSettings.h"

@@ -6,7 +6,7 @@
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
 #include "moments/Codes.h"
-#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/StackMethod.h"
 #include "sensornoise/Settings.h"
 #include "sensornoise/Report.h"
 #include "helpers/ReportTestHelper.h"

@@ -3,7 +3,7 @@
 #include "mosaic/MosaicPasses.h"
 #include "refined/RefinedPasses.h"
 #include "sensornoise/MosaicMethod.h"
-#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/StackMethod.h"
 #include "sensornoise/ChannelReports.h"
 #include "sensornoise/Simulator.h"
 #include "helpers/StackTestHelper.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/PublishedMethod.h"
+#include "sensornoise/StackMethod.h"
 #include "sensornoise/Settings.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/ReportText.h"

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mosaic/MosaicPasses.h"
 #include "refined/RefinedPasses.h"
-#include "sensornoise/PublishedMethod.h"
-#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/StackMethod.h"
 #include "helpers/LeftOutTestHelper.h"
 #include "helpers/MergeTestHelper.h"
 #include "helpers/RepeatedTestHelper.h"

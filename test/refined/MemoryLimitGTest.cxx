@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/ProjectionSums.h"
 #include "refined/MemoryNeed.h"
-#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/StackMethod.h"
 #include "sensornoise/ReportText.h"
 #include "helpers/RefinedTestHelper.h"
 #include "helpers/ReportTestHelper.h"

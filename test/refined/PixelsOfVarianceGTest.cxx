@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/Report.h"
 #include "refined/PixelNoise.h"
-#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/StackMethod.h"
 #include "helpers/SensorTestHelper.h"
 
 #include <algorithm>

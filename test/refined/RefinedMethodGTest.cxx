@@ -3,7 +3,7 @@
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Report.h"
-#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/StackMethod.h"
 #include "sensornoise/Settings.h"
 #include "sensornoise/ReportText.h"
 #include "sensornoise/Simulator.h"

@@ -4,7 +4,7 @@
 #define sensornoise_FrameFile_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/CameraSettings.h"
+#include "sensornoise/Settings.h"
 
 #include <array>
 #include <cstddef>

@@ -6,8 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
-#include "sensornoise/PublishedMethod.h"
-#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/StackMethod.h"
 #include "sensornoise/Report.h"
 
 #include <array>

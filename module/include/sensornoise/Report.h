@@ -4,7 +4,7 @@
 #define sensornoise_Report_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/CameraSettings.h"
+#include "sensornoise/Settings.h"
 #include "sensornoise/WarningCodes.h"
 
 #include <array>

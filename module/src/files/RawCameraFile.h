@@ -4,7 +4,7 @@
 #define sensornoise_files_RawCameraFile_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/CameraSettings.h"
+#include "sensornoise/Settings.h"
 #include "files/FileBytes.h"
 
 #include <cstddef>

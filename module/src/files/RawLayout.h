@@ -4,7 +4,7 @@
 #define sensornoise_files_RawLayout_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/CameraSettings.h"
+#include "sensornoise/Settings.h"
 #include "sensornoise/FrameFile.h"
 #include "files/FrameReader.h"
 

@@ -11,7 +11,7 @@
 #include "report/StackReport.h"
 #include "report/StackSettings.h"
 #include "sensornoise/FrameGeometry.h"
-#include "sensornoise/PublishedMethod.h"
+#include "sensornoise/StackMethod.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/Settings.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/StackMethod.h"
 
 #include "base/FreeMemory.h"
 #include "base/Text.h"
