@@ -5,6 +5,7 @@
 #include "base/Eigen.h"
 #include "series/FrameEquations.h"
 #include "series/FrameSums.h"
+#include "series/SceneSeries.h"
 #include "helpers/FrameTestHelper.h"
 
 #include <cmath>
@@ -240,4 +241,33 @@ TEST(SensorNoiseOffsetLine, RampDeterminesTheFlickerAtAnyLevel)
       EXPECT_NEAR(line->gamma[t], changes[t].slope, 1e-9) << across << ' ' << t;
     }
   }
+}
+
+TEST(SensorNoiseOffsetLine, ClassesThatDisagreeAreSeen)
+{
+  // Flicker of a scene with the offset 120 DN. In the second burst, edges brighten with the illumination on top of it,
+  // as where the optics settle with the lamp: their class has a higher offset.
+  SyntheticFrames      frames(256, 192, FlickerAndMotion(24, 120.0, 0.0), 1.0);
+  const RegressorNoise noise = NoiseOfModel(frames.EmptySums().GetRegressors());
+  const auto           plain = FitOffsetLine(frames.Sums(), noise);
+  ASSERT_TRUE(plain);
+  EXPECT_EQ(plain->differenceOfClassesDn, 0.0);
+  EXPECT_NEAR(plain->offset + frames.model.centreDn, 120.0, 4.0 * plain->standardError);
+
+  const auto changes = FlickerAndMotion(24, 120.0, 0.0);
+  for (std::size_t t = 0; t < changes.size(); ++t)
+  {
+    for (std::size_t p = 0; p < frames.Pixels(); ++p)
+    {
+      const bool   isInner = frames.take[p] != 0;
+      const double energy =
+        isInner ? std::pow(frames.Derivative(StencilX, p), 2) + std::pow(frames.Derivative(StencilY, p), 2) : 0.0;
+      frames.pixels[t * frames.Pixels() + p] += energy > 1e4 ? 100.0 * changes[t].slope : 0.0;
+    }
+  }
+  const auto line = FitOffsetLine(frames.Sums(), noise);
+  ASSERT_TRUE(line);
+  const double error = std::abs(line->offset + frames.model.centreDn - 120.0);
+  EXPECT_GT(error, 6.0 * line->standardError);
+  EXPECT_GT(line->differenceOfClassesDn, 0.5 * error);
 }

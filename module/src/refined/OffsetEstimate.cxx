@@ -173,14 +173,16 @@ OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, co
   estimate.interval = Interval{ low + model.centreDn, high + model.centreDn };
 
   // Offsets that differ between pixels are taken for signal, which moves the zero away from the levels. A non-linear
-  // response has the same effect.
+  // response has the same effect. Optics that change as the illumination does move it where the scene is rough.
   const double signalDn = std::abs(model.centreDn - estimate.valueDn);
-  const double fromPatternDn = signalDn * std::hypot(found.variance.pattern.offsetFraction, gain.RelativeModelError());
-  if (fromPatternDn > InPixels.negligiblePattern * estimate.standardErrorDn)
+  const double systematicDn = std::hypot(signalDn * found.variance.pattern.offsetFraction,
+                                         signalDn * gain.RelativeModelError(),
+                                         isLocal ? 0.0 : line.differenceOfClassesDn);
+  if (systematicDn > InPixels.negligiblePattern * estimate.standardErrorDn)
   {
-    estimate.standardErrorDn = std::hypot(estimate.standardErrorDn, fromPatternDn);
-    low -= 1.96 * fromPatternDn;
-    high += 1.96 * fromPatternDn;
+    estimate.standardErrorDn = std::hypot(estimate.standardErrorDn, systematicDn);
+    low -= 1.96 * systematicDn;
+    high += 1.96 * systematicDn;
     estimate.interval = Interval{ low + model.centreDn, high + model.centreDn };
   }
   estimate.failure = FindFailure(found, gain, limits, estimate, { low, high });

@@ -3,6 +3,7 @@
 #include "series/OffsetLine.h"
 
 #include "base/ChiSquare.h"
+#include "base/Constants.h"
 #include "base/Quantiles.h"
 #include "scene/InitialNoiseModel.h"
 
@@ -140,11 +141,31 @@ LineOfRamp(const FrameEquations & equations, double offset)
   line.flickerZ = (line.precision * gamma.squaredNorm() - (frames - 1.0)) / std::sqrt(2.0 * (frames - 1.0));
   return line;
 }
+
+/** Returns the largest significant difference between the offset of \a line and those of the lines of \a fewer gradient
+ * classes [DN]; 0: all agree. The pixels of the others are among its own, so that the variance of the difference is the
+ * difference of the variances (Hausman 1978, DOI 10.2307/1913827). */
+double
+DifferenceToFewerClasses(const OffsetLine & line, const std::vector<OffsetLine> & fewer)
+{
+  double largest = 0.0;
+  for (const OffsetLine & other : fewer)
+  {
+    const double widening = std::max(line.Widening(), other.Widening());
+    const double variance = widening * (other.standardError * other.standardError / other.Widening() -
+                                        line.standardError * line.standardError / line.Widening());
+    const double difference = std::abs(line.offset - other.offset);
+    const bool   isSignificant = variance > 0.0 && difference > Significance.oneTest * std::sqrt(variance);
+    largest = isSignificant ? std::max(largest, difference) : largest;
+  }
+  return largest;
+}
 } // namespace
 
 std::optional<OffsetLine>
 FitOffsetLine(const FrameSums & sums, const RegressorNoise & noise, const std::vector<double> & gamma)
 {
+  std::vector<OffsetLine>   fewer;
   std::optional<OffsetLine> best;
   double                    smallest = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < GradientClasses; ++c)
@@ -160,8 +181,10 @@ FitOffsetLine(const FrameSums & sums, const RegressorNoise & noise, const std::v
         smallest = error;
         line->lastClass = c;
         line->contrast = ContrastOf(equations);
-        best = std::move(line);
+        line->differenceOfClassesDn = DifferenceToFewerClasses(*line, fewer);
+        best = line;
       }
+      fewer.push_back(std::move(*line));
     }
   }
   if (!best)

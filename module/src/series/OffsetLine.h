@@ -38,6 +38,8 @@ struct SensorNoise_EXPORT OffsetLine
   double              sensitivity{ 0.0 }; ///< relative change of gamma_t with the offset [1/DN]
   std::vector<double> gamma;              ///< illumination factor of every frame minus 1 [1]
   std::size_t         lastClass{ 0 };     ///< roughest gradient class that was included
+  /** Largest significant difference to the offset without the roughest gradient classes [DN]; 0: there is none. */
+  double differenceOfClassesDn{ 0.0 };
   /** True if the scene is a ramp, so that the flicker was estimated from its slope alone, see
    * FrameEquations::isLevelMotion. */
   bool isLevelMotion{ false };
@@ -78,7 +80,8 @@ SensorNoise_EXPORT std::optional<OffsetLine>
 FitOffsetLine(const FrameEquations & equations);
 
 /** Fits the line to the gradient classes 0 ... c for every c, and returns the line with the smallest standard error,
- * widened by the dispersion. If there is none, because the scene is a ramp or has one level, the flicker alone is
+ * widened by the dispersion, and its difference to the lines of fewer classes. If there is none, because the scene is a
+ * ramp or has one level, the flicker alone is
  * estimated, about the darkest level. Null if this fails, too. */
 SensorNoise_EXPORT std::optional<OffsetLine>
 FitOffsetLine(const FrameSums & sums, const RegressorNoise & noise, const std::vector<double> & gamma = {});
