@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Makes bursts with dark frames of another camera setting, stuck pixels beyond saturation, and other pixel types."""
+"""Makes bursts with dark frames of another camera setting, stuck pixels beyond saturation, full wells that differ from
+pixel to pixel, and other pixel types."""
 
 import numpy as np
 from situations import (
@@ -56,6 +57,19 @@ def saturated(random, electrons, top, stuck):
     )
 
 
+def full_wells(random, electrons, spread):
+    """Returns a scene whose brightest fifth fills the wells of its pixels, which differ by this fraction (rms)."""
+    full = np.quantile(electrons, 0.8) * (1 + spread * random.normal(size=SHAPE))
+    collected = np.minimum(random.poisson(illumination(random)[:, None, None] * electrons), np.rint(full))
+    frames = GAIN * collected + OFFSET[12] + READ_NOISE * random.normal(size=collected.shape)
+    return Burst(
+        digitise(frames),
+        offset=OFFSET[12],
+        read_noise=READ_NOISE,
+        signal_range=GAIN * np.quantile(electrons, 0.8),
+    )
+
+
 def of_type(random, electrons, dtype, offset):
     """Returns the same burst in another pixel type. An offset below 0 needs a signed type."""
     frames = np.rint(expose(random, electrons, illumination(random, FRAMES), offset=offset))
@@ -70,6 +84,7 @@ SITUATIONS = (
     *(line(f"dark-frames/black-level{by:+d}", black_level_moved, by) for by in (-8, 4, 8, 20)),
     *(line(f"dark-frames/noise-x{ratio}", other_gain, ratio) for ratio in (0.5, 1.5, 3)),
     *(line(f"dark-frames/bright-{fraction:.0%}", bright_as_dark, fraction) for fraction in (0.1, 0.5)),
+    *(line(f"full-wells/{100 * spread:g}%", full_wells, spread) for spread in (0.003, 0.01, 0.03)),
     *(line(f"stuck/{stuck}-beyond-{top}", saturated, top, stuck) for top in (2500, 3400) for stuck in (1, 12)),
     *(
         line(f"type/{dtype}{offset:+d}", of_type, dtype, offset)

@@ -92,11 +92,16 @@ WarnOfScene(Report & report, const RefinedResults & found)
                   RangeOfLevels(found, PixelUse::NotStatic) + "; of the pixels used, " +
                   RangeOfLevels(found, PixelUse::Used));
   }
-  if (static_cast<double>(found.scene.nearClip + found.scene.summary.clipped) > InRefined.reportedFraction * total)
+  const std::optional<FullWells> & wells = found.scene.fullWells;
+  const std::size_t                clipped = found.scene.nearClip + found.scene.summary.clipped;
+  if (static_cast<double>(clipped) > InRefined.reportedFraction * total)
   {
     report.Warn(WarningCode::NearClipLevel,
-                percent(found.scene.nearClip + found.scene.summary.clipped) +
-                  " of the pixels reach a clip level or could have, and are left out");
+                percent(clipped) + " of the pixels reach a clip level or could have, and are left out" +
+                  (wells
+                     ? ". The noise vanishes at " + Rounded(wells->levelDn) + " DN, where the pixels saturate (by " +
+                         Percent(wells->spreadDn / wells->levelDn) + " differently)"
+                     : ""));
   }
   std::string unlike;
   if (found.variance.line.trimmedFraction > InRefined.reportedTrimmed)

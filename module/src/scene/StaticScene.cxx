@@ -215,6 +215,23 @@ LeaveOutBorder(std::vector<std::uint8_t> & valid, const MaskedBorder & border, c
   }
 }
 
+/** Marks the pixels that may be saturated as not valid, so that they are no neighbours of other pixels. Returns their
+ * number. */
+std::size_t
+LeaveOutFullWells(StackMaps & maps, const std::optional<FullWells> & wells)
+{
+  std::size_t pixels = 0;
+  for (std::size_t p = 0; wells && p < maps.valid.size(); ++p)
+  {
+    if (maps.valid[p] != 0 && maps.mean[p] > wells->firstLevelDn)
+    {
+      maps.valid[p] = 0;
+      ++pixels;
+    }
+  }
+  return pixels;
+}
+
 /** Sets the use of the pixels of the masked border, and of the pixels beside it, which have no centred difference. */
 void
 MarkBorder(StaticScene & scene)
@@ -272,6 +289,8 @@ MakeStaticScene(StackMaps                         maps,
   scene.changesStrongly = strongChange.has_value();
   scene.border = FindMaskedBorder(maps.mean, valid, geometry);
   LeaveOutBorder(valid, scene.border, geometry);
+  scene.fullWells = FindFullWells(maps, geometry);
+  scene.summary.clipped += LeaveOutFullWells(maps, scene.fullWells);
   scene.frame =
     MakeReferenceFrame(std::move(maps.mean), std::move(maps.variance), valid, geometry, frames, parallelFor);
   scene.pixelUse = FindPixelUse(scene.frame, valid, userMask, parallelFor);

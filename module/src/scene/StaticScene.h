@@ -58,14 +58,29 @@ FindMaskedBorder(const std::vector<double> &       mean,
                  const std::vector<std::uint8_t> & valid,
                  const FrameGeometry &             geometry);
 
+/** Pixels that saturate before the digital numbers do, each at its own full well. */
+struct FullWells
+{
+  double levelDn{ 0.0 };      ///< median level of the full wells [DN]
+  double spreadDn{ 0.0 };     ///< their standard deviation [DN]
+  double firstLevelDn{ 0.0 }; ///< level from which a pixel may be saturated [DN]
+};
+
+/** Finds the full wells of the pixels in the maps of a stack. No digital number piles up there. But the brightest
+ * pixels have less noise than pixels that are a little darker, as little as the darkest ones. Null: there are none.
+ * Estimator.md, 3.2. */
+SensorNoise_EXPORT std::optional<FullWells>
+FindFullWells(const StackMaps & maps, const FrameGeometry & geometry);
+
 /** Static scene, the result of the first pass: the mean image, a rough model of its noise, and the usable pixels. */
 struct StaticScene
 {
-  StackSummary summary;
-  MaskedBorder border;             ///< strips that are not part of the scene, which are excluded
-  std::size_t  valid{ 0 };         ///< number of pixels that are finite, never at a clip level, and not masked by
-                                   ///< the user
-  ReferenceFrame            frame; ///< its `usable` pixels are the usable ones of the scene
+  StackSummary             summary;
+  MaskedBorder             border;     ///< strips that are not part of the scene, which are excluded
+  std::optional<FullWells> fullWells;  ///< saturated pixels without a clip level, which are excluded
+  std::size_t              valid{ 0 }; ///< number of pixels that are finite, never at a clip level, and not masked by
+                                       ///< the user
+  ReferenceFrame            frame;     ///< its `usable` pixels are the usable ones of the scene
   InitialNoiseModel         model;
   std::vector<std::uint8_t> pixelUse;      ///< values of PixelUse, as far as one pass determines them
   double                    usable{ 0.0 }; ///< number of usable pixels

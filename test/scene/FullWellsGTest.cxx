@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/StaticScene.h"
+#include "helpers/FrameTestHelper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+constexpr FrameGeometry Geometry{ 256, 192, 1 };
+constexpr double        OffsetDn = 300.0;
+constexpr double        GainDn = 0.5;
+constexpr double        ReadNoiseDn = 3.0;
+constexpr double        Dof = 31.0;
+
+double
+SensorVariance(double meanDn)
+{
+  return GainDn * (meanDn - OffsetDn) + ReadNoiseDn * ReadNoiseDn;
+}
+
+/** Returns the maps of 32 frames of a wavy scene with levels from 300 to 1700 DN. Pixels above their full well, \a
+ * fullDn with the standard deviation \a spreadDn, have its level and the read noise. The others have the variance
+ * variance(level). */
+StackMaps
+MapsOf(double fullDn, double spreadDn, const std::function<double(double)> & variance = SensorVariance)
+{
+  std::mt19937               random(12);
+  std::normal_distribution<> normal;
+  std::gamma_distribution<>  gamma(0.5 * Dof, 2.0 / Dof); // variance of 32 frames over its expectation
+  StackMaps                  maps;
+  maps.mean = WavyScene(Geometry.width, Geometry.height);
+  maps.valid.assign(maps.mean.size(), 1);
+  for (double & mean : maps.mean)
+  {
+    const double full = fullDn + spreadDn * normal(random);
+    const bool   isFull = mean > full;
+    mean = isFull ? full : mean;
+    maps.variance.push_back((isFull ? ReadNoiseDn * ReadNoiseDn : variance(mean)) * gamma(random));
+  }
+  return maps;
+}
+
+constexpr double NoWellDn = 1e5;
+} // namespace
+
+TEST(SensorNoiseFullWells, LevelAndSpreadAreFound)
+{
+  for (const double spreadDn : { 2.0, 10.0, 25.0 })
+  {
+    const auto wells = FindFullWells(MapsOf(1200.0, spreadDn), Geometry);
+    ASSERT_TRUE(wells) << spreadDn;
+    // Pixels whose scene is not far above their well select low wells: less than a standard deviation.
+    EXPECT_NEAR(wells->levelDn, 1200.0, 0.5 * spreadDn + 1.0) << spreadDn;
+    EXPECT_NEAR(wells->spreadDn, spreadDn, 0.2 * spreadDn) << spreadDn;
+    // Below all wells, less the noise of the pixels, by 4.5 standard deviations of both.
+    const double guard = 4.5 * std::hypot(wells->spreadDn, std::sqrt(SensorVariance(1200.0)));
+    EXPECT_NEAR(wells->firstLevelDn, wells->levelDn - guard, 0.05 * guard) << spreadDn;
+  }
+}
+
+TEST(SensorNoiseFullWells, ASensorBelowSaturationHasNone)
+{
+  EXPECT_FALSE(FindFullWells(MapsOf(NoWellDn, 0.0), Geometry));
+  // Read noise alone.
+  EXPECT_FALSE(FindFullWells(MapsOf(NoWellDn, 0.0, [](double) { return 9.0; }), Geometry));
+  // Flicker of 5 %.
+  EXPECT_FALSE(FindFullWells(
+    MapsOf(NoWellDn, 0.0, [](double mean) { return SensorVariance(mean) + std::pow(0.05 * (mean - OffsetDn), 2); }),
+    Geometry));
+}
+
+TEST(SensorNoiseFullWells, AGammaCurveIsNoSaturation)
+{
+  // Light L after a gamma of 1/2.4: dark levels have more than 20 times the variance of bright ones, but it falls
+  // gradually.
+  const auto variance = [](double mean) {
+    const double light = std::max(0.01, (mean - OffsetDn) / 1400.0);
+    return 100.0 * (light + 0.2) * std::pow(light, 2.0 / 2.4 - 2.0); // a fifth of the range is read noise
+  };
+  ASSERT_GT(variance(OffsetDn), 20.0 * variance(1700.0));
+  EXPECT_FALSE(FindFullWells(MapsOf(NoWellDn, 0.0, variance), Geometry));
+}
+
+TEST(SensorNoiseFullWells, QuietAreasUnderSteadyIlluminationAreNoSaturation)
+{
+  // Two light sources: the dim areas flicker by 20 %, the bright ones do not. These have the noise of their own
+  // electrons, which is more than the noise of the darkest ones.
+  const auto variance = [](double mean) {
+    return SensorVariance(mean) + (mean < 1450.0 ? std::pow(0.2 * (mean - OffsetDn), 2) : 0.0);
+  };
+  EXPECT_FALSE(FindFullWells(MapsOf(NoWellDn, 0.0, variance), Geometry));
+}
+
+TEST(SensorNoiseFullWells, TooFewPixelsShowNothing)
+{
+  StackMaps maps = MapsOf(1200.0, 10.0);
+  std::fill(maps.valid.begin() + 900, maps.valid.end(), std::uint8_t{ 0 });
+  EXPECT_FALSE(FindFullWells(maps, Geometry));
+}
