@@ -67,6 +67,9 @@ struct SceneConstants
    * variance after a gamma curve falls to 0.7. Wells that differ by 2 % rms begin 6 % below their median. */
   double varianceOfFullWells{ 0.25 };
   double reachOfFullWells{ 0.25 };
+  /** Quantile of the variances of the darker pixels that is compared [1]: where objects move, some pixels are quiet.
+   * Chosen empirically. */
+  double quantileBelowWells{ 0.1 };
   ///@}
 
   /** \name Moving objects that cross the frame */

@@ -6,10 +6,12 @@
 #include "scene/Constants.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace sensornoise
 {
@@ -49,30 +51,20 @@ SampleLevels(const StackMaps & maps, const FrameGeometry & geometry)
   return sample;
 }
 
-/** Returns the median variance of the smoother half of the pixels of each bin, where motion adds little [DN^2]; NaN
- * where a bin has too few. */
-std::vector<double>
-SmoothMedians(const LevelSample & sample, const std::vector<std::size_t> & binOf)
+/** Returns the variances of the smoother half of the pixels, where motion adds little, by bin [DN^2]. */
+std::vector<std::vector<double>>
+SmoothVariances(const LevelSample & sample, const std::vector<std::size_t> & binOf)
 {
-  const double                       middle = QuantileOf(sample.energyDn2, 0.5);
-  std::vector<double>                variance;
-  std::vector<std::size_t>           bin;
-  std::array<std::size_t, LevelBins> count{};
+  const double                     middle = QuantileOf(sample.energyDn2, 0.5);
+  std::vector<std::vector<double>> variances(LevelBins);
   for (std::size_t i = 0; i < binOf.size(); ++i)
   {
     if (sample.energyDn2[i] <= middle)
     {
-      variance.push_back(sample.varianceDn2[i]);
-      bin.push_back(binOf[i]);
-      ++count[binOf[i]];
+      variances[binOf[i]].push_back(sample.varianceDn2[i]);
     }
   }
-  std::vector<double> medians = MediansOfBins(variance, bin, LevelBins);
-  for (std::size_t b = 0; b < LevelBins; ++b)
-  {
-    medians[b] = count[b] < InScene.fewestPixelsOfCell ? std::numeric_limits<double>::quiet_NaN() : medians[b];
-  }
-  return medians;
+  return variances;
 }
 } // namespace
 
@@ -84,19 +76,27 @@ FindFullWells(const StackMaps & maps, const FrameGeometry & geometry)
   {
     return std::nullopt;
   }
-  const std::vector<std::size_t> binOf = BinsOfEqualCount(sample.levelDn, LevelBins);
-  const std::vector<double>      levels = MediansOfBins(sample.levelDn, binOf, LevelBins);
-  const std::vector<double>      medians = MediansOfBins(sample.varianceDn2, binOf, LevelBins);
-  const std::vector<double>      smooth = SmoothMedians(sample, binOf);
-  const double                   nearTop = levels.back() - InScene.reachOfFullWells * (levels.back() - levels.front());
-  double                         largest = 0.0; // variance next to the full wells
+  const std::vector<std::size_t>   binOf = BinsOfEqualCount(sample.levelDn, LevelBins);
+  const std::vector<double>        levels = MediansOfBins(sample.levelDn, binOf, LevelBins);
+  const std::vector<double>        medians = MediansOfBins(sample.varianceDn2, binOf, LevelBins);
+  const double                     signalDn = levels.back() - levels.front();
+  const double                     nearTopDn = levels.back() - InScene.reachOfFullWells * signalDn;
+  double                           darkest = -1.0; // variance of the darkest pixels
+  double                           least = 0.0;    // variance that nearly all pixels next to the full wells exceed
+  double                           noise = 0.0;    // median variance of these pixels
+  std::vector<std::vector<double>> smooth = SmoothVariances(sample, binOf);
   for (std::size_t b = 0; b < LevelBins; ++b)
   {
-    largest = levels[b] >= nearTop && smooth[b] > largest ? smooth[b] : largest;
+    if (smooth[b].size() >= InScene.fewestPixelsOfCell)
+    {
+      darkest = darkest < 0.0 ? Quantile(smooth[b], 0.5) : darkest;
+      const double low = levels[b] >= nearTopDn ? Quantile(smooth[b], InScene.quantileBelowWells) : 0.0;
+      noise = low > least ? Quantile(smooth[b], 0.5) : noise;
+      least = std::max(least, low);
+    }
   }
-  const double saturated = InScene.varianceOfFullWells * largest;
-  const auto   darkest = std::find_if(smooth.begin(), smooth.end(), [](double v) { return std::isfinite(v); });
-  if (!(medians.back() < saturated) || !(medians.back() <= InScene.largestMedianRatio * *darkest))
+  const double saturated = InScene.varianceOfFullWells * least;
+  if (!(medians.back() < saturated) || !(medians.back() <= InScene.largestMedianRatio * darkest))
   {
     return std::nullopt;
   }
@@ -114,8 +114,9 @@ FindFullWells(const StackMaps & maps, const FrameGeometry & geometry)
     }
   }
   const RobustCentre centre = CentreOf(std::move(full));
-  const double       guard = InScene.guardBandSds * std::sqrt(centre.sd * centre.sd + largest);
-  return FullWells{ centre.median, centre.sd, centre.median - guard };
+  const double       guardDn = InScene.guardBandSds * std::sqrt(centre.sd * centre.sd + noise);
+  const FullWells    wells{ centre.median, centre.sd, centre.median - guardDn };
+  return wells.firstLevelDn > nearTopDn ? std::optional<FullWells>(wells) : std::nullopt;
 }
 
 } // namespace sensornoise
