@@ -197,9 +197,9 @@ FindSceneSeries(const FrameSums &             sums,
       pixels > 0.0 ? "the usable pixels all have one intensity, which determines neither gain nor offset. Include "
                      "dark and bright areas in the scene"
                    : "no pixel is left: all are masked, clipped, next to a clip level, in moving areas, or of a "
-                     "variance that the levels around them do not explain, as in a mosaic of 6 x 6 filters (X-Trans). "
-                     "Record a static scene between the clip levels, correct --mask, --roi or --clip, or give each "
-                     "colour channel by itself");
+                     "variance that the levels around them do not explain, as where the filters of a colour mosaic pass "
+                     "very different signals. Record a static scene between the clip levels, correct --mask, --roi or "
+                     "--clip, or give each colour channel by itself");
   }
   SceneSeries found;
   found.line = *line;
