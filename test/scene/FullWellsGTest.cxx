@@ -1,14 +1,18 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/StaticScene.h"
+#include "sensornoise/Report.h"
 #include "helpers/FrameTestHelper.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <gtest/gtest.h>
 #include <random>
+#include <string>
+#include <vector>
 
 using namespace sensornoise;
 using namespace sensornoise::test;
@@ -105,4 +109,34 @@ TEST(SensorNoiseFullWells, TooFewPixelsShowNothing)
   StackMaps maps = MapsOf(1200.0, 10.0);
   std::fill(maps.valid.begin() + 900, maps.valid.end(), std::uint8_t{ 0 });
   EXPECT_FALSE(FindFullWells(maps, Geometry));
+}
+
+TEST(SensorNoiseFullWells, BecomeTheUpperClipLevelOfTheScene)
+{
+  StackMaps   maps = MapsOf(1200.0, 10.0);
+  CodeRange & codes = maps.summary.codes;
+  codes.quantisationStepDn = 1.0;
+  codes.clipLowDn = 0.0;
+  codes.clipHighDn = 4095.0;
+  for (const bool isFound : { false, true })
+  {
+    codes.SetClipSources(isFound ? "pile-up" : "code range", "code range");
+    const StaticScene scene = MakeStaticScene(maps, {}, Geometry, 32, std::vector<double>(32, 900.0), {}).scene;
+    ASSERT_FALSE(scene.failureReason);
+    ASSERT_TRUE(scene.fullWells);
+    EXPECT_EQ(scene.summary.codes.clipHighDn, std::round(scene.fullWells->levelDn));
+    EXPECT_EQ(scene.summary.codes.clipSource,
+              std::string("low: ") + (isFound ? "pile-up" : "code range") + ", high: full wells");
+    EXPECT_EQ(scene.summary.clippedHigh, scene.summary.clipped);
+    std::size_t clipped = 0;
+    for (std::size_t p = 0; p < maps.mean.size(); ++p)
+    {
+      const bool isClipped = scene.pixelUse[p] == static_cast<std::uint8_t>(PixelUse::Clipped);
+      clipped += isClipped ? 1 : 0;
+      EXPECT_EQ(isClipped, maps.mean[p] > scene.fullWells->firstLevelDn);
+      EXPECT_FALSE(scene.frame.usable[p] != 0 && isClipped);
+    }
+    EXPECT_EQ(scene.summary.clipped, clipped);
+    EXPECT_NEAR(scene.model.slopeDn, GainDn, 0.05); // of the pixels that are not full
+  }
 }

@@ -98,10 +98,10 @@ WarnOfScene(Report & report, const RefinedResults & found)
   {
     report.Warn(WarningCode::NearClipLevel,
                 percent(clipped) + " of the pixels reach a clip level or could have, and are left out" +
-                  (wells
-                     ? ". The noise vanishes at " + Rounded(wells->levelDn) + " DN, where the pixels saturate (by " +
-                         Percent(wells->spreadDn / wells->levelDn) + " differently)"
-                     : ""));
+                  (wells ? ". The noise vanishes at " + Rounded(wells->levelDn) +
+                             " DN: there the full wells of the pixels end, which differ by " +
+                             Percent(wells->spreadDn / wells->levelDn) + " rms"
+                         : ""));
   }
   std::string unlike;
   if (found.variance.line.trimmedFraction > InRefined.reportedTrimmed)

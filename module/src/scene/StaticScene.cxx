@@ -215,21 +215,27 @@ LeaveOutBorder(std::vector<std::uint8_t> & valid, const MaskedBorder & border, c
   }
 }
 
-/** Marks the pixels that may be saturated as not valid, so that they are no neighbours of other pixels. Returns their
- * number. */
-std::size_t
-LeaveOutFullWells(StackMaps & maps, const std::optional<FullWells> & wells)
+/** Marks the pixels that may be saturated as not valid, so that they are no neighbours of other pixels. The level of
+ * the wells becomes the upper clip level. */
+void
+LeaveOutFullWells(StackMaps & maps, const FullWells & wells)
 {
   std::size_t pixels = 0;
-  for (std::size_t p = 0; wells && p < maps.valid.size(); ++p)
+  for (std::size_t p = 0; p < maps.valid.size(); ++p)
   {
-    if (maps.valid[p] != 0 && maps.mean[p] > wells->firstLevelDn)
-    {
-      maps.valid[p] = 0;
-      ++pixels;
-    }
+    const bool isFull = maps.valid[p] != 0 && maps.mean[p] > wells.firstLevelDn;
+    maps.valid[p] = isFull ? 0 : maps.valid[p];
+    pixels += isFull ? 1 : 0;
   }
-  return pixels;
+  maps.summary.clipped += pixels;
+  maps.summary.clippedHigh += pixels;
+  CodeRange &       codes = maps.summary.codes;
+  const double      step = codes.quantisationStepDn;
+  const std::size_t low = codes.clipSource.find("low: ");
+  const std::string sourceOfLow =
+    low == std::string::npos ? codes.clipSource : codes.clipSource.substr(5, codes.clipSource.find(", high: ") - 5);
+  codes.clipHighDn = step > 0.0 ? step * std::round(wells.levelDn / step) : wells.levelDn;
+  codes.SetClipSources(sourceOfLow, "full wells");
 }
 
 /** Sets the use of the pixels of the masked border, and of the pixels beside it, which have no centred difference. */
@@ -285,12 +291,15 @@ MakeStaticScene(StackMaps                         maps,
   std::vector<std::uint8_t> & valid = maps.valid;
   SceneAndOutliers            made;
   StaticScene &               scene = made.scene;
-  scene.summary = maps.summary;
   scene.changesStrongly = strongChange.has_value();
   scene.border = FindMaskedBorder(maps.mean, valid, geometry);
   LeaveOutBorder(valid, scene.border, geometry);
   scene.fullWells = FindFullWells(maps, geometry);
-  scene.summary.clipped += LeaveOutFullWells(maps, scene.fullWells);
+  if (scene.fullWells)
+  {
+    LeaveOutFullWells(maps, *scene.fullWells);
+  }
+  scene.summary = maps.summary;
   scene.frame =
     MakeReferenceFrame(std::move(maps.mean), std::move(maps.variance), valid, geometry, frames, parallelFor);
   scene.pixelUse = FindPixelUse(scene.frame, valid, userMask, parallelFor);

@@ -194,12 +194,13 @@ FindSceneSeries(const FrameSums &             sums,
       pixels += sums.GetRegressors().PixelsOfClass(c);
     }
     throw NothingToMeasure(
-      pixels > 0.0 ? "the usable pixels all have one intensity, which determines neither gain nor offset. Include "
-                     "dark and bright areas in the scene"
-                   : "no pixel is left: all are masked, clipped, next to a clip level, in moving areas, or of a "
-                     "variance that the levels around them do not explain, as where the filters of a colour mosaic pass "
-                     "very different signals. Record a static scene between the clip levels, correct --mask, --roi or "
-                     "--clip, or give each colour channel by itself");
+      pixels > 0.0
+        ? "the usable pixels all have one intensity, which determines neither gain nor offset. Include "
+          "dark and bright areas in the scene"
+        : "no pixel is left: all are masked, clipped, next to a clip level, in moving areas, or of a "
+          "variance that the levels around them do not explain, as where the filters of a colour mosaic pass "
+          "very different signals. Record a static scene between the clip levels, correct --mask, --roi or "
+          "--clip, or give each colour channel by itself");
   }
   SceneSeries found;
   found.line = *line;
