@@ -64,7 +64,7 @@ struct SceneConstants
   double largestCoarseFraction{ 0.2 };
   /** Ratio of the variance of saturated pixels to that of pixels a little darker, and how much darker these are at
    * most, as a fraction of the signal [1]. Full wells of 10^4 electrons have 1e-4 to 1e-2. Within that fraction, the
-   * variance after a gamma curve falls to 0.7. Wells that differ by 2 % rms begin 6 % below their median. */
+   * variance after a gamma curve falls to 0.55. Wells that differ by 2 % rms begin 6 % below their median. */
   double varianceOfFullWells{ 0.25 };
   double reachOfFullWells{ 0.4 };
   /** Quantile of the variances of the darker pixels that is compared [1]: where objects move, some pixels are quiet.
