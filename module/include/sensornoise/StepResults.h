@@ -102,6 +102,20 @@ struct CodeRange
   {
     clipSource = low == high ? low : "low: " + low + ", high: " + high;
   }
+  std::string
+  GetLowClipSource() const
+  {
+    const std::string prefix = "low: ";
+    const std::size_t high = clipSource.find(", high: ");
+    return high == std::string::npos ? clipSource : clipSource.substr(prefix.size(), high - prefix.size());
+  }
+  std::string
+  GetHighClipSource() const
+  {
+    const std::string between = ", high: ";
+    const std::size_t high = clipSource.find(between);
+    return high == std::string::npos ? clipSource : clipSource.substr(high + between.size());
+  }
   /** Returns the quantization step about a level [DN]; 0: the data are not quantized. */
   double
   StepAt(double levelDn) const

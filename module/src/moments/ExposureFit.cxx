@@ -300,11 +300,7 @@ FindRange(ExposureFit & fit, const Levels & levels, const CodeRange & codes)
     largest = std::max(largest, level.meanDn);
   }
   fit.saturationDn = codes.clipHighDn.value_or(largest);
-  // "low: ..., high: ..." where both differ
-  const std::size_t high = codes.clipSource.rfind("high: ");
-  fit.saturationSource = !codes.clipHighDn           ? "largest level"
-                         : high == std::string::npos ? codes.clipSource
-                                                     : codes.clipSource.substr(high + 6);
+  fit.saturationSource = codes.clipHighDn ? codes.GetHighClipSource() : "largest level";
   return { fit.saturationDn, codes.clipHighDn.has_value() };
 }
 } // namespace

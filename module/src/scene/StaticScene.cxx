@@ -229,13 +229,10 @@ LeaveOutFullWells(StackMaps & maps, const FullWells & wells)
   }
   maps.summary.clipped += pixels;
   maps.summary.clippedHigh += pixels;
-  CodeRange &       codes = maps.summary.codes;
-  const double      step = codes.quantisationStepDn;
-  const std::size_t low = codes.clipSource.find("low: ");
-  const std::string sourceOfLow =
-    low == std::string::npos ? codes.clipSource : codes.clipSource.substr(5, codes.clipSource.find(", high: ") - 5);
+  CodeRange &  codes = maps.summary.codes;
+  const double step = codes.quantisationStepDn;
   codes.clipHighDn = step > 0.0 ? step * std::round(wells.levelDn / step) : wells.levelDn;
-  codes.SetClipSources(sourceOfLow, "full wells");
+  codes.SetClipSources(codes.GetLowClipSource(), "full wells");
 }
 
 /** Sets the use of the pixels of the masked border, and of the pixels beside it, which have no centred difference. */
