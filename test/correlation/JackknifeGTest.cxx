@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <gtest/gtest.h>
+#include <limits>
 #include <vector>
 
 using namespace sensornoise;
@@ -110,4 +111,14 @@ TEST(SensorNoiseJackknife, EqualBlocksHaveNoError)
   const auto found = Jackknife(std::vector<Block>(8, { 2.0, 5.0, 20.0 }), MeanOf);
   EXPECT_EQ(found.value(0), 2.5);
   EXPECT_NEAR(found.StandardError(0), 0.0, 1e-15);
+}
+
+TEST(SensorNoiseJackknife, FewerThanTwoBlocksHaveAnInfiniteError)
+{
+  for (const std::size_t count : { 0, 1 })
+  {
+    const auto found = Jackknife(std::vector<Block>(count, { 2.0, 5.0, 20.0 }), MeanOf);
+    EXPECT_EQ(found.StandardError(0), std::numeric_limits<double>::infinity()) << count;
+    EXPECT_EQ(found.StandardErrors()(0), std::numeric_limits<double>::infinity()) << count;
+  }
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace sensornoise
@@ -33,8 +34,8 @@ struct JackknifeEstimate
 
 /** Returns the values that \a figuresOf computes from the sums over all blocks, and their covariance. The covariance is
  * found by leaving out one block at a time (Tukey 1958). It is right for sums over pairs that have pixels in common,
- * where a formula for independent noise gives errors several times too small. \a figuresOf maps sums to an
- * Eigen::VectorXd. */
+ * where a formula for independent noise gives errors several times too small. Fewer than two blocks
+ * determine no covariance: it is infinite. \a figuresOf maps sums to an Eigen::VectorXd. */
 template <typename TSums, typename TFunction>
 JackknifeEstimate
 Jackknife(const std::vector<TSums> & blocks, TFunction figuresOf)
@@ -53,6 +54,12 @@ Jackknife(const std::vector<TSums> & blocks, TFunction figuresOf)
   const auto        count = static_cast<Eigen::Index>(blocks.size());
   JackknifeEstimate estimate;
   estimate.value = figuresOf(sumWithout(blocks.size()));
+  if (count < 2)
+  {
+    const double infinity = std::numeric_limits<double>::infinity();
+    estimate.covariance = Eigen::MatrixXd::Constant(estimate.value.size(), estimate.value.size(), infinity);
+    return estimate;
+  }
   Eigen::MatrixXd left(estimate.value.size(), count);
   for (Eigen::Index i = 0; i < count; ++i)
   {

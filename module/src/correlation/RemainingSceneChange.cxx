@@ -249,13 +249,9 @@ EstimateLineIlluminationChange(const NoiseResiduals & residuals, LineAxis axis, 
   const SampleTiles & tiles = residuals.GetTiles();
   const auto          groups = TilesInLine(tiles, axis);
   const std::size_t   lines = groups.size() * tiles.side;
-  if (lines == 0) // the frame is narrower than a tile
-  {
-    return { 0.0, std::numeric_limits<double>::infinity() };
-  }
   const std::size_t step =
     (tiles.origins.size() + InCorrelation.mostTilesOfLineIllumination - 1) / InCorrelation.mostTilesOfLineIllumination;
-  std::vector<LineIlluminationProducts> ofLines((lines + step - 1) / step);
+  std::vector<LineIlluminationProducts> ofLines(lines > 0 ? (lines + step - 1) / step : 0);
   parallelFor(ofLines.size(), [&](std::size_t i) {
     const std::size_t line = i * step;
     ofLines[i] = ProductsOfLine(residuals, PixelsOfLine(residuals, groups[line / tiles.side], axis, line % tiles.side));
