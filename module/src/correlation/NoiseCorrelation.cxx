@@ -4,6 +4,7 @@
 
 #include "base/Eigen.h"
 #include "base/Constants.h"
+#include "base/Quadrature.h"
 #include "correlation/TotalCovariance.h"
 #include "correlation/Constants.h"
 #include "correlation/CorrelationSums.h"
@@ -34,7 +35,7 @@ LineVariance(const MeasuredNumber & ofTiles, double lines, double dof)
 {
   const double chance = ofTiles.value * std::sqrt(2.0 / std::max(1.0, lines * dof));
   return { ofTiles.value,
-           std::hypot(ofTiles.standardError, chance, InCorrelation.fractionLostToComponents * ofTiles.value) };
+           AddInQuadrature(ofTiles.standardError, chance, InCorrelation.fractionLostToComponents * ofTiles.value) };
 }
 
 /** Returns the numbers of rows and of columns of the frame that the tiles cover. */

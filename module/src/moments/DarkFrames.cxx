@@ -4,6 +4,7 @@
 
 #include "sensornoise/Parallel.h"
 #include "sensornoise/FrameGeometry.h"
+#include "base/Quadrature.h"
 #include "base/Quantiles.h"
 #include "moments/Constants.h"
 #include "base/Text.h"
@@ -351,7 +352,7 @@ MeasureDarkFrames(TemporalMoments<TPixel>           moments,
   }
   const double driftErrorDn = std::sqrt(dark.driftVarianceDn2 / static_cast<double>(dark.darkFrames));
   dark.standardErrorDn =
-    std::hypot(level.standardError, driftErrorDn, RoundingErrorDn(survey.codes.quantisationStepDn, spreadDn2));
+    AddInQuadrature(level.standardError, driftErrorDn, RoundingErrorDn(survey.codes.quantisationStepDn, spreadDn2));
   return dark;
 }
 

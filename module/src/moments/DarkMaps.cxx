@@ -4,6 +4,7 @@
 
 #include "base/ChiSquare.h"
 #include "base/Constants.h"
+#include "base/Quadrature.h"
 #include "base/Quantiles.h"
 #include "moments/Constants.h"
 #include "sensornoise/Parallel.h"
@@ -287,7 +288,7 @@ MedianOfTrueVariances(const std::vector<double> & variances, double dof, double 
   const double value = binning.low + binning.width * median;
   // Bias of the logarithm by the width of the intervals.
   const double spreading = std::pow(cellDn2 / std::exp(value), 2) / 3.0;
-  return { value, std::hypot(binning.width * std::sqrt(scatter), binning.width * unsettled, spreading) };
+  return { value, AddInQuadrature(binning.width * std::sqrt(scatter), binning.width * unsettled, spreading) };
 }
 
 } // namespace

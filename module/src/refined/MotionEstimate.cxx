@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/RefinedEstimate.h"
 
+#include "base/Quadrature.h"
 #include "base/Stencils.h"
 #include "moments/Constants.h"
 #include "refined/Constants.h"
@@ -304,7 +305,7 @@ CovarianceOf(const AxisMotion &            x,
   const double noiseAlone = noise(0, 0) * noise(1, 1) + noise(0, 1) * noise(0, 1);
   const double variance = (std::max(0.0, shiftsAndNoise) + noiseAlone) / weights.EffectiveDof();
   const double ofNoise = noise(0, 1) * slack / (1.0 + slack);
-  return WithError(value, std::hypot(std::sqrt(variance), systematic, ofNoise));
+  return WithError(value, AddInQuadrature(std::sqrt(variance), systematic, ofNoise));
 }
 } // namespace
 

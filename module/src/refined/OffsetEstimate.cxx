@@ -5,6 +5,7 @@
 #include "base/ChiSquare.h"
 #include "base/Constants.h"
 #include "base/Eigen.h"
+#include "base/Quadrature.h"
 #include "base/Quantiles.h"
 #include "pixels/Constants.h"
 #include "refined/Constants.h"
@@ -175,9 +176,9 @@ OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, co
   // Offsets that differ between pixels are taken for signal, which moves the zero away from the levels. A non-linear
   // response has the same effect. Optics that change as the illumination does move it where the scene is rough.
   const double signalDn = std::abs(model.centreDn - estimate.valueDn);
-  const double systematicDn = std::hypot(signalDn * found.variance.pattern.offsetFraction,
-                                         signalDn * gain.RelativeModelError(),
-                                         isLocal ? 0.0 : line.differenceOfClassesDn);
+  const double systematicDn = AddInQuadrature(signalDn * found.variance.pattern.offsetFraction,
+                                              signalDn * gain.RelativeModelError(),
+                                              isLocal ? 0.0 : line.differenceOfClassesDn);
   if (systematicDn > InPixels.negligiblePattern * estimate.standardErrorDn)
   {
     estimate.standardErrorDn = std::hypot(estimate.standardErrorDn, systematicDn);

@@ -3,6 +3,7 @@
 #include "refined/RefinedEstimate.h"
 
 #include "base/Constants.h"
+#include "base/Quadrature.h"
 #include "pixels/VarianceCurve.h"
 #include "refined/Constants.h"
 #include "refined/GainEstimate.h"
@@ -65,7 +66,7 @@ EstimateFlicker(const RefinedResults & found, const UsedOffset & offset, double 
     const double         sd = local.Sd(offsetFromCentre);
     const double         step = 1.0 + offset.errorDn;
     const double         slope = (local.Sd(offsetFromCentre + step) - local.Sd(offsetFromCentre - step)) / (2.0 * step);
-    const double         error = std::hypot(slope * offset.errorDn, sd * std::sqrt(noise), sd * modelError);
+    const double         error = AddInQuadrature(slope * offset.errorDn, sd * std::sqrt(noise), sd * modelError);
     flicker.sd = RootOf(sd * sd, 2.0 * sd * error);
   }
   flicker.scaleError = std::abs(line.sensitivity) * offset.errorDn;
@@ -92,9 +93,9 @@ SettingsOfSensor(const RefinedResults & found, double codesDn2)
     const double   spread = StandardDeviationOfShapes(dark.valueDn2, found.correlation, codesDn2);
     dark.valueDn2 = VarianceOfSensor(dark.valueDn2, found.correlation, codesDn2);
     dark.standardErrorDn2 =
-      std::hypot(FilterFactor(found.correlation) * dark.standardErrorDn2,
-                 FilterFactor(found.correlation) * found.correlation.StructuredNoise().standardError,
-                 spread);
+      AddInQuadrature(FilterFactor(found.correlation) * dark.standardErrorDn2,
+                      FilterFactor(found.correlation) * found.correlation.StructuredNoise().standardError,
+                      spread);
     settings.offset->maps.reset();
     if (auto & median = settings.offset->readNoiseMedian; median && FilterFactor(found.correlation) == 1.0)
     {

@@ -62,8 +62,8 @@ struct SceneConstants
    * 10 %. With half, the gain was 5 to 8 % too high for a quantization step of 2.3 standard deviations of the noise of
    * the brightest pixels. */
   double largestCoarseFraction{ 0.2 };
-  /** Ratio of the variance of saturated pixels to the variance of pixels a little darker, and how much darker these are at
-   * most, as a fraction of the signal [1]. Full wells of 10^4 electrons have 1e-4 to 1e-2. Within that fraction, the
+  /** Ratio of the variance of saturated pixels to the variance of pixels a little darker, and how much darker these are
+   * at most, as a fraction of the signal [1]. Full wells of 10^4 electrons have 1e-4 to 1e-2. Within that fraction, the
    * variance after a gamma curve falls to 0.55. Wells that differ by 2 % rms begin 6 % below their median. */
   double varianceOfFullWells{ 0.25 };
   double reachOfFullWells{ 0.4 };

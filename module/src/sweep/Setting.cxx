@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sweep/Setting.h"
 
+#include "base/Quadrature.h"
 #include "base/Text.h"
 
 #include <algorithm>
@@ -155,7 +156,7 @@ InterpolateNumber(const std::vector<SettingNumber> & points, double setting, boo
   curvature =
     above + 1 < line.size() ? std::max(curvature, std::abs(SecondDifference(low, high, line[above + 1]))) : curvature;
   const double error =
-    std::hypot((1.0 - weight) * low.error, weight * high.error, std::abs((x - low.x) * (high.x - x)) * curvature);
+    AddInQuadrature((1.0 - weight) * low.error, weight * high.error, std::abs((x - low.x) * (high.x - x)) * curvature);
   return isLogarithmic ? NumberWithError{ std::exp(y), std::exp(y) * error } : NumberWithError{ y, error };
 }
 
