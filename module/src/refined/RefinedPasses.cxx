@@ -288,7 +288,8 @@ RefinedPasses<TPixel>::EndFrameSums()
                                        m_Settings.rollingShutter,
                                        knownOffsetDn,
                                        BlackLevel(m_Settings, *m_Scene, std::nullopt),
-                                       m_Scene->changesStrongly);
+                                       m_Scene->changesStrongly,
+                                       std::exchange(m_RawNoise, {}));
   const std::optional<double> narrow =
     std::is_integral_v<TPixel> ? UnitOfNarrowSums(m_Scene->frame, m_Scene->model, m_ParallelFor) : std::nullopt;
   const SumWidth width = narrow ? SumWidth::Narrow : SumWidth::Wide;
@@ -340,8 +341,8 @@ RefinedPasses<TPixel>::EndProjections()
     }
   }
   // The components are weighted with all noise, the noise of codes included.
-  m_Reestimated.emplace(
-    ReestimateComponents(*m_FrameSums, *m_Series, m_Projections->TakeCoordinates(), m_Noise->variance, m_ParallelFor));
+  m_Reestimated.emplace(ReestimateComponents(
+    *m_FrameSums, *m_Series, m_Projections->TakeCoordinates(), m_Noise->variance, m_CorrectedVariance, m_ParallelFor));
   m_Projections.reset();
   return true;
 }

@@ -17,6 +17,7 @@
 #include "sensornoise/Report.h"
 #include "scene/StaticScene.h"
 #include "series/FrameSums.h"
+#include "series/ProductNoise.h"
 #include "series/SceneSeries.h"
 
 #include <cstddef>
@@ -103,9 +104,10 @@ public:
   void
   ReleaseFrameSums()
   {
-    if (m_FrameSums)
+    if (m_FrameSums && !m_Scene->frame.neighbourMean.empty())
     {
       m_FrameSums->EndFrames(m_ParallelFor);
+      m_RawNoise = CovarianceOfProducts(m_FrameSums->GetRegressors(), m_Scene->frame.variance, m_ParallelFor);
       std::exchange(m_Scene->frame.neighbourMean, {}); // computed again when the third pass ends
     }
   }
@@ -240,12 +242,13 @@ private:
   std::optional<ExposureFit> m_ExposureFit; // from the first pass; none: no exposures were given
 
   // The sums of the passes, and their results. The scene must not move in memory: FrameSums points to its frame.
-  std::unique_ptr<StaticScene>     m_Scene;
-  std::unique_ptr<LevelProjection> m_Levels;    // levels of the pass after the first pass; null: there is no such pass
-  std::unique_ptr<FrameSums>       m_FrameSums; // null in that pass, or if the stack cannot be measured
-  std::optional<const SceneSeries> m_Series;
-  std::optional<PixelProjections>  m_Projections;
-  std::optional<PixelNoise>        m_Noise;
+  std::unique_ptr<StaticScene>        m_Scene;
+  std::unique_ptr<LevelProjection>    m_Levels; // levels of the pass after the first pass; null: there is no such pass
+  std::unique_ptr<FrameSums>          m_FrameSums; // null in that pass, or if the stack cannot be measured
+  std::vector<FrameSums::ClassMatrix> m_RawNoise;  // covariance of the products by the variances of the first pass
+  std::optional<const SceneSeries>    m_Series;
+  std::optional<PixelProjections>     m_Projections;
+  std::optional<PixelNoise>           m_Noise;
   std::optional<const ReestimatedComponents> m_Reestimated;
   std::vector<double>                        m_Mean; // map for display, filled when the report is made
   std::vector<double>                        m_CorrectedVariance;

@@ -11,6 +11,7 @@
 #include "scene/ReferenceFrame.h"
 #include "sensornoise/Report.h"
 #include "series/FrameEquations.h"
+#include "series/ProductNoise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,16 +58,17 @@ NoiseOfLine(const FrameRegressors & regressors,
 } // namespace
 
 ReestimatedComponents
-ReestimateComponents(const FrameSums &        sums,
-                     const SceneSeries &      series,
-                     const PixelCoordinates & coordinates,
-                     const StaticVariance &   variance,
-                     const ParallelFor &      parallelFor)
+ReestimateComponents(const FrameSums &           sums,
+                     const SceneSeries &         series,
+                     const PixelCoordinates &    coordinates,
+                     const StaticVariance &      variance,
+                     const std::vector<double> & correctedVariance,
+                     const ParallelFor &         parallelFor)
 {
   const InitialNoiseModel &   model = sums.GetRegressors().GetModel();
   const std::vector<double> & gamma = series.line.gamma;
-  const RegressorNoise        noise =
-    NoiseOfLine(sums.GetRegressors(), variance.line, series.offset + model.centreDn, parallelFor);
+  RegressorNoise noise = NoiseOfLine(sums.GetRegressors(), variance.line, series.offset + model.centreDn, parallelFor);
+  noise.ofProducts = CovarianceOfProducts(sums.GetRegressors(), correctedVariance, parallelFor);
   ReestimatedComponents reestimated;
   reestimated.line = FitOffsetLine(sums, noise, gamma).value_or(series.line);
   if (!reestimated.line.DeterminesOffset())

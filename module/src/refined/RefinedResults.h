@@ -47,14 +47,16 @@ struct ReestimatedComponents
   LocalFlicker                    localFlicker;
 };
 
-/** Estimates offset, flicker and shifts again, with the noise that is now known. Reads no frames. The pixels'
- * \a coordinates on the temporal components are needed only under local illumination. */
+/** Estimates offset, flicker and shifts again, with the noise that is now known: \a correctedVariance of each
+ * pixel [DN^2], and the line. Reads no frames. The pixels' \a coordinates on the temporal components are needed only
+ * under local illumination. */
 SensorNoise_EXPORT ReestimatedComponents
-ReestimateComponents(const FrameSums &        sums,
-                     const SceneSeries &      series,
-                     const PixelCoordinates & coordinates,
-                     const StaticVariance &   variance,
-                     const ParallelFor &      parallelFor);
+ReestimateComponents(const FrameSums &           sums,
+                     const SceneSeries &         series,
+                     const PixelCoordinates &    coordinates,
+                     const StaticVariance &      variance,
+                     const std::vector<double> & correctedVariance,
+                     const ParallelFor &         parallelFor);
 
 /** Illumination that is specific to the rows of a frame, or to its columns where the frame is turned: by pulsed
  * illumination under a rolling shutter, or by interlaced frames. Estimator.md, 3.18. */

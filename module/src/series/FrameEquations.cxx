@@ -229,20 +229,23 @@ FindActiveColumns(const Eigen::MatrixXd & rawGram,
   }
 }
 
-/** Sets the equations of the illumination, with the motion partialled out. */
-void
+/** Sets the equations of the illumination, with the motion partialled out. Returns the matrix that takes the motion off
+ * the right-hand sides. */
+Eigen::MatrixX2d
 PartialOutMotion(FrameEquations & equations)
 {
   const auto motion = static_cast<Eigen::Index>(equations.active.size() - 2);
   equations.illumination = equations.gram.topLeftCorner<2, 2>();
-  equations.response = equations.right.leftCols<2>();
+  Eigen::MatrixX2d without = Eigen::MatrixX2d::Identity(2 + motion, 2);
   if (motion > 0)
   {
     const Eigen::MatrixXd partial =
       equations.gram.bottomRightCorner(motion, motion).ldlt().solve(equations.gram.bottomLeftCorner(motion, 2));
     equations.illumination -= equations.gram.topRightCorner(2, motion) * partial;
-    equations.response -= equations.right.rightCols(motion) * partial;
+    without.bottomRows(motion) = -partial;
   }
+  equations.response = equations.right * without;
+  return without;
 }
 
 /** Removes the level from the equations of the illumination, where it cannot be distinguished from motion. */
@@ -256,6 +259,23 @@ RemoveLevel(FrameEquations & equations, double leastFraction)
   {
     illumination(0, 0) = illumination(0, 1) = illumination(1, 0) = 0.0;
     equations.response.col(0).setZero();
+  }
+}
+
+/** Weights the equations of the illumination by the \a covariance of their right-hand sides. */
+void
+WeightByCovariance(FrameEquations & equations, Eigen::Matrix2d covariance)
+{
+  if (equations.isLevelMotion)
+  {
+    covariance(0, 1) = covariance(1, 0) = 0.0; // column 1 alone is left
+  }
+  const Eigen::LLT<Eigen::Matrix2d> factor(covariance);
+  if (factor.info() == Eigen::Success && covariance.allFinite())
+  {
+    const Eigen::Matrix2d weighted = factor.solve(equations.illumination);
+    equations.illumination *= weighted;
+    equations.response *= weighted;
   }
 }
 } // namespace
@@ -277,6 +297,7 @@ MakeFrameEquations(const FrameSums &           sums,
   const auto &    stencils = MotionStencils();
   Eigen::MatrixXd rawGram = Eigen::MatrixXd::Zero(FrameColumns, FrameColumns);
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(frames), FrameColumns);
+  Eigen::MatrixXd ofProducts = Eigen::MatrixXd::Zero(FrameColumns, FrameColumns);
   double          variance = 0.0;
   double          shot = 0.0;
   for (std::size_t c = 0; c <= lastClass; ++c)
@@ -284,6 +305,10 @@ MakeFrameEquations(const FrameSums &           sums,
     rawGram += sums.GetClassGram(c);
     variance += noise.variance[c] / static_cast<double>(frames);
     shot += noise.shot[c] / static_cast<double>(frames);
+    if (!noise.ofProducts.empty())
+    {
+      ofProducts += noise.ofProducts[c];
+    }
     for (std::size_t t = 0; t < frames; ++t)
     {
       right.row(static_cast<Eigen::Index>(t)) += sums.GetClassSums(t, c).transpose();
@@ -311,8 +336,13 @@ MakeFrameEquations(const FrameSums &           sums,
   equations.rawGram = Select(rawGram, equations.active, equations.active);
   equations.gram = Select(gram, equations.active, equations.active);
   equations.right = Select(right, rows, equations.active);
-  PartialOutMotion(equations);
+  const Eigen::MatrixX2d without = PartialOutMotion(equations);
   RemoveLevel(equations, LeastDistinctFraction(rawGram, gram, equations.active, pixels));
+  if (!noise.ofProducts.empty())
+  {
+    const Eigen::MatrixXd covariance = Select(ofProducts, equations.active, equations.active);
+    WeightByCovariance(equations, without.transpose() * covariance * without);
+  }
   equations.allRawGram = rawGram;
   equations.allGram = gram;
   equations.allRight = std::move(right);

@@ -164,6 +164,19 @@ LevelOfDarkestFrame(OffsetLine line, double offset)
   const double darkest = *std::min_element(line.gamma.begin(), line.gamma.end());
   return -offset * darkest;
 }
+
+/** Returns whether the flicker is significant by the covariance of the products that the raw variances give. The
+ * initial model may be wrong, most where few pixels have signal; without flicker, the raw variances are right. */
+bool
+IsSignificantByRawNoise(const FrameSums &                           sums,
+                        RegressorNoise                              noise,
+                        const std::vector<FrameSums::ClassMatrix> & rawNoise,
+                        std::size_t                                 lastClass)
+{
+  noise.ofProducts = rawNoise;
+  const std::optional<OffsetLine> line = FitOffsetLine(MakeFrameEquations(sums, noise, lastClass));
+  return line && line->flickerZ > Significance.everyPixel;
+}
 } // namespace
 
 RegressorNoise
@@ -178,11 +191,12 @@ NoiseOfModel(const FrameRegressors & regressors)
 }
 
 SceneSeries
-FindSceneSeries(const FrameSums &             sums,
-                RollingShutter                rollingShutter,
-                const std::optional<double> & knownOffsetDn,
-                double                        blackDn,
-                bool                          changesStrongly)
+FindSceneSeries(const FrameSums &                           sums,
+                RollingShutter                              rollingShutter,
+                const std::optional<double> &               knownOffsetDn,
+                double                                      blackDn,
+                bool                                        changesStrongly,
+                const std::vector<FrameSums::ClassMatrix> & rawNoise)
 {
   const RegressorNoise            noise = NoiseOfModel(sums.GetRegressors());
   const std::optional<OffsetLine> line = FitOffsetLine(sums, noise);
@@ -216,7 +230,8 @@ FindSceneSeries(const FrameSums &             sums,
   // Fixed-pattern noise of a flat field has contrast, too.
   const bool isPrecise =
     line->standardError < InCommon.largestRelativeError * std::max(0.0, -line->offset) || !changesStrongly;
-  found.isOffsetIdentifiable = line->DeterminesOffset() && isPrecise;
+  found.isOffsetIdentifiable =
+    line->DeterminesOffset() && isPrecise && IsSignificantByRawNoise(sums, noise, rawNoise, line->lastClass);
   const bool   hasLevels = line->contrast > InSeries.leastContrast;
   const double fallbackDn = hasLevels ? model.darkestDn : std::min(blackDn, model.darkestDn);
   found.offset = found.isOffsetIdentifiable ? line->offset : knownOffsetDn.value_or(fallbackDn) - model.centreDn;

@@ -122,13 +122,16 @@ NoiseOfModel(const FrameRegressors & regressors);
  * used, or \a blackDn if the scene has one level only [DN]
  * \param blackDn approximate lower limit of the offset [DN]
  * \param changesStrongly whether the illumination changes strongly; a scene of one level then has no model for the
- * noise of each frame, and neither local illumination nor motion is searched */
+ * noise of each frame, and neither local illumination nor motion is searched
+ * \param rawNoise covariance of the products by the variances of the first pass (CovarianceOfProducts()), which hold
+ * the changes of the scene, too: flicker that is not significant by it does not determine the offset. Empty: no test */
 SensorNoise_EXPORT SceneSeries
-FindSceneSeries(const FrameSums &             sums,
-                RollingShutter                rollingShutter,
-                const std::optional<double> & knownOffsetDn = std::nullopt,
-                double                        blackDn = 0.0,
-                bool                          changesStrongly = false);
+FindSceneSeries(const FrameSums &                           sums,
+                RollingShutter                              rollingShutter,
+                const std::optional<double> &               knownOffsetDn = std::nullopt,
+                double                                      blackDn = 0.0,
+                bool                                        changesStrongly = false,
+                const std::vector<FrameSums::ClassMatrix> & rawNoise = {});
 
 } // namespace sensornoise
 
