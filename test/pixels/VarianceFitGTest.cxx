@@ -236,3 +236,27 @@ TEST(SensorNoiseVarianceFit, OneIntensityOrTooFewPixelsDetermineNothing)
   std::fill_n(maps.mask.begin(), 9, std::uint8_t{ 1 });
   EXPECT_FALSE(maps.Fit().isDetermined);
 }
+
+TEST(SensorNoiseVarianceFit, FixedPatternOfDarkPixelsDoesNotFlattenTheLineOfTheRejection)
+{
+  // All but one in 20 pixels are dark and have levels of their own, of 20 DN rms, which are no signal.
+  Maps                       maps(true);
+  std::mt19937               random(43);
+  std::normal_distribution<> normal(0.0, 20.0);
+  for (std::size_t p = 0; p < Pixels; ++p)
+  {
+    if (p % 20 != 0)
+    {
+      maps.variance[p] *= (Intercept + Gain * 100.0) / (Intercept + Gain * maps.mean[p]);
+      maps.mean[p] = 100.0 + normal(random);
+      maps.neighbourMean[p] = 100.0 + normal(random) / std::sqrt(8.0);
+    }
+  }
+  const auto sloped = maps.Fit();
+  ASSERT_TRUE(sloped.isDetermined);
+  EXPECT_NEAR(sloped.gain, Gain, 4.0 * std::sqrt(sloped.covariance(0, 0)));
+  EXPECT_LT(std::sqrt(sloped.covariance(0, 0)), 0.05 * Gain);
+  VarianceFit own(maps.Data(), SerialFor, sloped, TrimRule::Distance);
+  own.Iterate(8);
+  EXPECT_LT(own.GetLine().gain, 0.8 * Gain); // by the pixels' own levels
+}

@@ -71,6 +71,23 @@ TEST(SensorNoiseDarkScene, ItsBrightPixelsDetermineTheGain)
   }
 }
 
+TEST(SensorNoiseDarkScene, FixedPatternOfTheDarkPixelsIsNoSignal)
+{
+  // A pattern of half the read noise and of all of it: among the dark pixels, levels differ without signal.
+  for (const double dsnu : { 1.5, 3.0 })
+  {
+    for (const double radius : { 14.0, 30.0 }) // 3 and 14 % of the frame
+    {
+      SimulationSettings settings = DarkSettings(0.0);
+      settings.dsnuSdDn = dsnu;
+      const auto method = Measure(Simulate<Codes>(settings, Width, Height, Disc(radius, 80.0, 0.0)));
+      const auto gain = method.GetReport().gain;
+      ASSERT_EQ(gain.status, EstimateStatus::Identified) << radius << ' ' << dsnu;
+      EXPECT_NEAR(*gain.value, 0.5, 4.0 * *gain.standardError) << radius << ' ' << dsnu;
+    }
+  }
+}
+
 TEST(SensorNoiseDarkScene, AMovingThingInFrontOfADarkGroundIsNoSignal)
 {
   // The disc moves by half its radius over the burst: no line fits the variance against the level.

@@ -103,6 +103,10 @@ struct PixelsConstants
   /** Lower limit of the line where it serves as a variance, as a fraction of the smallest median of a bin [1]. Chosen
    * empirically. */
   double lowestFraction{ 0.2 };
+  /** Fraction of the variance of the neighbours' means that must be common to the pixels' own, for these means to be the
+   * instrument of the line that pixels are tested against [1]. Chosen empirically: where the rest is larger, most is
+   * fixed-pattern noise, and both lines are imprecise. */
+  double leastCommonVariance{ 0.5 };
   /** Smallest number of pixels of a bin of the first line, and of a fit. Chosen empirically. */
   double      fewestPixelsOfBin{ 5.0 };
   std::size_t fewestPixelsOfFit{ 10 };

@@ -27,13 +27,14 @@ namespace sensornoise
 
 namespace
 {
-/** Fits a line without errors to a sample of the pixels: precise enough to test pixels. */
+/** Fits a line to a sample of the pixels: precise enough to test pixels. */
 VarianceLine
 FitSampleLine(const VarianceData & data, const std::optional<VarianceLine> & start, const ParallelFor & parallelFor)
 {
   const SampledVariance sample(data, InPixels.pixelsOfRoughLine, parallelFor);
   VarianceFit           fit(sample.GetData(), parallelFor, start);
   fit.Iterate(3);
+  fit.FillCovariance();
   return fit.GetLine();
 }
 

@@ -151,10 +151,10 @@ VarianceFit::MakeTrim() const
   return { m_Line.EffectiveDof(m_Dofs.lowest, m_Line.lowestDn2), m_Dofs.highest };
 }
 
-void
-VarianceFit::Iterate(int iterations)
+VarianceFit::NormalTerms
+VarianceFit::SumNormalTerms() const
 {
-  // Sums of the weight times powers of x, the mean above the pivot, and times V, the variance.
+  // Sums of the weight times x, the mean above the pivot, z, the neighbours' mean above it, and V, the variance.
   enum : std::size_t
   {
     W,
@@ -162,29 +162,61 @@ VarianceFit::Iterate(int iterations)
     WXX,
     WV,
     WXV,
+    WZ,
+    WZX,
+    WZZ,
+    WZV,
     Sums
   };
+  const auto   s = SumBlocks<Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
+    this->ForKept(begin, end, [&](std::size_t, std::size_t, const KeptRun & kept) {
+      AddTerms(
+        [](double w, double x, double z, double value) {
+          return std::array<double, Sums>{ w,     w * x,     w * x * x, w * value,    w * x * value,
+                                           w * z, w * z * x, w * z * z, w * z * value };
+        },
+        sums,
+        kept.weight,
+        kept.x,
+        kept.neighbours,
+        kept.value);
+    });
+  });
+  const auto   productOf = [&](std::size_t a, std::size_t b, std::size_t ab) { return s[W] * s[ab] - s[a] * s[b]; };
+  const double common = productOf(WZ, WX, WZX);
+  NormalTerms  of;
+  of.isByNeighbours = m_Rule == TrimRule::Level && common > InPixels.leastCommonVariance * productOf(WZ, WZ, WZZ);
+  of.w = s[W];
+  of.wx = s[WX];
+  of.wxx = s[WXX];
+  of.determinant = of.isByNeighbours ? common : productOf(WX, WX, WXX);
+  of.slope = (of.isByNeighbours ? productOf(WZ, WV, WZV) : productOf(WX, WV, WXV)) / of.determinant;
+  of.atPivot = (s[WV] - of.slope * s[WX]) / s[W];
+  return of;
+}
+
+void
+VarianceFit::Iterate(int iterations)
+{
   for (int iteration = 0; m_Trim && iteration < iterations; ++iteration)
   {
-    const double pivot = m_Line.pivotDn;
-    const auto   s = this->SumTerms<Sums>([](double w, double x, double value) {
-      return std::array<double, Sums>{ w, w * x, w * x * x, w * value, w * x * value };
-    });
-    const double determinant = s[W] * s[WXX] - s[WX] * s[WX];
-    m_Line.isDetermined = determinant > InPixels.leastDeterminant * s[W] * s[WXX];
+    const double      pivot = m_Line.pivotDn;
+    const NormalTerms of = this->SumNormalTerms();
+    m_Line.isDetermined = of.determinant > InPixels.leastDeterminant * of.w * of.wxx;
     if (!m_Line.isDetermined)
     {
       return;
     }
-    const double gain = (s[W] * s[WXV] - s[WX] * s[WV]) / determinant;
-    const double intercept = (s[WXX] * s[WV] - s[WX] * s[WXV]) / determinant - gain * pivot;
+    const double gain = of.slope;
+    const double intercept = of.atPivot - gain * pivot;
     const double change = std::abs(gain - m_Line.gain) / (std::abs(gain) + 1e-300) +
                           std::abs(intercept - m_Line.intercept) / (std::abs(intercept) + std::abs(gain * pivot));
     m_Line.gain = gain;
     m_Line.intercept = intercept;
-    m_Line.weightSum = s[W];
-    m_Line.pivotDn = pivot + s[WX] / s[W];
-    m_Line.spreadDn2 = determinant / s[W];
+    m_IsByNeighbours = of.isByNeighbours;
+    m_Line.weightSum = of.w;
+    m_Line.pivotDn = pivot + of.wx / of.w;
+    m_Line.spreadDn2 = of.determinant / of.w;
     if (m_Rule == TrimRule::Distance && iteration < 3 && iteration + 1 < iterations)
     {
       this->SetReach();
@@ -279,6 +311,40 @@ Sandwich(const VarianceLine & line, double squaresXX, double squaresX, double sq
 } // namespace
 
 void
+VarianceFit::FillCovariance()
+{
+  if (!m_Line.isDetermined)
+  {
+    return;
+  }
+  // Sums of the squared weight times the squared residual times powers of z, the mean above the pivot of the pixel or
+  // of its neighbours.
+  enum : std::size_t
+  {
+    WWRR,
+    WWRRZ,
+    WWRRZZ,
+    W,
+    WZ,
+    Sums
+  };
+  const double atPivot = m_Line.intercept + m_Line.gain * m_Line.pivotDn;
+  const auto   terms = [atPivot, gain = m_Line.gain](double w, double x, double z, double value) {
+    const double residual = value - atPivot - gain * x;
+    const double square = w * w * residual * residual;
+    return std::array<double, Sums>{ square, square * z, square * z * z, w, w * z };
+  };
+  const auto   s = SumBlocks<Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
+    this->ForKept(begin, end, [&](std::size_t, std::size_t, const KeptRun & kept) {
+      AddTerms(terms, sums, kept.weight, kept.x, m_IsByNeighbours ? kept.neighbours : kept.x, kept.value);
+    });
+  });
+  const double mean = s[WZ] / s[W];
+  m_Line.covariance =
+    Sandwich(m_Line, s[WWRRZZ] - 2.0 * mean * s[WWRRZ] + mean * mean * s[WWRR], s[WWRRZ] - mean * s[WWRR], s[WWRR]);
+}
+
+void
 VarianceFit::FillErrors()
 {
   if (!m_Line.isDetermined)
@@ -310,6 +376,10 @@ VarianceFit::FillErrors()
                                      wxx };
   });
   m_Line.covariance = Sandwich(m_Line, s[WWRRXX], s[WWRRX], s[WWRR]);
+  if (m_IsByNeighbours)
+  {
+    this->FillCovariance();
+  }
   const auto pixels = static_cast<double>(m_Dofs.values);
   // Quadratic column of the parabola, orthogonal to the first two columns: q = x^2 - a x - b.
   const double a = s[WX3] / s[WXX];

@@ -98,6 +98,10 @@ public:
   void
   FillErrors();
 
+  /** Computes the sandwich covariance alone, also of a fit with TrimRule::Level. */
+  void
+  FillCovariance();
+
   /** Returns the largest excess over the line that is kept with TrimRule::Distance [DN^2]. */
   double
   GetReachDn2() const
@@ -162,11 +166,13 @@ private:
     RunValues value;
   };
 
-  /** Weights, means above the pivot, and values of a run of pixels; all 0 outside the mask and at trimmed pixels. */
+  /** Weights, means above the pivot, those of the neighbours, and values of a run of pixels; all 0 outside the mask and
+   * at trimmed pixels. */
   struct KeptRun
   {
     RunValues weight;
     RunValues x;
+    RunValues neighbours;
     RunValues value;
   };
 
@@ -180,23 +186,19 @@ private:
   void
   KeepRun(std::size_t first, std::size_t pixels, Run & run, KeptRun & kept) const;
 
-  /** Adds the sums of terms(a[i], b[i], c[i]) over a run, with SIMD instructions. */
-  template <std::size_t VSums, typename TTerms>
+  /** Adds the sums of terms(runs[i]...) over a run, with SIMD instructions. */
+  template <std::size_t VSums, typename TTerms, typename... TRuns>
   static void
-  AddTerms(const RunValues &           a,
-           const RunValues &           b,
-           const RunValues &           c,
-           TTerms                      terms,
-           std::array<double, VSums> & sums)
+  AddTerms(TTerms terms, std::array<double, VSums> & sums, const TRuns &... runs)
   {
     constexpr std::size_t lanes = 4; // independent sums, so that no addition waits for another
-    CallWithAvx2([&a, &b, &c, &sums, terms] {
+    CallWithAvx2([&sums, terms, &runs...] {
       double own[VSums][lanes] = {};
       for (std::size_t i = 0; i < PixelsPerRun; i += lanes)
       {
         for (std::size_t lane = 0; lane < lanes; ++lane)
         {
-          const std::array<double, VSums> more = terms(a[i + lane], b[i + lane], c[i + lane]);
+          const std::array<double, VSums> more = terms(runs[i + lane]...);
           for (std::size_t k = 0; k < VSums; ++k)
           {
             own[k][lane] += more[k];
@@ -231,7 +233,7 @@ private:
   {
     return SumBlocks<VSums>(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
       this->ForKept(begin, end, [&](std::size_t, std::size_t, const KeptRun & kept) {
-        AddTerms(kept.weight, kept.x, kept.value, terms, sums);
+        AddTerms(terms, sums, kept.weight, kept.x, kept.value);
       });
     });
   }
@@ -269,6 +271,20 @@ private:
   ChiSquareTrim
   MakeTrim() const;
 
+  /** Sums and solution of the normal equations of the line. */
+  struct NormalTerms
+  {
+    double w{ 0.0 };           ///< sum of the weights
+    double wx{ 0.0 };          ///< sum of the weights times the mean above the pivot
+    double wxx{ 0.0 };         ///< sum of the weights times its square
+    double determinant{ 0.0 }; ///< of the normal equations
+    double slope{ 0.0 };
+    double atPivot{ 0.0 };          ///< value of the line at the pivot [DN^2]
+    bool   isByNeighbours{ false }; ///< whether the neighbours' means are the instrument
+  };
+  NormalTerms
+  SumNormalTerms() const;
+
   /** Computes the distances from the line at which pixels are trimmed with TrimRule::Distance. */
   void
   SetReach();
@@ -282,6 +298,7 @@ private:
   VarianceLine                 m_Line;
   std::optional<ChiSquareTrim> m_Trim;
   TrimRule                     m_Rule;
+  bool                         m_IsByNeighbours{ false }; // see NormalTerms
   double                       m_BlackDn;
   double                       m_DarkestDn{ 0.0 };     // quantile of the levels [DN]
   double                       m_BrightestDn{ 0.0 };   // quantile of the levels [DN]

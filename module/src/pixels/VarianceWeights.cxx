@@ -165,19 +165,25 @@ void
 VarianceFit::KeepRun(std::size_t first, std::size_t pixels, Run & run, KeptRun & kept) const
 {
   this->WeighRun(first, pixels, run);
-  CallWithAvx2([&, mean = m_Data.mean + first, used = m_Data.mask + first, pivot = m_Line.pivotDn] {
+  CallWithAvx2([&,
+                mean = m_Data.mean + first,
+                neighbours = m_Data.neighbourMean + first,
+                used = m_Data.mask + first,
+                pivot = m_Line.pivotDn] {
     for (std::size_t i = 0; i < pixels; ++i)
     {
       const double weight = run.weight[i];
       const bool   isKept = used[i] != 0 && weight > 0.0;
       const double x = mean[i] - pivot;
+      const double z = neighbours[i] - pivot;
       const double value = run.value[i];
       kept.weight[i] = isKept ? weight : 0.0;
       kept.x[i] = isKept ? x : 0.0;
+      kept.neighbours[i] = isKept ? z : 0.0;
       kept.value[i] = isKept ? value : 0.0;
     }
   });
-  ClearBehind(pixels, kept.weight, kept.x, kept.value);
+  ClearBehind(pixels, kept.weight, kept.x, kept.neighbours, kept.value);
 }
 
 void
@@ -244,11 +250,11 @@ VarianceFit::SetNoiseDispersion()
     ForRuns(begin, end, [&](std::size_t first, std::size_t pixels) {
       this->EstimateNoiseDispersion(first, pixels, terms);
       AddTerms(
+        [](double weight, double more, double chance) { return std::array<double, Sums>{ weight, more, chance }; },
+        sums,
         terms.weight,
         terms.more,
-        terms.chance,
-        [](double weight, double more, double chance) { return std::array<double, Sums>{ weight, more, chance }; },
-        sums);
+        terms.chance);
     });
   });
   const double spread = s[WWMore] / std::max(1e-300, s[WW]);
