@@ -114,6 +114,30 @@ TEST(SensorNoiseStaticPixels, RoughPixelsOfTooLargeAVarianceAreLeftOut)
   EXPECT_GT(fit.ratio[20], 1.4);
 }
 
+TEST(SensorNoiseStaticPixels, FailingClassesAreKeptWhereTheGainNeedsThem)
+{
+  // The classes below 16 determine a slope to about 0.008 DN: a gain of 0.02 to 40 %, of 0.001 not at all. The rough
+  // classes deviate by 80 %.
+  const Noise plain(Everywhere);
+  Noise       noise([&](std::size_t p) { return plain.projected.ClassOf(p) >= 16 ? 1.8 : 1.0; });
+  noise.line.line.gain = 0.02;
+  EXPECT_LE(noise.Test().firstBad, 17u);
+  EXPECT_EQ(noise.Test().keptDeviation, 0.0);
+  noise.line.line.gain = 0.001;
+  EXPECT_EQ(noise.Test().firstBad, ProjectedVariance::Classes);
+  EXPECT_NEAR(noise.Test().keptDeviation, 0.8, 0.3); // the largest of 8 classes of 40 to 100 pixels, each to 5 %
+}
+
+TEST(SensorNoiseStaticPixels, ErrorOfTheModelIsAnErrorOfItsClasses)
+{
+  const Noise plain(Everywhere);
+  Noise       noise([&](std::size_t p) { return plain.projected.ClassOf(p) >= 16 ? 1.3 : 1.0; }); // no outliers
+  EXPECT_LE(noise.Test().firstBad, 17u);
+  noise.line.line.covariance(0, 0) = 1e4; // a slope that is not known
+  EXPECT_EQ(noise.Test().firstBad, ProjectedVariance::Classes);
+  EXPECT_EQ(noise.Test().keptDeviation, 0.0);
+}
+
 TEST(SensorNoiseStaticPixels, AreaOfTooLargeAVarianceIsFound)
 {
   const auto rejected = Noise([](std::size_t p) { return IsInArea(p) ? 2.5 : 1.0; }).Rejected();

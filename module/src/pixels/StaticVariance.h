@@ -165,6 +165,8 @@ struct ClassFit
   std::vector<double> ratio;
   /** Reduced chi-square of the ratios of the classes that are kept [1]. */
   double reducedChi2{ 1.0 };
+  /** Largest relative deviation of a class that fails, but is kept because the gain needs it [1]. */
+  double keptDeviation{ 0.0 };
 };
 
 /** Compares the mean variance of each roughness class with the flat classes. A class fails if its mean is higher by

@@ -80,7 +80,9 @@ ChooseLine(GainEstimate &            estimate,
   {
     estimate.covariance += SlopeCovariance(std::min(fromPattern, 100.0 * std::abs(all.gain)), all.pivotDn);
   }
-  estimate.covariance += SlopeCovariance(ErrorOfVibration(all, model), all.pivotDn) + lines.covarianceOfCorrelation;
+  const double ofClasses = variance.classes.keptDeviation * std::abs(estimate.line.gain);
+  estimate.covariance += SlopeCovariance(ErrorOfVibration(all, model), all.pivotDn) +
+                         SlopeCovariance(ofClasses, all.pivotDn) + lines.covarianceOfCorrelation;
 }
 
 /** Fits one line on either side of a step of the variance, with the same gain, and replaces the curve by the deviations
