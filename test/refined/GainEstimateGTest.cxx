@@ -176,3 +176,14 @@ TEST(SensorNoiseGainEstimate, UnknownLineHasNoDeviations)
   EXPECT_EQ(estimate.nonlinearity, 0.0);
   EXPECT_FALSE(estimate.IsNonlinear());
 }
+
+TEST(SensorNoiseGainEstimate, ItsSizeIsTheScaleOrWhatItsOwnErrorLeaves)
+{
+  GainEstimate estimate;
+  estimate.scale = 0.002; // the level of a dark pivot without an offset, over its variance
+  estimate.line.gain = 0.6;
+  estimate.covariance(0, 0) = 0.01 * 0.01;
+  EXPECT_DOUBLE_EQ(estimate.Size(), 0.58);
+  estimate.covariance(0, 0) = 0.5 * 0.5;
+  EXPECT_EQ(estimate.Size(), 0.002);
+}

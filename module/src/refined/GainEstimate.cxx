@@ -208,7 +208,7 @@ FindModelError(GainEstimate &               estimate,
                double                       dispersion)
 {
   estimate.isWide = curve.DarkestFraction(blackDn) < InRefined.largestDarkestFraction;
-  if (!estimate.isWide && std::sqrt(estimate.covariance(0, 0)) > InCommon.largestRelativeError * estimate.scale)
+  if (!estimate.isWide && std::sqrt(estimate.covariance(0, 0)) > InCommon.largestRelativeError * estimate.Size())
   {
     return; // deviations from a line that is not known have no meaning
   }
@@ -277,6 +277,12 @@ double
 GainEstimate::RelativeModelError() const
 {
   return this->IsNonlinear() ? 0.5 * (below + above) / std::max(1e-9, line.gain) : 0.0;
+}
+
+double
+GainEstimate::Size() const
+{
+  return std::max(scale, line.gain - Significance.hint * std::sqrt(covariance(0, 0)));
 }
 
 double

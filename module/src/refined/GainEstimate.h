@@ -107,6 +107,10 @@ struct GainEstimate
   /** Returns the relative error of the gain by a non-linear response [1]; 0 if the response is linear. */
   double
   RelativeModelError() const;
+  /** Returns a size that the gain certainly has, to which its errors are compared [DN/e-]: scale, or the lower bound of
+   * its own interval, 2 standard errors below it. Without the dark offset, scale may be much too small. */
+  double
+  Size() const;
   /** Returns the standard error of the gain, including the error of the model [DN/e-]. */
   double
   StandardError() const;

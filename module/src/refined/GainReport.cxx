@@ -123,7 +123,7 @@ TextOfLevels(const RefinedResults & found, const GainEstimate & gain)
          Percent(levels / std::max(1e-9, gain.line.pivotDn - found.blackDn)) +
          " of the signal, and fixed-pattern noise may explain " + Percent(std::min(1.0, pattern.LargestFraction())) +
          " of that. The gain is known only to +- " + Rounded(gain.StandardError()) + " of about " +
-         Rounded(gain.scale) + " DN/e-. " +
+         Rounded(gain.Size()) + " DN/e-. " +
          AskIfExchanged(
            found,
            hasDark ? "Record more frames, or include dark and bright areas in the scene"
@@ -145,7 +145,7 @@ TextOfTemporalCorrelation(const GainEstimate & gain)
 {
   return "the noise is correlated over more frames than the burst shows, as behind noise reduction in time: the gain "
          "is known only to +- " +
-         Rounded(gain.StandardError()) + " of about " + Rounded(gain.scale) +
+         Rounded(gain.StandardError()) + " of about " + Rounded(gain.Size()) +
          " DN/e-. Switch the noise reduction of the camera off, or record more frames";
 }
 
