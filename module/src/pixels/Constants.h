@@ -103,9 +103,9 @@ struct PixelsConstants
   /** Lower limit of the line where it serves as a variance, as a fraction of the smallest median of a bin [1]. Chosen
    * empirically. */
   double lowestFraction{ 0.2 };
-  /** Fraction of the variance of the neighbours' means that must be common to the pixels' own, for these means to be the
-   * instrument of the line that pixels are tested against [1]. Chosen empirically: where the rest is larger, most is
-   * fixed-pattern noise, and both lines are imprecise. */
+  /** Fraction of the variance of the neighbours' means that must be common to the pixels' own, for these means to be
+   * the instrument of the line that pixels are tested against [1]. Chosen empirically: where the rest is larger, most
+   * is fixed-pattern noise, and both lines are imprecise. */
   double leastCommonVariance{ 0.5 };
   /** Smallest number of pixels of a bin of the first line, and of a fit. Chosen empirically. */
   double      fewestPixelsOfBin{ 5.0 };
@@ -141,6 +141,10 @@ struct PixelsConstants
   /** Dispersion of the pixels' noise variances, relative to their sampling variance, below which the weights neglect it
    * [1]. Chosen empirically: at the limit equal weights cost 0.3 % of the precision. */
   double leastNoiseDispersion{ 0.1 };
+  /** Largest number of cells along either axis whose deviations from the line may be alike, and their least side
+   * [pixel]. Chosen empirically: stars have 3 to 8 pixels across, and 576 cells determine a variance to 6 %. */
+  std::size_t mostScoreCells{ 24 };
+  std::size_t leastScoreCell{ 8 };
   /** Largest error by fixed-pattern noise that is neglected, in standard errors [1]. Chosen empirically: it adds 3 % to
    * the error. */
   double negligiblePattern{ 0.25 };

@@ -7,6 +7,7 @@
 #include "base/Constants.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/Constants.h"
+#include "pixels/ScoreCells.h"
 #include "pixels/VarianceFit.h"
 #include "pixels/VarianceLine.h"
 #include "scene/ReferenceFrame.h"
@@ -298,8 +299,10 @@ FitInstrumental(const VarianceFit & fit, const VarianceData & data, const Refere
   });
   // A pattern of columns or rows correlates the scores of their pixels: then whole columns or rows are independent.
   const std::size_t width = frame.geometry.width;
-  const auto        alike = fit.SumWeighed(
-    width + frame.geometry.height, [&](std::size_t p, const VarianceFit::Weighed & weighed, double * sums) {
+  const std::size_t lines = width + frame.geometry.height;
+  const ScoreCells  cells(frame.geometry);
+  const auto        alike =
+    fit.SumWeighed(lines + cells.Count(), [&](std::size_t p, const VarianceFit::Weighed & weighed, double * sums) {
       if (HasDiagonals(frame.usable.data(), frame.geometry.width, p))
       {
         const auto [w, value] = weighed;
@@ -307,12 +310,15 @@ FitInstrumental(const VarianceFit & fit, const VarianceData & data, const Refere
           w * (value - instrumental.intercept - instrumental.gain * data.mean[p]) * (diagonalOf(p) - zMean);
         sums[p % width] += score;
         sums[width + p / width] += score;
+        sums[lines + cells.Of(p)] += score;
       }
     });
   const auto      squaresOf = [&](auto first, auto last) { return std::inner_product(first, last, first, 0.0); };
   const auto      middle = alike.begin() + static_cast<std::ptrdiff_t>(width);
-  const double    most = std::max(squaresOf(alike.begin(), middle), squaresOf(middle, alike.end()));
-  const double    widening = most > InPattern.leastLikeness * squares[0] ? most / squares[0] : 1.0;
+  const auto      end = alike.begin() + static_cast<std::ptrdiff_t>(lines);
+  const double    most = std::max(squaresOf(alike.begin(), middle), squaresOf(middle, end));
+  const double    ofPattern = most > InPattern.leastLikeness * squares[0] ? most / squares[0] : 1.0;
+  const double    widening = std::max(ofPattern, WideningOfExcess({ end, alike.end() }, squares[0]));
   Eigen::Matrix2d atPivot;
   atPivot << squares[0] / (common * common), squares[1] / (common * s[W]), squares[1] / (common * s[W]),
     squares[2] / (s[W] * s[W]);

@@ -10,6 +10,7 @@
 #include "pixels/UnequalIllumination.h"
 #include "pixels/FixedPatternEstimate.h"
 #include "pixels/ProjectedVariance.h"
+#include "pixels/ScoreCells.h"
 #include "pixels/VarianceFit.h"
 #include "pixels/VarianceLine.h"
 #include "scene/ReferenceFrame.h"
@@ -337,6 +338,7 @@ FitOnce(const ProjectedSquares &          squares,
   {
     found.instrumentalLine = settle(FitInstrumental(fit, data, frame));
   }
+  line.covariance *= WideningByCells(fit, data, frame.geometry);
   CorrectForNoisyMeans(line, offsetDn, frame.frames);
   std::vector<std::uint8_t> kept = found.mask;
   ForPixels(kept.size(), parallelFor, [&](std::size_t p) { kept[p] = trimmed[p] != 0 ? 0 : kept[p]; });
