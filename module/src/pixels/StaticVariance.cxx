@@ -208,14 +208,23 @@ CorrectForParts(FittedLine                        drawn,
 }
 
 /** Corrects the slope for the noise of the means, and for the correlation of this noise with the variance, which skewed
- * noise has. Together they bias the slope's equation by -g sigma^2 / T per unit of weight. Estimator.md, 3.6. */
+ * noise has. Together they bias the slope's equation by -g sigma^2 / T per unit of weight. The offset that sigma needs
+ * lies between \a lowestDn and \a highestDn: the mean correction is made, and what it may be off by is an error.
+ * Estimator.md, 3.6. */
 void
-CorrectForNoisyMeans(VarianceLine & line, double offsetDn, std::size_t frames)
+CorrectForNoisyMeans(VarianceLine & line, double lowestDn, double highestDn, std::size_t frames)
 {
-  const double readVariance = std::max(0.0, line.intercept + line.gain * offsetDn);
-  const double bias = -line.gain * readVariance / static_cast<double>(frames) * line.weightSum / line.spreadDn2;
-  line.gain -= bias;
-  line.intercept += bias * line.pivotDn;
+  const auto bias = [&](double offsetDn) {
+    const double readVariance = std::max(0.0, line.intercept + line.gain * offsetDn);
+    return -line.gain * readVariance / static_cast<double>(frames) * line.weightSum / line.spreadDn2;
+  };
+  const double          least = bias(lowestDn);
+  const double          most = bias(highestDn);
+  const double          mean = 0.5 * (least + most);
+  const Eigen::Vector2d effect(1.0, -line.pivotDn);
+  line.gain -= mean;
+  line.intercept += mean * line.pivotDn;
+  line.covariance += (most - least) * (most - least) / 12.0 * effect * effect.transpose(); // of equal probabilities
 }
 
 /** Levels and variance inflation that FitStaticVariance() is called with, see there. */
@@ -339,7 +348,7 @@ FitOnce(const ProjectedSquares &          squares,
     found.instrumentalLine = settle(FitInstrumental(fit, data, frame));
   }
   line.covariance *= WideningByCells(fit, data, frame.geometry);
-  CorrectForNoisyMeans(line, offsetDn, frame.frames);
+  CorrectForNoisyMeans(line, std::min(blackDn, offsetDn), offsetDn, frame.frames);
   std::vector<std::uint8_t> kept = found.mask;
   ForPixels(kept.size(), parallelFor, [&](std::size_t p) { kept[p] = trimmed[p] != 0 ? 0 : kept[p]; });
   const PartReference reference{ line, blackDn, varianceInflation };
