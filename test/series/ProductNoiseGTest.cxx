@@ -132,3 +132,17 @@ TEST(SensorNoiseProductNoise, NoiseBeyondTheModelIsNoFlicker)
   const SceneSeries series = FindSceneSeries(sums, RollingShutter::Off, std::nullopt, 0.0, false, raw);
   EXPECT_FALSE(series.isOffsetIdentifiable);
 }
+
+TEST(SensorNoiseProductNoise, NoiseBeyondTheModelIsNoUnevenFlicker)
+{
+  // A steady light source. In the left third of the frame, the noise has 25 times the variance of the model.
+  SyntheticFrames     frames(Width, Height, std::vector<FrameChange>(24));
+  std::vector<double> variance = VarianceWith(frames, 0.0, 1.0);
+  for (std::size_t p = 0; p < frames.Pixels(); ++p)
+  {
+    variance[p] *= 3 * (p % Width) < Width ? 25.0 : 1.0;
+  }
+  AddNoise(frames, variance, 7);
+  const SceneSeries series = FindSceneSeries(frames.Sums(), RollingShutter::Auto);
+  EXPECT_FALSE(series.local.unevenness.Counts()) << series.local.unevenness.size << ' ' << series.local.unevenness.z;
+}

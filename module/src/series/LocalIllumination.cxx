@@ -272,16 +272,16 @@ MeasureUnevenness(const Eigen::MatrixXd & whole,
     line.row(i) << root, used.signal[cell] > 0.0 ? root / used.signal[cell] : 0.0;
     precision += used.precision[cell];
   }
-  size -= line * line.colPivHouseholderQr().solve(size);
-  std::vector<double> noises(static_cast<std::size_t>(count));
-  for (Eigen::Index i = 0; i < count; ++i)
-  {
-    noises[static_cast<std::size_t>(i)] = rest.col(i).squaredNorm() / static_cast<double>(dof);
-  }
-  const double cells = static_cast<double>(count) - 2.0;
-  const double noise = QuantileOf(noises, 0.5);
-  const double excess = size.squaredNorm() - noise * cells;
-  return { std::sqrt(std::max(0.0, excess) / (precision * energy)), excess / (noise * std::sqrt(2.0 * cells)) };
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> fit(line);
+  const Eigen::MatrixXd                             columns =
+    Eigen::MatrixXd(fit.householderQ() * Eigen::MatrixXd::Identity(count, 2)).leftCols(fit.rank());
+  size -= columns * (columns.transpose() * size);
+  // Each cell has its own noise: in a dark scene, the initial model may be wrong by a factor in the bright cells.
+  const Eigen::VectorXd noise = rest.colwise().squaredNorm().transpose() / static_cast<double>(dof);
+  const Eigen::VectorXd left = Eigen::VectorXd::Ones(count) - columns.rowwise().squaredNorm(); // 1 - leverage
+  const double          excess = size.squaredNorm() - left.dot(noise);
+  const double          variance = 2.0 * (1.0 + 1.0 / static_cast<double>(dof)) * left.dot(noise.cwiseAbs2());
+  return { std::sqrt(std::max(0.0, excess) / (precision * energy)), excess / std::sqrt(variance) };
 }
 } // namespace
 
