@@ -59,7 +59,8 @@ enum class TrimRule : std::uint8_t
 {
   /** Trims pixels beyond the tails of chi-square at their own level. Outliers cannot change this line, and pixels are
    * tested against it. It rejects the noisier pixels of a sensor in the dark, but cannot detect them in bright
-   * areas. */
+   * areas. The neighbours' means are the instrument of the slope, which fixed-pattern noise would flatten where most
+   * pixels are dark. */
   Level,
   /** Trims pixels that are farther from the line than one distance, the same at all levels. The same part of the read
    * noise of single pixels is then kept at every level, and the line describes the mean variance. */

@@ -54,9 +54,9 @@ struct SensorNoise_EXPORT FrameEquations
  * products of the kernels to the Gram matrix, which is subtracted. Where the noise of a frame differs from the average
  * by gamma_t g q, its product with the centre weight of a column adds to the right-hand side. This is subtracted where
  * \a gamma is given. Stacks of fewer than 20 frames have no third order. Of two first derivatives that are
- * proportional, as on a ramp across the frame, the weaker is left out. Where \a noise has the covariance of the
- * right-hand sides, `illumination` and `response` are weighted by it: with G the Gram matrix and C
- * the covariance of r_t, they are G C^-1 G and G C^-1 r_t, the first again the covariance of the second. */
+ * proportional, as on a ramp across the frame, the weaker is left out. Where \a noise has the covariance C of the
+ * right-hand sides r_t, `illumination` and `response` are weighted by it. With the Gram matrix G, they are G C^-1 G and
+ * G C^-1 r_t: again, the first is the covariance of the second. */
 SensorNoise_EXPORT FrameEquations
 MakeFrameEquations(const FrameSums &           sums,
                    const RegressorNoise &      noise,
