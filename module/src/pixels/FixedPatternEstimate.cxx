@@ -313,12 +313,14 @@ FitInstrumental(const VarianceFit & fit, const VarianceData & data, const Refere
         sums[lines + cells.Of(p)] += score;
       }
     });
-  const auto      squaresOf = [&](auto first, auto last) { return std::inner_product(first, last, first, 0.0); };
-  const auto      middle = alike.begin() + static_cast<std::ptrdiff_t>(width);
-  const auto      end = alike.begin() + static_cast<std::ptrdiff_t>(lines);
-  const double    most = std::max(squaresOf(alike.begin(), middle), squaresOf(middle, end));
-  const double    ofPattern = most > InPattern.leastLikeness * squares[0] ? most / squares[0] : 1.0;
-  const double    widening = std::max(ofPattern, WideningOfExcess({ end, alike.end() }, squares[0]));
+  const auto   squaresOf = [&](auto first, auto last) { return std::inner_product(first, last, first, 0.0); };
+  const auto   middle = alike.begin() + static_cast<std::ptrdiff_t>(width);
+  const auto   end = alike.begin() + static_cast<std::ptrdiff_t>(lines);
+  const double most = std::max(squaresOf(alike.begin(), middle), squaresOf(middle, end));
+  const double ofPattern = most > InPattern.leastLikeness * squares[0] ? most / squares[0] : 1.0;
+  // A pattern of columns or rows is alike within cells, too, but more so along its lines.
+  const bool      isExcess = squaresOf(end, alike.end()) > most;
+  const double    widening = isExcess ? WideningOfExcess({ end, alike.end() }, squares[0]) : ofPattern;
   Eigen::Matrix2d atPivot;
   atPivot << squares[0] / (common * common), squares[1] / (common * s[W]), squares[1] / (common * s[W]),
     squares[2] / (s[W] * s[W]);
