@@ -241,6 +241,38 @@ EstimateFixedPattern(const ReferenceFrame & frame,
   return pattern;
 }
 
+namespace
+{
+/** Returns the factor by which the variance of a slope is larger than for independent pixels, whose squared scores have
+ * the sum \a squares [1]. A pattern of columns or rows correlates the scores of their pixels: then whole columns or
+ * rows are independent. So are the cells of the frame where objects twinkle. scoreOf(p, weighed) returns the score of a
+ * pixel. */
+template <typename TScore>
+double
+WideningByLikeness(const VarianceFit & fit, const FrameGeometry & geometry, double squares, TScore scoreOf)
+{
+  const std::size_t width = geometry.width;
+  const std::size_t lines = width + geometry.height;
+  const ScoreCells  cells(geometry);
+  const auto        alike =
+    fit.SumWeighed(lines + cells.Count(), [&](std::size_t p, const VarianceFit::Weighed & weighed, double * sums) {
+      const double score = scoreOf(p, weighed);
+      sums[p % width] += score;
+      sums[width + p / width] += score;
+      sums[lines + cells.Of(p)] += score;
+    });
+  const auto   squaresOf = [&](auto first, auto last) { return std::inner_product(first, last, first, 0.0); };
+  const auto   middle = alike.begin() + static_cast<std::ptrdiff_t>(width);
+  const auto   end = alike.begin() + static_cast<std::ptrdiff_t>(lines);
+  const double most = std::max(squaresOf(alike.begin(), middle), squaresOf(middle, end));
+  if (squaresOf(end, alike.end()) > most) // a pattern is alike within cells, too, but more so along its lines
+  {
+    return WideningOfExcess({ end, alike.end() }, squares);
+  }
+  return most > InPattern.leastLikeness * squares ? most / squares : 1.0;
+}
+} // namespace
+
 VarianceLine
 FitInstrumental(const VarianceFit & fit, const VarianceData & data, const ReferenceFrame & frame)
 {
@@ -286,7 +318,7 @@ FitInstrumental(const VarianceFit & fit, const VarianceData & data, const Refere
   instrumental.pivotDn = pivot + s[WX] / s[W];
   instrumental.intercept = s[WV] / s[W] - instrumental.gain * instrumental.pivotDn;
   // Sums of the squared scores, for the sandwich covariance.
-  const auto squares = fit.SumWeighed<3>([&](std::size_t p, const VarianceFit::Weighed & weighed, auto & sums) {
+  const auto   squares = fit.SumWeighed<3>([&](std::size_t p, const VarianceFit::Weighed & weighed, auto & sums) {
     if (HasDiagonals(frame.usable.data(), frame.geometry.width, p))
     {
       const auto [w, value] = weighed;
@@ -297,30 +329,12 @@ FitInstrumental(const VarianceFit & fit, const VarianceData & data, const Refere
       sums[2] += score * score;
     }
   });
-  // A pattern of columns or rows correlates the scores of their pixels: then whole columns or rows are independent.
-  const std::size_t width = frame.geometry.width;
-  const std::size_t lines = width + frame.geometry.height;
-  const ScoreCells  cells(frame.geometry);
-  const auto        alike =
-    fit.SumWeighed(lines + cells.Count(), [&](std::size_t p, const VarianceFit::Weighed & weighed, double * sums) {
-      if (HasDiagonals(frame.usable.data(), frame.geometry.width, p))
-      {
-        const auto [w, value] = weighed;
-        const double score =
-          w * (value - instrumental.intercept - instrumental.gain * data.mean[p]) * (diagonalOf(p) - zMean);
-        sums[p % width] += score;
-        sums[width + p / width] += score;
-        sums[lines + cells.Of(p)] += score;
-      }
-    });
-  const auto   squaresOf = [&](auto first, auto last) { return std::inner_product(first, last, first, 0.0); };
-  const auto   middle = alike.begin() + static_cast<std::ptrdiff_t>(width);
-  const auto   end = alike.begin() + static_cast<std::ptrdiff_t>(lines);
-  const double most = std::max(squaresOf(alike.begin(), middle), squaresOf(middle, end));
-  const double ofPattern = most > InPattern.leastLikeness * squares[0] ? most / squares[0] : 1.0;
-  // A pattern of columns or rows is alike within cells, too, but more so along its lines.
-  const bool      isExcess = squaresOf(end, alike.end()) > most;
-  const double    widening = isExcess ? WideningOfExcess({ end, alike.end() }, squares[0]) : ofPattern;
+  const double widening = WideningByLikeness(fit, frame.geometry, squares[0], [&](std::size_t p, const auto & weighed) {
+    const auto [w, value] = weighed;
+    return HasDiagonals(frame.usable.data(), frame.geometry.width, p)
+             ? w * (value - instrumental.intercept - instrumental.gain * data.mean[p]) * (diagonalOf(p) - zMean)
+             : 0.0;
+  });
   Eigen::Matrix2d atPivot;
   atPivot << squares[0] / (common * common), squares[1] / (common * s[W]), squares[1] / (common * s[W]),
     squares[2] / (s[W] * s[W]);

@@ -43,11 +43,11 @@ enum ClassSum : std::size_t
   WeightedOne,   // one over the model, times the weight: the change of the ratio with its intercept
   // Sums for the slope of a line through the kept pixels: of w, the inverse sampling variance, times products of x, the
   // mean above the model's pivot, and z, that of the neighbours.
-  W,
-  WX,
-  WZ,
-  WZX,
-  WZZ,
+  SlopeW,
+  SlopeWX,
+  SlopeWZ,
+  SlopeWZX,
+  SlopeWZZ,
   ClassSums
 };
 using SumsOfClasses = std::array<double, ClassSums * Classes>;
@@ -98,11 +98,11 @@ SumClasses(const ProjectedVariance &         projected,
           own[WeightedOne] += weight[i] / run.expected[i];
           const double x = frame.mean[first + i] - line.line.pivotDn;
           const double z = frame.neighbourMean[first + i] - line.line.pivotDn;
-          own[W] += precision[i];
-          own[WX] += precision[i] * x;
-          own[WZ] += precision[i] * z;
-          own[WZX] += precision[i] * z * x;
-          own[WZZ] += precision[i] * z * z;
+          own[SlopeW] += precision[i];
+          own[SlopeWX] += precision[i] * x;
+          own[SlopeWZ] += precision[i] * z;
+          own[SlopeWZX] += precision[i] * z * x;
+          own[SlopeWZZ] += precision[i] * z * z;
         }
       }
     }
@@ -193,8 +193,8 @@ SlopeVariance(const SumsOfClasses & sums, std::size_t end)
       all[k] += sums[ClassSums * c + k];
     }
   }
-  const double neighbours = all[WZZ] - all[WZ] * all[WZ] / all[W];
-  const double common = all[WZX] - all[WZ] * all[WX] / all[W];
+  const double neighbours = all[SlopeWZZ] - all[SlopeWZ] * all[SlopeWZ] / all[SlopeW];
+  const double common = all[SlopeWZX] - all[SlopeWZ] * all[SlopeWX] / all[SlopeW];
   return common > 0.0 ? neighbours / (common * common) : std::numeric_limits<double>::infinity();
 }
 
