@@ -28,12 +28,12 @@ WideningOf(double deviationOfCells)
   const FrameGeometry             geometry{ Side, Side, 1 };
   const ScoreCells                cells(geometry);
   std::mt19937                    random(7);
-  std::normal_distribution<>      normal(0.0, deviationOfCells);
+  std::normal_distribution<>      normal;
   std::chi_squared_distribution<> chiSquare(Dof);
   std::vector<double>             factors;
   for (std::size_t c = 0; c < cells.Count(); ++c)
   {
-    factors.push_back(1.0 + normal(random));
+    factors.push_back(1.0 + deviationOfCells * normal(random));
   }
   std::vector<double>             mean;
   std::vector<double>             variance;
