@@ -274,8 +274,10 @@ WeightByCovariance(FrameEquations & equations, Eigen::Matrix2d covariance)
   if (factor.info() == Eigen::Success && covariance.allFinite())
   {
     const Eigen::Matrix2d weighted = factor.solve(equations.illumination);
-    equations.illumination *= weighted;
-    equations.response *= weighted;
+    const Eigen::Matrix2d product = equations.illumination * weighted;
+    equations.response = (equations.response * weighted).eval();
+    // It is symmetric. Clang 14 gives another lower element for WebAssembly.
+    equations.illumination << product(0, 0), product(0, 1), product(0, 1), product(1, 1);
   }
 }
 } // namespace
