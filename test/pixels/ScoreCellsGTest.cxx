@@ -81,7 +81,7 @@ TEST(SensorNoiseScoreCells, CommonDeviationsWiden)
 TEST(SensorNoiseScoreCells, AnExcessIsAsLargeAsItsScatter)
 {
   EXPECT_EQ(WideningOfExcess({ 1.0, -1.0, 1.0, 1.0 }, 4.0), 1.0);
-  // Four cells that are alike: 5 times the variance of independent pixels, of which 4 are not by chance, and 4 cells.
+  // Four cells that are alike: 5 times the variance of independent pixels. Chance explains 1 of these 5.
   EXPECT_DOUBLE_EQ(WideningOfExcess({ 2.0, 2.0, 2.0, 2.0, 0.0 }, 3.2), 1.0 + 4.0 * 4.0);
   EXPECT_DOUBLE_EQ(WideningOfExcess({ 4.0, 0.0, 0.0 }, 3.2), 1.0 + 4.0); // one of them
 }

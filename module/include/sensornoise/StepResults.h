@@ -102,6 +102,7 @@ struct CodeRange
   {
     clipSource = low == high ? low : "low: " + low + ", high: " + high;
   }
+  /** Returns the source of the lower clip level, see clipSource. */
   std::string
   GetLowClipSource() const
   {
@@ -109,6 +110,7 @@ struct CodeRange
     const std::size_t high = clipSource.find(", high: ");
     return high == std::string::npos ? clipSource : clipSource.substr(prefix.size(), high - prefix.size());
   }
+  /** Returns the source of the upper clip level, see clipSource. */
   std::string
   GetHighClipSource() const
   {

@@ -34,8 +34,8 @@ struct JackknifeEstimate
 
 /** Returns the values that \a figuresOf computes from the sums over all blocks, and their covariance. The covariance is
  * found by leaving out one block at a time (Tukey 1958). It is right for sums over pairs that have pixels in common,
- * where a formula for independent noise gives errors several times too small. Fewer than two blocks
- * determine no covariance: it is infinite. \a figuresOf maps sums to an Eigen::VectorXd. */
+ * where a formula for independent noise gives errors several times too small. Fewer than two blocks determine
+ * no covariance: it is infinite. \a figuresOf maps sums to an Eigen::VectorXd. */
 template <typename TSums, typename TFunction>
 JackknifeEstimate
 Jackknife(const std::vector<TSums> & blocks, TFunction figuresOf)

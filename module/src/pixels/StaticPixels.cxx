@@ -42,7 +42,7 @@ enum ClassSum : std::size_t
   WeightedLevel, // level over the model, times the weight: the change of the ratio with the gain of the model
   WeightedOne,   // one over the model, times the weight: the change of the ratio with its intercept
   // Sums for the slope of a line through the kept pixels: of w, the inverse sampling variance, times products of x, the
-  // mean above the model's pivot, and z, that of the neighbours.
+  // pixel's mean above the model's pivot, and z, the mean of the neighbours.
   SlopeW,
   SlopeWX,
   SlopeWZ,
@@ -126,7 +126,8 @@ struct ClassTable
 };
 
 /** Computes the table and \a ratio, the mean of variance over model of each class. The errors include the \a covariance
- * of gain and intercept of the model: flat classes that are all dark do not tell the variance of bright ones. */
+ * of gain and intercept of the model: flat classes that are all dark do not determine the variance
+ * of bright ones. */
 ClassTable
 MakeTable(const SumsOfClasses & sums, const Eigen::Matrix2d & covariance, std::vector<double> & ratio)
 {
