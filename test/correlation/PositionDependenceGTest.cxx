@@ -221,6 +221,40 @@ TEST(SensorNoiseEnlargementTrace, WhiteAndFilteredNoiseHaveNone)
     FindEnlargementTrace(Residuals([&](std::size_t t) { return FilterUnlikeColumns(white(t)); }), SerialFor));
 }
 
+TEST(SensorNoiseEnlargementTrace, FilteredBarsHaveNone)
+{
+  // Bars of shot noise, 5 pixels apart, in every second block of 8 rows; frames are means of two columns. The
+  // coefficients beside the bars have the period of the bars.
+  const auto isDark = [](std::size_t p) {
+    return p % Frame.width % 5 < 2 && p / Frame.width / 8 % 2 == 0 && p % Frame.width + 1 < Frame.width;
+  };
+  const auto average = [](std::vector<double> values) {
+    for (std::size_t p = 0; p + 1 < values.size(); ++p)
+    {
+      values[p] = 0.5 * (values[p] + values[p + 1]);
+    }
+    return values;
+  };
+  std::vector<double> electrons(Frame.Pixels());
+  for (std::size_t p = 0; p < electrons.size(); ++p)
+  {
+    electrons[p] = isDark(p) ? 20.0 : 400.0;
+  }
+  const FrameOf white = WhiteNoise(Frame, 10);
+  const FrameOf filtered = [&](std::size_t t) {
+    DoubleFrame frame = white(t);
+    for (std::size_t p = 0; p < electrons.size(); ++p)
+    {
+      frame.values[p] *= std::sqrt(electrons[p]);
+    }
+    frame.values = average(frame.values);
+    return frame;
+  };
+  const NoiseResiduals residuals = ComputeResiduals(Frame, Frames, average(electrons), filtered);
+  EXPECT_FALSE(FindEnlargementTrace(residuals, SerialFor));
+  EXPECT_NE(MeasureNoiseCorrelation(residuals, 0.0, SerialFor).kind, NoiseKind::Enlarged);
+}
+
 TEST(SensorNoiseEnlargementTrace, MakesTheKind)
 {
   const auto found = MeasureNoiseCorrelation(Residuals(Enlarged(2.0)), 0.0, SerialFor);

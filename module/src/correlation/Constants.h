@@ -149,6 +149,9 @@ struct CorrelationConstants
    * doubling and the interpolation of a mosaic make 0.16 to 0.64. Filters make at most 0.008 on a texture, a chart or
    * a ramp. */
   double leastOscillation{ 0.03 };
+  /** Exponent of the ratio of the smallest to the largest variance around a pixel, by which pairs count [1]. Chosen
+   * empirically: a ratio of 0.9 counts 0.43, of 0.5 nothing. */
+  double exponentOfFlatness{ 8.0 };
   /** Smallest ratio of the squared amplitude to the mean squared amplitude at other frequencies [1]: by chance, one in
    * 10^6 spectra of 10^5 frequencies exceeds it. */
   double oscillationRatio{ 25.0 };

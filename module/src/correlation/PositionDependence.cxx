@@ -103,7 +103,7 @@ namespace
 /** Sums over the pixels at one position along an axis, and over their neighbours, in one intensity bin. */
 struct PlaceSums
 {
-  double pairs{ 0.0 };
+  double pairs{ 0.0 };      // by their flatness
   double product{ 0.0 };    // pixel times neighbour
   double square{ 0.0 };     // pixel squared
   double neighbours{ 0.0 }; // neighbour squared
@@ -153,15 +153,47 @@ IndexOf(int lag, std::size_t axis)
   return 2 * static_cast<std::size_t>(lag - 1) + axis;
 }
 
-/** Returns the sums of a tile along one axis. \a squares are the products of its pixels with themselves, \a products
- * with their neighbours \a apart pixels away. */
+/** Returns for each pixel of a tile how little the noise variance changes around it, from 0 to 1. A filter weights the
+ * variances around an edge, so that coefficients there differ with the place, as behind an enlargement. */
+std::vector<double>
+FlatnessOf(const NoiseResiduals & residuals, std::size_t tile)
+{
+  const std::size_t   side = residuals.GetTiles().side;
+  const float *       weight = residuals.WeightOf(tile);
+  std::vector<double> flatness(side * side, 0.0);
+  for (std::size_t y = 0; y < side; ++y)
+  {
+    for (std::size_t x = 0; x < side; ++x)
+    {
+      const float own = weight[y * side + x];
+      float       low = own;
+      float       high = own;
+      for (std::size_t v = y - std::min<std::size_t>(y, 1); v < std::min(side, y + 2); ++v)
+      {
+        for (std::size_t u = x - std::min<std::size_t>(x, 1); u < std::min(side, x + 2); ++u)
+        {
+          const float other = weight[v * side + u];
+          low = other > 0.0F ? std::min(low, other) : low;
+          high = std::max(high, other);
+        }
+      }
+      flatness[y * side + x] =
+        own > 0.0F ? std::pow(static_cast<double>(low) / high, InCorrelation.exponentOfFlatness) : 0.0;
+    }
+  }
+  return flatness;
+}
+
+/** Returns the sums of a tile along one axis. Pairs count by the \a flatness of both pixels. \a squares are the
+ * products of its pixels with themselves, \a products with their neighbours \a apart pixels away. */
 AxisSums
-SumAxis(const NoiseResiduals &     residuals,
-        std::size_t                tile,
-        std::size_t                axis,
-        std::size_t                apart,
-        const std::vector<float> & squares,
-        const std::vector<float> & products)
+SumAxis(const NoiseResiduals &      residuals,
+        std::size_t                 tile,
+        std::size_t                 axis,
+        std::size_t                 apart,
+        const std::vector<double> & flatness,
+        const std::vector<float> &  squares,
+        const std::vector<float> &  products)
 {
   const std::size_t    side = residuals.GetTiles().side;
   const auto &         origin = residuals.GetTiles().origins[tile];
@@ -179,10 +211,11 @@ SumAxis(const NoiseResiduals &     residuals,
       const double      w = static_cast<double>(weight[p]) * weight[q];
       if (w > 0.0)
       {
-        sums[(firstLine + line) % 2][place][bin[p]] += { 1.0,
-                                                         products[p] * std::sqrt(w),
-                                                         static_cast<double>(squares[p]) * weight[p],
-                                                         static_cast<double>(squares[q]) * weight[q] };
+        const double flat = flatness[p] * flatness[q];
+        sums[(firstLine + line) % 2][place][bin[p]] += { flat,
+                                                         flat * products[p] * std::sqrt(w),
+                                                         flat * static_cast<double>(squares[p]) * weight[p],
+                                                         flat * static_cast<double>(squares[q]) * weight[q] };
       }
     }
   }
@@ -199,12 +232,13 @@ SumTraces(const NoiseResiduals & residuals, std::size_t tile)
     lags.push_back({ 0, lag, 0 });
   }
   const auto products = SumProducts(residuals, tile, lags);
+  const auto flatness = FlatnessOf(residuals, tile);
   TraceSums  sums;
   for (std::size_t index = 0; index < sums.axes.size(); ++index)
   {
     const Lag & lag = lags[1 + index];
     const auto  apart = static_cast<std::size_t>(lag.x + lag.y);
-    sums.axes[index] = SumAxis(residuals, tile, index % 2, apart, products[0], products[1 + index]);
+    sums.axes[index] = SumAxis(residuals, tile, index % 2, apart, flatness, products[0], products[1 + index]);
   }
   return sums;
 }
