@@ -79,6 +79,7 @@ TEST(SensorNoiseVarianceCurve, LineHasNoDeviationFromItself)
 {
   const VarianceCurve curve = EvenCurve([](double) { return 0.0; });
   EXPECT_EQ(curve.ReducedChi2(), 0.0);
+  EXPECT_EQ(curve.ReducedChi2(4.0), 0.0);
   EXPECT_EQ(curve.Nonlinearity(1.0), 0.0);
   ASSERT_EQ(curve.FitHalves().size(), 4u);
   for (const SlopeExcess & half : curve.FitHalves())
@@ -106,6 +107,8 @@ TEST(SensorNoiseVarianceCurve, WaveInTheVarianceIsNoChance)
 {
   const VarianceCurve curve = CurveOfPixels(0.05, 0.2);
   EXPECT_GT(curve.ReducedChi2(), 3.0);
+  EXPECT_DOUBLE_EQ(curve.ReducedChi2(2.0), 0.5 * curve.ReducedChi2()); // all neighbours share a bin
+  EXPECT_DOUBLE_EQ(curve.ReducedChi2(1e9), 1.0);                       // some of them do
   EXPECT_GT(curve.Nonlinearity(1.0), 0.1);
   EXPECT_LT(curve.Nonlinearity(1.0), 0.2 + 5.0 * 0.0073);
 }

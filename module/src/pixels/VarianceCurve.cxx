@@ -38,7 +38,7 @@ VarianceCurve::SumOf(std::size_t first, std::size_t last) const
 }
 
 double
-VarianceCurve::ReducedChi2() const
+VarianceCurve::ReducedChi2(double varianceInflation) const
 {
   double chi2 = 0.0;
   double used = 0.0;
@@ -50,7 +50,8 @@ VarianceCurve::ReducedChi2() const
       used += 1.0;
     }
   }
-  return used > 2.0 ? chi2 / (used - 2.0) : 1.0;
+  const double reduced = used > 2.0 ? chi2 / (used - 2.0) : 1.0;
+  return reduced / std::clamp(reduced, 1.0, varianceInflation);
 }
 
 double

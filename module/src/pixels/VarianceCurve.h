@@ -166,9 +166,12 @@ struct SensorNoise_EXPORT VarianceCurve
   VarianceLine          line;
   std::vector<CurveBin> bins; ///< bins of equal numbers of pixels, from dark to bright
 
-  /** Returns the reduced chi-square of the bins' mean excesses: 1 if they are sampling noise about a line [1]. */
+  /** Returns the reduced chi-square of the bins' mean excesses: 1 if they are sampling noise about a line [1]. Where
+   * neighbours have correlated noise, the variance of a bin's mean is 1 to \a varianceInflation times that of white
+   * noise, as its pixels are neighbours or not. The factor in this range is taken that brings chi-square nearest to 1.
+   */
   double
-  ReducedChi2() const;
+  ReducedChi2(double varianceInflation = 1.0) const;
 
   /** Returns the non-linearity D: the largest deviation of the mean of a sixteenth of the bins, relative to the line,
    * less the deviation expected by chance [1]. \a dispersion is the variance of the excesses over the variance by their

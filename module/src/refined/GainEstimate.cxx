@@ -101,7 +101,7 @@ ApplyStep(GainEstimate &            estimate,
   const VarianceStep & step = *estimate.step;
   estimate.line = step.line;
   estimate.curve = step.RestOf(lines.ofOwnLevels);
-  estimate.reducedChi2 = estimate.curve.ReducedChi2() / variance.varianceInflation;
+  estimate.reducedChi2 = estimate.curve.ReducedChi2(variance.varianceInflation);
   estimate.covariance = DispersionOfClasses(variance) * step.line.covariance + lines.covarianceOfCorrelation;
   const double ofPattern = variance.pattern.LargestFraction() * std::abs(step.line.gain);
   for (const double error : { ErrorOfVibration(step.line, model), ofPattern, step.errorOfSlopes })
@@ -235,7 +235,7 @@ EstimateOfFrames(const VarianceCurve &   frames,
   estimate.line = frames.line;
   estimate.curve = frames;
   estimate.covariance = frames.line.covariance + covarianceOfCorrelation;
-  estimate.reducedChi2 = frames.ReducedChi2() / varianceInflation;
+  estimate.reducedChi2 = frames.ReducedChi2(varianceInflation);
   estimate.isFromFrames = true;
   FindModelError(estimate, frames, {}, blackDn, varianceInflation); // no fixed-pattern noise between frames
   return estimate;
@@ -297,7 +297,7 @@ EstimateGain(const RefinedResults & found, const SensorLines & lines)
   const StaticVariance & variance = found.variance;
   GainEstimate           estimate;
   estimate.curve = lines.curve;
-  estimate.reducedChi2 = lines.curve.ReducedChi2() / variance.varianceInflation;
+  estimate.reducedChi2 = lines.curve.ReducedChi2(variance.varianceInflation);
   ChooseLine(estimate, lines, variance, found.scene.model);
   ApplyStep(estimate, lines, variance, found.scene.model);
   estimate.scale = estimate.line.At(estimate.line.pivotDn) / std::max(1e-9, estimate.line.pivotDn - found.blackDn);

@@ -84,7 +84,7 @@ FitOffsetLine(const FrameEquations & equations)
   const double larger = eigen.eigenvalues()(1);
   line.offset = -direction(0) / direction(1);
   line.phi = std::max(0.0, eigen.eigenvalues()(0)) / std::max(1.0, frames - 2.0);
-  line.flickerZ = (larger - (frames - 1.0)) / std::sqrt(2.0 * (frames - 1.0));
+  line.flickerZ = (larger / line.Widening() - (frames - 1.0)) / std::sqrt(2.0 * (frames - 1.0));
   if (!std::isfinite(line.offset))
   {
     return std::nullopt;

@@ -31,7 +31,7 @@ struct SensorNoise_EXPORT OffsetLine
                                                                    ///< unbounded [DN]
   double high{ std::numeric_limits<double>::infinity() };          ///< upper bound [DN]
   double phi{ 1.0 };                                               ///< dispersion about the line [1]; 1: noise alone
-  double flickerZ{ 0.0 };  ///< excess of the flicker over its noise, in standard deviations [1]
+  double flickerZ{ 0.0 };  ///< excess of the flicker over its widened noise, in standard deviations [1]
   double precision{ 0.0 }; ///< inverse variance of one gamma_t [1]
   /** Fraction of the variance of the levels that is not the noise of their means [1]; 0: the scene has one level. */
   double              contrast{ 0.0 };
