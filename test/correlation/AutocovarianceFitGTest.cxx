@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <gtest/gtest.h>
+#include <vector>
 
 using namespace sensornoise;
 
@@ -175,4 +176,17 @@ TEST(SensorNoiseAutocovarianceFit, MeansOverFramesHaveNoTail)
   fit.FindTail(sums);
   EXPECT_FALSE(fit.HasTail());
   EXPECT_NEAR(fit.Total(sums), 25.0, 1e-9);
+}
+
+TEST(SensorNoiseRemainingOfCorrelated, IsTheDiagonalOfTheProjectedCorrelation)
+{
+  const Eigen::MatrixXd             basis = BasisWithConstant(17, 3);
+  const Eigen::VectorXd             left = ProjectorOf(basis).diagonal();
+  const std::vector<LagCoefficient> lags{ { { 0, 0, 1 }, { 0.5, 0.0 } }, { { 0, 0, 2 }, { 0.2, 0.0 } } };
+  EXPECT_LT((RemainingOfCorrelated(basis, CorrelationOfFrames({}, 17)) - Eigen::VectorXd::Ones(17)).norm(), 1e-12);
+
+  const Eigen::VectorXd remaining = RemainingOfCorrelated(basis, CorrelationOfFrames(lags, 17));
+  const Eigen::MatrixXd mixing = TemporalMixing(basis, 2, 2);
+  EXPECT_NEAR(remaining.dot(left), mixing.row(0).dot(Eigen::RowVector3d(1.0, 0.5, 0.2)), 1e-12);
+  EXPECT_GT((remaining.array() - remaining.mean()).abs().maxCoeff(), 0.1); // differs between frames
 }

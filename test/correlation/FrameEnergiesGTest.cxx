@@ -108,3 +108,11 @@ TEST(SensorNoiseFrameEnergies, AreTheMeanSquaresOfTheTakenPixelsOfEachTile)
   }
   EXPECT_EQ(row, energies.Tiles());
 }
+
+TEST(SensorNoiseFrameEnergies, AreDividedByTheFactorsOfTheFrames)
+{
+  FrameEnergies         energies = EnergiesWithBasis(Basis());
+  const Eigen::VectorXd factors = Eigen::VectorXd::LinSpaced(Frames, 1.0, 4.0);
+  energies.DivideBy(factors);
+  EXPECT_TRUE(energies.SquaresDn2().row(0).transpose().cwiseProduct(factors).isOnes(1e-15));
+}

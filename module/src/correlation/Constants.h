@@ -178,9 +178,9 @@ struct CorrelationConstants
 
   /** \name Temporal noise correlation */
   ///@{
-  /** Reporting threshold of a correlation coefficient [1]. Chosen empirically: slow drifts of a few pixels make 0.003.
-   */
-  double leastTimeCoefficient{ 0.01 };
+  /** Correlation coefficient of frames above which their covariance is summed [1]. Chosen empirically: slow drifts of
+   * a few pixels make 0.003. */
+  double leastTimeCoefficient{ 0.005 };
   /** Coefficient of the last two lags below which the sum ends [1], and largest number of lags [frames]: of a filter
    * that keeps three quarters of the previous frame, less than 0.5 % remains after 20 frames. */
   double smallTimeCoefficient{ 0.005 };

@@ -83,6 +83,12 @@ FrameEnergies::FillRemainingFraction()
   m_RemainingFraction = 1.0 - m_Basis.rowwise().squaredNorm().array();
 }
 
+void
+FrameEnergies::DivideBy(const Eigen::VectorXd & factors)
+{
+  m_SquaresDn2.array().rowwise() /= factors.transpose().array();
+}
+
 Eigen::VectorXd
 FrameEnergies::ExpectedSquares(const Eigen::VectorXd & variances) const
 {

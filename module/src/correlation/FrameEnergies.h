@@ -76,6 +76,10 @@ public:
     return m_RemainingFraction;
   }
 
+  /** Divides the squared residuals of each frame in all tiles by its factor [1]. */
+  void
+  DivideBy(const Eigen::VectorXd & factors);
+
 private:
   void
   FillRemainingFraction();

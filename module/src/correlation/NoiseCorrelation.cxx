@@ -130,13 +130,8 @@ FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
 void
 CorrectKurtosisForTemporalCorrelation(const Eigen::MatrixXd & basis, NoiseCorrelation & found)
 {
-  const Eigen::Index frames = basis.rows();
-  Eigen::MatrixXd    shared = Eigen::MatrixXd::Identity(frames, frames);
-  for (const LagCoefficient & lag : found.time)
-  {
-    shared.diagonal(lag.lag.t).setConstant(lag.coefficient.value);
-    shared.diagonal(-lag.lag.t).setConstant(lag.coefficient.value);
-  }
+  const Eigen::Index    frames = basis.rows();
+  const Eigen::MatrixXd shared = CorrelationOfFrames(found.time, frames);
   const Eigen::MatrixXd projection = Eigen::MatrixXd::Identity(frames, frames) - basis * basis.transpose();
   const auto            kurtosisOf = [](const Eigen::MatrixXd & covariance) {
     const double trace = covariance.trace();
@@ -174,6 +169,17 @@ IsLinear(const CorrelationSums & sums, const NoiseCorrelation & found)
     more.value -= std::max(0.0, own.value);
     return more.value > 0.0 && more.Exceeds(InCorrelation.largestExcess, Significance.severalTests);
   });
+}
+
+/** Returns NoiseCorrelation::smallTimeCovariance, by the lag of one frame. */
+double
+SmallTimeCovariance(const std::vector<LagCoefficient> & time)
+{
+  if (time.empty() || !time.front().coefficient.Exceeds(0.0, Significance.oneTest))
+  {
+    return 0.0;
+  }
+  return 2.0 * std::abs(time.front().coefficient.value);
 }
 
 void
@@ -288,6 +294,10 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   if (inTime)
   {
     SumOverTime(sums, found);
+  }
+  else
+  {
+    found.smallTimeCovariance = SmallTimeCovariance(found.time);
   }
   if (inSpace)
   {

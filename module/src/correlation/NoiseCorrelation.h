@@ -116,6 +116,9 @@ struct SensorNoise_EXPORT NoiseCorrelation
   MeasuredNumber timeFactor{ 1.0, 0.0 };
   /** Standard error of timeFactor by the temporal lags that are not summed [1]. */
   double beyondTimeLags{ 0.0 };
+  /** Covariance of a frame with its neighbours in time, relative to the variance, where it is significant, but too
+   * small to be corrected; else 0 [1]. */
+  double smallTimeCovariance{ 0.0 };
   /** Largest total covariance of the lags beyond reach, relative to the variance [1]. */
   double beyondReach{ 0.0 };
   /** Fraction of values that repeat the value in the frame before, beyond statistical scatter, if this makes the class

@@ -196,6 +196,27 @@ IsCorrelatedInTime(const CorrelationSums & sums, const std::vector<LagCoefficien
          (!sums.TimeLags().empty() && isLarge(CoefficientOfBrightPixels(sums)));
 }
 
+Eigen::MatrixXd
+CorrelationOfFrames(const std::vector<LagCoefficient> & lags, Eigen::Index frames)
+{
+  Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(frames, frames);
+  for (const LagCoefficient & lag : lags)
+  {
+    correlation.diagonal(lag.lag.t).setConstant(lag.coefficient.value);
+    correlation.diagonal(-lag.lag.t).setConstant(lag.coefficient.value);
+  }
+  return correlation;
+}
+
+Eigen::VectorXd
+RemainingOfCorrelated(const Eigen::MatrixXd & basis, const Eigen::MatrixXd & correlation)
+{
+  const Eigen::Index    frames = basis.rows();
+  const Eigen::MatrixXd projection = Eigen::MatrixXd::Identity(frames, frames) - basis * basis.transpose();
+  const Eigen::VectorXd remaining = (projection * correlation).cwiseProduct(projection).rowwise().sum();
+  return remaining.cwiseQuotient(projection.diagonal());
+}
+
 void
 SumOverTime(CorrelationSums & sums, NoiseCorrelation & found)
 {

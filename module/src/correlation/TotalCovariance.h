@@ -140,6 +140,15 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found);
 SensorNoise_EXPORT bool
 IsCorrelatedInTime(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients);
 
+/** Returns the correlation matrix of \a frames frames whose coefficients at the temporal lags are \a lags. */
+SensorNoise_EXPORT Eigen::MatrixXd
+CorrelationOfFrames(const std::vector<LagCoefficient> & lags, Eigen::Index frames);
+
+/** Returns the noise variance that the projection P = I - Q Q' leaves in each frame if frames have the correlation
+ * matrix R, over what it leaves of white noise: the diagonal of P R P over that of P [1]. \a basis is Q. */
+SensorNoise_EXPORT Eigen::VectorXd
+RemainingOfCorrelated(const Eigen::MatrixXd & basis, const Eigen::MatrixXd & correlation);
+
 /** Sums the noise covariance over temporal lags, until the last two are small, and continues it beyond them where it
  * decreases as behind a recursive filter. Fits the dependence on the signal, and sets the noise class to Temporal. More
  * lags than needed increase the error: after the projection of a short burst, distant lags are hardly distinguishable.

@@ -3,6 +3,7 @@
 #include "refined/FramePhotonTransfer.h"
 
 #include "correlation/FrameEnergies.h"
+#include "correlation/TotalCovariance.h"
 #include "pixels/RoughnessClasses.h"
 #include "refined/Constants.h"
 #include "report/StackReport.h"
@@ -33,7 +34,7 @@ LinesByError(const StaticVariance & variance)
   const auto   errorOf = [](const VarianceLine & line) { return std::sqrt(std::max(0.0, line.covariance(0, 0))); };
   const double ofPattern = variance.pattern.LargestFraction() * variance.line.gain;
   const double ofPixels = std::hypot(errorOf(variance.line), ofPattern);
-  const double chi2 = frames.ReducedChi2() / variance.varianceInflation;
+  const double chi2 = frames.ReducedChi2(variance.varianceInflation);
   const double ofFrames =
     errorOf(frames.line) * std::sqrt(BeyondChance(chi2, static_cast<double>(frames.bins.size()) - 2.0));
   if (!frames.line.isDetermined)
@@ -74,27 +75,29 @@ MovesLittle(const FrameComparison & by)
          InRefined.strongVibration * InRefined.strongVibration;
 }
 
-FrameNoise
-CompareFrames(const StaticVariance &  variance,
-              const FrameComparison & by,
-              double                  varianceInflation,
-              const ParallelFor &     parallelFor)
+namespace
 {
-  // Remaining motion of a frame is not noise, and levels of tiles are not known under local illumination.
-  const double least =
-    std::max(MovesLittle(by) ? 0.0 : InRefined.leastUnlikeUnderMotion,
-             by.isIlluminationLocal ? InRefined.leastUnlikeUnderLocalIllumination : InRefined.leastUnlikeNoise);
-  const std::vector<std::uint8_t> used = MaskOfUsed(variance.pixelUse);
-  const FrameEnergies             flat(by.residuals, MaskOfFlatClasses(by.squares, used, parallelFor), parallelFor);
-  const double                    chance = std::sqrt(2.0 * varianceInflation / std::max(1.0, flat.Pixels().sum()));
-  FrameNoise                      noise;
-  for (const auto & [line, error] : LinesByError(variance))
+struct Thresholds
+{
+  double varianceInflation; ///< of neighbours with correlated noise [1]
+  double least;             ///< difference of the noise variance of two groups of frames [1]
+};
+
+FrameNoise
+CompareByEnergies(const FrameEnergies &            energies,
+                  const std::vector<SlopeOfLine> & lines,
+                  const FrameComparison &          by,
+                  const Thresholds &               thresholds)
+{
+  const double chance = std::sqrt(2.0 * thresholds.varianceInflation / std::max(1.0, energies.Pixels().sum()));
+  FrameNoise   noise;
+  for (const auto & [line, error] : lines)
   {
-    noise = GroupFramesByNoise(NoiseOfFrames(flat, by.levels, line, error), chance, least);
+    noise = GroupFramesByNoise(NoiseOfFrames(energies, by.levels, line, error), chance, thresholds.least);
     for (int round = 0; round < InRefined.roundsOfFrameNoise && noise.groups.size() > 1; ++round)
     {
-      const Eigen::VectorXd known = noise.OfFrames(flat.Frames());
-      noise = GroupFramesByNoise(NoiseOfFrames(flat, by.levels, line, error, known), chance, least);
+      const Eigen::VectorXd known = noise.OfFrames(energies.Frames());
+      noise = GroupFramesByNoise(NoiseOfFrames(energies, by.levels, line, error, known), chance, thresholds.least);
     }
     noise.areFramesEqual = !by.AreUnequal();
     if (noise.HasSeveralGroups())
@@ -103,6 +106,52 @@ CompareFrames(const StaticVariance &  variance,
     }
   }
   return noise;
+}
+
+/** Returns the pixels of \a mask in even rows and even columns. */
+std::vector<std::uint8_t>
+EvenOf(std::vector<std::uint8_t> mask, std::size_t width)
+{
+  for (std::size_t p = 0; p < mask.size(); ++p)
+  {
+    mask[p] = (p / width) % 2 == 0 && (p % width) % 2 == 0 ? mask[p] : std::uint8_t{ 0 };
+  }
+  return mask;
+}
+} // namespace
+
+FrameNoise
+CompareFrames(const StaticVariance &   variance,
+              const FrameComparison &  by,
+              const NoiseCorrelation & correlation,
+              const ParallelFor &      parallelFor)
+{
+  // Remaining motion of a frame is not noise, and levels of tiles are not known under local illumination. Noise that is
+  // correlated in time may be taken for local illumination.
+  const bool                      isTemporal = correlation.kind == NoiseKind::Temporal;
+  const bool                      isLocal = by.isIlluminationLocal && !isTemporal;
+  const Thresholds                thresholds{ std::max(1.0, VarianceInflation(correlation.space)),
+                               std::max(MovesLittle(by) ? 0.0 : InRefined.leastUnlikeUnderMotion,
+                                        isLocal ? InRefined.leastUnlikeUnderLocalIllumination
+                                                               : InRefined.leastUnlikeNoise) };
+  const std::vector<std::uint8_t> flat = MaskOfFlatClasses(by.squares, MaskOfUsed(variance.pixelUse), parallelFor);
+  const auto                      compareOn = [&](const std::vector<std::uint8_t> & pixels) {
+    FrameEnergies energies(by.residuals, pixels, parallelFor);
+    if (isTemporal)
+    {
+      const Eigen::MatrixXd & basis = by.residuals.GetBasis();
+      energies.DivideBy(RemainingOfCorrelated(basis, CorrelationOfFrames(correlation.time, basis.rows())));
+    }
+    return CompareByEnergies(energies, LinesByError(variance), by, thresholds);
+  };
+  const FrameNoise noise = compareOn(flat);
+  if (noise.HasSeveralGroups() || !correlation.IsCorrelated())
+  {
+    return noise;
+  }
+  // A camera may compute other pixels in each frame, as a deinterlacer does.
+  const FrameNoise ofEven = compareOn(EvenOf(flat, by.scene.frame.geometry.width));
+  return ofEven.HasSeveralGroups() ? ofEven : noise;
 }
 
 } // namespace sensornoise

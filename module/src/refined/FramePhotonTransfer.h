@@ -9,6 +9,7 @@
 #include "pixels/PartTiles.h"
 #include "pixels/VarianceCurve.h"
 #include "pixels/VarianceLine.h"
+#include "correlation/NoiseCorrelation.h"
 #include "correlation/NoiseResiduals.h"
 #include "pixels/ProjectedVariance.h"
 #include "pixels/StaticVariance.h"
@@ -168,10 +169,10 @@ MovesLittle(const FrameComparison & by);
 /** Finds the frames whose noise differs from the noise of the others. If frames of two gains have two levels, the line
  * of the frames fits them all; the line of the pixels then contradicts it. */
 FrameNoise
-CompareFrames(const StaticVariance &  variance,
-              const FrameComparison & by,
-              double                  varianceInflation,
-              const ParallelFor &     parallelFor);
+CompareFrames(const StaticVariance &   variance,
+              const FrameComparison &  by,
+              const NoiseCorrelation & correlation,
+              const ParallelFor &      parallelFor);
 
 } // namespace sensornoise
 

@@ -239,7 +239,7 @@ MeasureFrames(PixelNoise &            noise,
 {
   const double shared = std::max(1.0, VarianceInflation(noise.correlation.space));
   noise.variance.fromFrames = LineOfFrames(noise.variance, by, parallelFor);
-  noise.frames = CompareFrames(noise.variance, by, shared, parallelFor);
+  noise.frames = CompareFrames(noise.variance, by, noise.correlation, parallelFor);
   if (!noise.frames.HasSeveralGroups() && !by.isIlluminationLocal && MovesLittle(by))
   {
     const FrameEnergies energies(by.residuals, MaskOfUsed(noise.variance.pixelUse), parallelFor);
@@ -331,9 +331,10 @@ MeasurePixelNoise(ResidualSquares                          squares,
     noise.variance = fit(varianceInflation);
   }
   noise.variance.interpolatedFraction = interpolated.fraction;
-  noise.variance.lostVariance = interpolated.lostVariance * FractionNotCompared(chosen, residuals);
   MeasureFrames(noise, comparison, blackDn, isOneScene, parallelFor);
   MeasureSettledFrames(noise.correlation, residuals, codesDn2, parallelFor);
+  noise.variance.lostVariance = std::hypot(interpolated.lostVariance * FractionNotCompared(chosen, residuals),
+                                           noise.correlation.smallTimeCovariance);
   if (noise.correlation.kind != NoiseKind::NotMeasured)
   {
     noise.lines.left = EstimateLineIlluminationChange(residuals, allowed.lines.axis, parallelFor);

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/StackMethod.h"
+#include "helpers/RefinedTestHelper.h"
+#include "simulation/Random.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <gtest/gtest.h>
+#include <vector>
+
+// Frames that are mixed with the frame before. A filter with constant weights keeps the covariance over all lags, which
+// gives the gain. Weights that differ from frame to frame do not.
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+using Codes = unsigned short;
+
+constexpr double      GainDn = 2.0;
+constexpr std::size_t Frames = 30;
+constexpr std::size_t FramesBefore = 12; // of a recursive filter: 0.4^12 of the first frame is left
+
+Stack<Codes>
+Unmixed(std::size_t width, std::size_t height)
+{
+  SimulationSettings settings = FlickeringSettings(Frames + FramesBefore);
+  settings.camera = { 4000.0, GainDn, 100.0, 5.0 };
+  settings.conditions = { 0.01, 0.0, 0.0 };
+  return Simulate<Codes>(settings, width, height);
+}
+
+/** Returns the last frames of a stack, each (1 - weight) times itself plus weight times the frame before, which is the
+ * mixed one if \a isRecursive. \a weightOf(t) is the weight of a frame. */
+Stack<Codes>
+Mix(const Stack<Codes> & stack, bool isRecursive, const std::function<double(std::size_t)> & weightOf)
+{
+  const std::size_t   pixels = stack.width * stack.height;
+  Stack<Codes>        mixed{ stack.width, stack.height, Frames, std::vector<Codes>(Frames * pixels) };
+  std::vector<double> before(stack.pixels.begin(), stack.pixels.begin() + static_cast<std::ptrdiff_t>(pixels));
+  for (std::size_t t = 1; t < stack.frames; ++t)
+  {
+    const double weight = weightOf(t);
+    for (std::size_t p = 0; p < pixels; ++p)
+    {
+      const auto   own = static_cast<double>(stack.pixels[t * pixels + p]);
+      const double value = (1.0 - weight) * own + weight * before[p];
+      before[p] = isRecursive ? value : own;
+      if (t >= FramesBefore)
+      {
+        mixed.pixels[(t - FramesBefore) * pixels + p] = static_cast<Codes>(std::round(value));
+      }
+    }
+  }
+  return mixed;
+}
+
+Report
+ReportOf(const Stack<Codes> & stack)
+{
+  return Measure(stack, RefinedSettings()).GetReport();
+}
+} // namespace
+
+TEST(SensorNoiseMixedFrames, OfARecursiveFilterHaveTheGainOfTheSensor)
+{
+  const Report report = ReportOf(Mix(Unmixed(128, 96), true, [](std::size_t) { return 0.4; }));
+  EXPECT_TRUE(HasWarning(report, WarningCode::NoiseCorrelated));
+  ASSERT_EQ(report.gain.status, EstimateStatus::Identified);
+  EXPECT_NEAR(*report.gain.value, GainDn, 4.0 * *report.gain.standardError);
+  EXPECT_TRUE(report.framesLeftOut.empty());
+}
+
+TEST(SensorNoiseMixedFrames, InterpolatedAtUnequalTimesHaveNoGain)
+{
+  // The variances are 0.5 to 0.9 of the unmixed one.
+  CounterSeededRandom random(7);
+  const Report        report =
+    ReportOf(Mix(Unmixed(128, 96), false, [&](std::size_t) { return 0.05 + 0.45 * random.Uniform(); }));
+  EXPECT_NE(report.gain.status, EstimateStatus::Identified) << *report.gain.value;
+}
+
+TEST(SensorNoiseMixedFrames, WithSmallWeightsHaveThemInTheErrorOfTheGain)
+{
+  // A weight of 0.0085 is too small to be corrected: the slope is 1.7 % too small.
+  constexpr double weight = 0.0085;
+  const Report     report = ReportOf(Mix(Unmixed(256, 192), true, [](std::size_t) { return weight; }));
+  EXPECT_FALSE(HasWarning(report, WarningCode::NoiseCorrelated));
+  ASSERT_EQ(report.gain.status, EstimateStatus::Identified);
+  EXPECT_NEAR(*report.gain.value, GainDn, 2.5 * *report.gain.standardError);
+  EXPECT_GT(*report.gain.standardError, weight * GainDn);
+}
