@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Makes bursts with correlated noise: filters before and after the read-out, noise reduction in time, replaced pixels,
-enlarged and demosaiced frames.
+"""Makes bursts with correlated noise: filters before and after the read-out, noise reduction in time, image lag, other
+frame rates, replaced pixels, enlarged and demosaiced frames.
 
 A filter whose weights sum to 1 keeps the total covariance over lags. The true values are the values before the filter.
 Enlarged frames have fewer samples than pixels, and do not determine the gain.
@@ -132,6 +132,35 @@ def recursive(random, electrons, weight, count):
     return Burst(digitise(frames[settling:], BITS), offset=OFFSET[BITS], read_noise=READ_NOISE)
 
 
+def lagging(random, electrons, weight):
+    """Returns frames of a sensor with image lag: this fraction of the charge of each frame is left to the next one."""
+    settling = 12
+    factors = illumination(random, frames=FRAMES + settling)
+    charge = random.poisson(factors[:, None, None] * electrons[None]).astype(float)
+    for t in range(1, len(charge)):
+        charge[t] = (1 - weight) * charge[t] + weight * charge[t - 1]
+    charge = charge[settling:]
+    frames = GAIN * charge + OFFSET[BITS] + READ_NOISE * random.normal(size=charge.shape)
+    return Burst(digitise(frames, BITS), offset=OFFSET[BITS], read_noise=READ_NOISE)
+
+
+def converted(random, electrons, ratio):
+    """Returns frames of another frame rate: interpolated in time between frames, of which there are `ratio` a frame."""
+    places = ratio * np.arange(FRAMES)
+    before = places.astype(int)
+    frames = expose(random, electrons, illumination(random, frames=before[-1] + 2), offset=OFFSET[BITS])
+    weight = (places - before)[:, None, None]
+    return Burst(digitise((1 - weight) * frames[before] + weight * frames[before + 1], BITS))
+
+
+def deinterlaced(random, electrons):
+    """Returns frames in which rows of alternating parity are the means of the rows above and below."""
+    frames = expose(random, electrons, illumination(random), offset=OFFSET[BITS])
+    means = neighbours(frames, [(1, 0), (-1, 0)])
+    t, y, _ = np.indices(frames.shape, sparse=True)
+    return Burst(digitise(np.where((t + y) % 2 == 0, frames, means), BITS))
+
+
 AROUND = tuple((y, x) for y in (-1, 0, 1) for x in (-1, 0, 1) if (y, x) != (0, 0))
 BESIDE = ((0, -1), (0, 1))
 ABOVE = ((1, 0),)
@@ -163,6 +192,9 @@ SITUATIONS = (
         line(f"recursive/weight-{weight:g}-frames-{count}", recursive, weight, count, expected=MAY_REFUSE)
         for weight, count in ((0.3, 24), (0.3, 80), (0.6, 24))
     ),
+    *(line(f"image-lag/{100 * weight:g}%", lagging, weight) for weight in (0.003, 0.008, 0.02)),
+    *(line(f"converted/rate-{ratio:g}", converted, ratio, expected=MUST_REFUSE) for ratio in (0.5, 0.8)),
+    line("converted/deinterlaced", deinterlaced, expected=MUST_REFUSE),
     *(line(f"replaced/{100 * fraction:g}%", replaced, fraction) for fraction in (0.005, 0.01, 0.03)),
     *(line(f"replaced/pairs-{100 * fraction:g}%", replaced, fraction, BESIDE) for fraction in (0.01, 0.03)),
     *(line(f"replaced/copies-{100 * fraction:g}%", replaced, fraction, ABOVE) for fraction in (0.01, 0.03)),
