@@ -264,6 +264,11 @@ public:
   {
     return m_BlackDn;
   }
+  bool
+  IsBlackKnown() const
+  {
+    return m_IsBlackKnown;
+  }
   /** Returns a lower bound of the signal [DN]: 0 where black is known, else the signal of the darkest pixels. */
   double
   GetLeastSignal() const

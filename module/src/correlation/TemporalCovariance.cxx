@@ -180,7 +180,9 @@ FitTimeShapes(const CorrelationSums & sums, const AutocovarianceFit & fit, Noise
   const TileSums all = sums.Total();
   found.isBySensitivity = IsProportionalToSquare(fits);
   found.timeShapes =
-    WeighShapes(fits, ProbabilitiesOf(fits.value.tail(NumberOfShapes), false), sums.ShapesOf(all, sums.GetCodesDn2()));
+    WeighShapes(fits,
+                ProbabilitiesOf(fits.value.tail(NumberOfShapes), false, sums.GetResiduals().IsBlackKnown()),
+                sums.ShapesOf(all, sums.GetCodesDn2()));
 }
 } // namespace
 

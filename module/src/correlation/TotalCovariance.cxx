@@ -20,9 +20,9 @@ namespace
 {
 /** Returns the evidence that is required for a shape, as a difference of chi-squares from the most probable shapes;
  * null: the shape is impossible. Charge coupling is weak and short. Stronger filters may lie before the read-out, or
- * between two parts of its noise. */
+ * between two parts of its noise. Where black is not known, V - x stands for the signal, too. */
 std::optional<double>
-RequiredEvidence(CovarianceShape shape, bool mayBeCharge)
+RequiredEvidence(CovarianceShape shape, bool mayBeCharge, bool isBlackKnown)
 {
   switch (shape)
   {
@@ -34,19 +34,19 @@ RequiredEvidence(CovarianceShape shape, bool mayBeCharge)
     case CovarianceShape::Constant:
       return InCorrelation.evidenceOfConstant;
     default:
-      return mayBeCharge ? std::nullopt : std::optional(InCorrelation.evidenceOfPart);
+      return mayBeCharge && isBlackKnown ? std::nullopt : std::optional(InCorrelation.evidenceOfPart);
   }
 }
 } // namespace
 
 std::array<double, NumberOfShapes>
-ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge)
+ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge, bool isBlackKnown)
 {
   std::array<double, NumberOfShapes> probabilities{};
   double                             sum = 0.0;
   for (std::size_t k = 0; k < NumberOfShapes; ++k)
   {
-    if (const auto evidence = RequiredEvidence(static_cast<CovarianceShape>(k), mayBeCharge))
+    if (const auto evidence = RequiredEvidence(static_cast<CovarianceShape>(k), mayBeCharge, isBlackKnown))
     {
       probabilities[k] = std::exp(-0.5 * (chi2(static_cast<Eigen::Index>(k)) + *evidence - chi2.minCoeff()));
       sum += probabilities[k];
@@ -239,7 +239,7 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
     unfilteredDn2);
   const Eigen::VectorXd chi2 = fits.value.tail(NumberOfShapes);
   const Eigen::VectorXd withCurvature = chi2 + Chi2OfTotalVariance(sums, all, fits.value.head(NumberOfShapes));
-  const auto            probabilities = ProbabilitiesOf(withCurvature, mayBeCharge);
+  const auto            probabilities = ProbabilitiesOf(withCurvature, mayBeCharge, sums.GetResiduals().IsBlackKnown());
   found.shapes = WeighShapes(fits, probabilities, sums.ShapesOf(all, unfilteredDn2));
   // The negative covariance of a sharpening filter is proportional to the variance, and the same everywhere. The
   // covariance by rounding of blocks is neither.

@@ -109,9 +109,9 @@ FitAllShapes(const CorrelationSums & sums,
 }
 
 /** Returns the probabilities of the shapes from their chi-squares. \a mayBeCharge: the covariance is weak and short, so
- * that coupled charge may cause it. */
+ * that coupled charge may cause it. If black is not known, a line of the level is taken for charge, too. */
 std::array<double, NumberOfShapes>
-ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge);
+ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge, bool isBlackKnown);
 
 /** Returns the shapes with the coefficients of \a fits and their probabilities. */
 std::array<WeightedShape, NumberOfShapes>
