@@ -35,7 +35,7 @@ FitSampleLine(const VarianceData & data, const std::optional<VarianceLine> & sta
   const SampledVariance sample(data, InPixels.pixelsOfRoughLine, parallelFor);
   VarianceFit           fit(sample.GetData(), parallelFor, start);
   fit.Iterate(3);
-  fit.FillCovariance();
+  fit.FillErrors();
   return fit.GetLine();
 }
 

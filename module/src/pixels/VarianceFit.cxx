@@ -311,53 +311,20 @@ Sandwich(const VarianceLine & line, double squaresXX, double squaresX, double sq
 } // namespace
 
 void
-VarianceFit::FillCovariance()
-{
-  if (!m_Line.isDetermined)
-  {
-    return;
-  }
-  // Sums of the squared weight times the squared residual times powers of z, the mean above the pivot of the pixel or
-  // of its neighbours.
-  enum : std::size_t
-  {
-    WWRR,
-    WWRRZ,
-    WWRRZZ,
-    W,
-    WZ,
-    Sums
-  };
-  const double atPivot = m_Line.intercept + m_Line.gain * m_Line.pivotDn;
-  const auto   terms = [atPivot, gain = m_Line.gain](double w, double x, double z, double value) {
-    const double residual = value - atPivot - gain * x;
-    const double square = w * w * residual * residual;
-    return std::array<double, Sums>{ square, square * z, square * z * z, w, w * z };
-  };
-  const auto   s = SumBlocks<Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
-    this->ForKept(begin, end, [&](std::size_t, std::size_t, const KeptRun & kept) {
-      AddTerms(terms, sums, kept.weight, kept.x, m_IsByNeighbours ? kept.neighbours : kept.x, kept.value);
-    });
-  });
-  const double mean = s[WZ] / s[W];
-  m_Line.covariance =
-    Sandwich(m_Line, s[WWRRZZ] - 2.0 * mean * s[WWRRZ] + mean * mean * s[WWRR], s[WWRRZ] - mean * s[WWRR], s[WWRR]);
-}
-
-void
 VarianceFit::FillErrors()
 {
   if (!m_Line.isDetermined)
   {
     return;
   }
-  // Sums of the squared weight times the squared residual R times powers of x, the mean above the pivot, and sums of
-  // the weight times powers of x and R.
+  // Sums of the squared weight times the squared residual R times powers of z, and sums of the weight times powers of
+  // x, R and z: x is the mean above the pivot, z the mean of the instrument, the pixel itself or its neighbours.
   enum : std::size_t
   {
     WWRR,
-    WWRRX,
-    WWRRXX,
+    WWRRZ,
+    WWRRZZ,
+    WZ,
     WX3,
     WX4,
     WXXR,
@@ -367,19 +334,21 @@ VarianceFit::FillErrors()
     Sums
   };
   const double atPivot = m_Line.intercept + m_Line.gain * m_Line.pivotDn;
-  const auto   s = this->SumTerms<Sums>([atPivot, gain = m_Line.gain](double w, double x, double value) {
+  const auto   terms = [atPivot, gain = m_Line.gain](double w, double x, double z, double value) {
     const double residual = value - atPivot - gain * x;
     const double square = w * w * residual * residual;
     const double wxx = w * x * x;
-    return std::array<double, Sums>{ square,      square * x,     square * x * x,      wxx * x,
-                                     wxx * x * x, wxx * residual, w > 0.0 ? 1.0 : 0.0, w,
-                                     wxx };
+    return std::array<double, Sums>{ square,      square * z,     square * z * z,      w * z, wxx * x,
+                                     wxx * x * x, wxx * residual, w > 0.0 ? 1.0 : 0.0, w,     wxx };
+  };
+  const auto   s = SumBlocks<Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
+    this->ForKept(begin, end, [&](std::size_t, std::size_t, const KeptRun & kept) {
+      AddTerms(terms, sums, kept.weight, kept.x, m_IsByNeighbours ? kept.neighbours : kept.x, kept.value);
+    });
   });
-  m_Line.covariance = Sandwich(m_Line, s[WWRRXX], s[WWRRX], s[WWRR]);
-  if (m_IsByNeighbours)
-  {
-    this->FillCovariance();
-  }
+  const double mean = m_IsByNeighbours ? s[WZ] / s[W] : 0.0; // of x it is 0: the pivot is the mean
+  m_Line.covariance =
+    Sandwich(m_Line, s[WWRRZZ] - 2.0 * mean * s[WWRRZ] + mean * mean * s[WWRR], s[WWRRZ] - mean * s[WWRR], s[WWRR]);
   const auto pixels = static_cast<double>(m_Dofs.values);
   // Quadratic column of the parabola, orthogonal to the first two columns: q = x^2 - a x - b.
   const double a = s[WX3] / s[WXX];

@@ -99,10 +99,6 @@ public:
   void
   FillErrors();
 
-  /** Computes the sandwich covariance alone, also of a fit with TrimRule::Level. */
-  void
-  FillCovariance();
-
   /** Returns the largest excess over the line that is kept with TrimRule::Distance [DN^2]. */
   double
   GetReachDn2() const
@@ -223,19 +219,6 @@ private:
     ForRuns(begin, end, [&](std::size_t first, std::size_t pixels) {
       this->KeepRun(first, pixels, run, kept);
       function(first, pixels, kept);
-    });
-  }
-
-  /** Returns the sums of terms(weight, mean above the pivot, variance) over the pixels of the mask. For trimmed pixels
-   * all three are 0, and the terms must then be 0, too. */
-  template <std::size_t VSums, typename TTerms>
-  std::array<double, VSums>
-  SumTerms(TTerms terms) const
-  {
-    return SumBlocks<VSums>(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
-      this->ForKept(begin, end, [&](std::size_t, std::size_t, const KeptRun & kept) {
-        AddTerms(terms, sums, kept.weight, kept.x, kept.value);
-      });
     });
   }
 
