@@ -171,9 +171,9 @@ IsLinear(const CorrelationSums & sums, const NoiseCorrelation & found)
   });
 }
 
-/** Returns NoiseCorrelation::smallTimeCovariance, by the lag of one frame. */
+/** Returns the covariance of a frame with the two beside it, relative to the variance, if it is significant; else 0. */
 double
-SmallTimeCovariance(const std::vector<LagCoefficient> & time)
+CovarianceBeside(const std::vector<LagCoefficient> & time)
 {
   if (time.empty() || !time.front().coefficient.Exceeds(0.0, Significance.oneTest))
   {
@@ -297,7 +297,7 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   }
   else
   {
-    found.smallTimeCovariance = SmallTimeCovariance(found.time);
+    found.timeFactor.standardError = CovarianceBeside(found.time);
   }
   if (inSpace)
   {

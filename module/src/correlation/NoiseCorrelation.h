@@ -112,13 +112,11 @@ struct SensorNoise_EXPORT NoiseCorrelation
   std::array<WeightedShape, NumberOfShapes> shapes;
   /** Possible dependences of the temporal covariance on the signal, by CovarianceShape. */
   std::array<WeightedShape, NumberOfShapes> timeShapes;
-  /** Sum of the covariances over all temporal lags, relative to the variance, of all pixels [1]. */
+  /** Sum of the covariances over all temporal lags, relative to the variance, of all pixels [1]. If the class is not
+   * Temporal it is 1, and a significant covariance of neighbouring frames is its error. */
   MeasuredNumber timeFactor{ 1.0, 0.0 };
   /** Standard error of timeFactor by the temporal lags that are not summed [1]. */
   double beyondTimeLags{ 0.0 };
-  /** Covariance of a frame with its neighbours in time, relative to the variance, where it is significant, but too
-   * small to be corrected; else 0 [1]. */
-  double smallTimeCovariance{ 0.0 };
   /** Largest total covariance of the lags beyond reach, relative to the variance [1]. */
   double beyondReach{ 0.0 };
   /** Fraction of values that repeat the value in the frame before, beyond statistical scatter, if this makes the class

@@ -237,8 +237,8 @@ struct StaticVariance
   double varianceInflation{ 1.0 };
   /** Fraction of the sampled pixels that are computed from their neighbours, and left out [1]. */
   double interpolatedFraction{ 0.0 };
-  /** Variance that the pixels may lack because some are computed from their neighbours and were not found, relative to
-   * the variance [1]. */
+  /** Variance that the pixels may lack, relative to the variance [1]: because some are computed from their neighbours
+   * and were not found, and because frames share a part of it that is too small to be corrected. */
   double lostVariance{ 0.0 };
 };
 

@@ -128,12 +128,12 @@ CompareFrames(const StaticVariance &   variance,
 {
   // Remaining motion of a frame is not noise, and levels of tiles are not known under local illumination. Noise that is
   // correlated in time may be taken for local illumination.
-  const bool                      isTemporal = correlation.kind == NoiseKind::Temporal;
-  const bool                      isLocal = by.isIlluminationLocal && !isTemporal;
-  const Thresholds                thresholds{ std::max(1.0, VarianceInflation(correlation.space)),
-                               std::max(MovesLittle(by) ? 0.0 : InRefined.leastUnlikeUnderMotion,
-                                        isLocal ? InRefined.leastUnlikeUnderLocalIllumination
-                                                               : InRefined.leastUnlikeNoise) };
+  const bool       isTemporal = correlation.kind == NoiseKind::Temporal;
+  const bool       isLocal = by.isIlluminationLocal && !isTemporal;
+  const double     leastUnlike = isLocal ? InRefined.leastUnlikeUnderLocalIllumination : InRefined.leastUnlikeNoise;
+  const Thresholds thresholds{ std::max(1.0, VarianceInflation(correlation.space)),
+                               MovesLittle(by) ? leastUnlike
+                                               : std::max(InRefined.leastUnlikeUnderMotion, leastUnlike) };
   const std::vector<std::uint8_t> flat = MaskOfFlatClasses(by.squares, MaskOfUsed(variance.pixelUse), parallelFor);
   const auto                      compareOn = [&](const std::vector<std::uint8_t> & pixels) {
     FrameEnergies energies(by.residuals, pixels, parallelFor);

@@ -333,8 +333,10 @@ MeasurePixelNoise(ResidualSquares                          squares,
   noise.variance.interpolatedFraction = interpolated.fraction;
   MeasureFrames(noise, comparison, blackDn, isOneScene, parallelFor);
   MeasureSettledFrames(noise.correlation, residuals, codesDn2, parallelFor);
-  noise.variance.lostVariance = std::hypot(interpolated.lostVariance * FractionNotCompared(chosen, residuals),
-                                           noise.correlation.smallTimeCovariance);
+  const double ofFrames =
+    noise.correlation.kind == NoiseKind::Temporal ? 0.0 : noise.correlation.timeFactor.standardError;
+  noise.variance.lostVariance =
+    std::hypot(interpolated.lostVariance * FractionNotCompared(chosen, residuals), ofFrames);
   if (noise.correlation.kind != NoiseKind::NotMeasured)
   {
     noise.lines.left = EstimateLineIlluminationChange(residuals, allowed.lines.axis, parallelFor);
