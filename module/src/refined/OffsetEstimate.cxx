@@ -7,6 +7,7 @@
 #include "base/Eigen.h"
 #include "base/Quadrature.h"
 #include "base/Quantiles.h"
+#include "moments/DarkFrames.h"
 #include "pixels/Constants.h"
 #include "refined/Constants.h"
 #include "refined/GainEstimate.h"
@@ -149,6 +150,25 @@ FindFailure(const RefinedResults & found,
   return isLocal && !local->doLinesMeet ? OffsetFailure::OffsetsDisagree : OffsetFailure::None;
 }
 
+/** Returns the error of the offset \a offsetDn by rounding to codes [DN]. In a frame with little light all pixels have
+ * about one level, so that rounding shifts all of them alike where the noise is below half a step. Levels that differ
+ * by several steps are shifted both ways. */
+double
+RoundingOfDarkestFrameDn(const RefinedResults & found, const GainEstimate & gain, double offsetDn)
+{
+  const double stepDn = found.scene.summary.codes.quantisationStepDn;
+  if (!(stepDn > 0.0))
+  {
+    return 0.0;
+  }
+  const std::vector<double> &  gamma = found.reestimated.line.gamma;
+  const FixedPatternEstimate & pattern = found.variance.pattern;
+  const double                 factor = gamma.empty() ? 1.0 : 1.0 + *std::min_element(gamma.begin(), gamma.end());
+  const double                 varianceDn2 = gain.line.At(offsetDn + factor * (gain.line.pivotDn - offsetDn));
+  const double stepsApart = std::abs(factor) * std::sqrt(std::max(0.0, pattern.levelVarianceDn2)) / stepDn;
+  return RoundingErrorDn(stepDn, varianceDn2 + pattern.OffsetVarianceDn2()) / std::max(1.0, stepsApart);
+}
+
 /** Returns the dark offset as the illumination determines it. */
 OffsetEstimate
 OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits)
@@ -176,9 +196,10 @@ OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, co
   // Offsets that differ between pixels are taken for signal, which moves the zero away from the levels. A non-linear
   // response has the same effect. Optics that change as the illumination does move it where the scene is rough.
   const double signalDn = std::abs(model.centreDn - estimate.valueDn);
-  const double systematicDn = AddInQuadrature(signalDn * found.variance.pattern.offsetFraction,
-                                              signalDn * gain.RelativeModelError(),
-                                              isLocal ? 0.0 : line.differenceOfClassesDn);
+  const double systematicDn = AddInQuadrature(
+    signalDn * found.variance.pattern.offsetFraction,
+    signalDn * gain.RelativeModelError(),
+    std::hypot(isLocal ? 0.0 : line.differenceOfClassesDn, RoundingOfDarkestFrameDn(found, gain, estimate.valueDn)));
   if (systematicDn > InPixels.negligiblePattern * estimate.standardErrorDn)
   {
     estimate.standardErrorDn = std::hypot(estimate.standardErrorDn, systematicDn);
