@@ -105,6 +105,31 @@ TEST(SensorNoiseStrongIllumination, GainOffsetAndReadNoiseAreTheCameras)
   }
 }
 
+TEST(SensorNoiseStrongIllumination, FramesWithoutLightAreNotUnlikeTheOthers)
+{
+  // The variance without light is a thousandth of the others, and less than what the line knows of it.
+  SimulationSettings settings = StrongSettings("pulses:0:2");
+  settings.camera = { 12000.0, 0.18, 350.0, 0.45 };
+  settings.conditions = { 0.0, 0.0, 0.0 };
+  settings.frames = 14;
+  const Report report = Measure(Simulate<Codes>(settings, 160, 128)).GetReport();
+  ASSERT_EQ(report.gain.status, EstimateStatus::Identified);
+  EXPECT_NEAR(*report.gain.value, 0.18, 4.0 * *report.gain.standardError);
+  EXPECT_TRUE(report.framesLeftOut.empty());
+}
+
+TEST(SensorNoiseStrongIllumination, RoundingIsAnErrorOfAnOffsetByFramesWithoutLight)
+{
+  // With a noise of 0.18 steps, rounding shifts a level of 147.2 DN by -0.15 DN in all pixels alike.
+  SimulationSettings settings = StrongSettings("pulses:0:4");
+  settings.camera = { 1500.0, 0.1, 147.2, 0.18 };
+  settings.conditions = { 0.0, 0.0, 0.0 };
+  const Report report = Measure(Simulate<Codes>(settings, 160, 128)).GetReport();
+  ASSERT_EQ(report.offset.status, EstimateStatus::Identified);
+  EXPECT_NEAR(*report.offset.value, 147.2, 3.0 * *report.offset.standardError);
+  EXPECT_GT(std::abs(*report.offset.value - 147.2), 0.05);
+}
+
 TEST(SensorNoiseStrongIllumination, OfAFlatFieldDeterminesGainAndInterceptButNoOffset)
 {
   for (const double offset : { 100.0, 4000.0 })

@@ -93,7 +93,8 @@ struct RefinedConstants
    * remains, rounding and the errors of the model exceed the noise. Chosen on simulated flat fields. */
   double leastRemainingFraction{ 0.05 };
   /** Smallest expected square of a frame's residuals for the weights, relative to the tile's mean square [1]: a guard
-   * where a line is negative. Chosen empirically: the dark frames of series of 5,000 electrons have 0.02. */
+   * where a line is negative. Frames with less have too little light to be compared with others. Chosen empirically:
+   * the dark frames of series of 5,000 electrons have 0.02. */
   double leastWeighedVariance{ 0.01 };
   /** Number of iterations of the weights: the third one changes a gain by less than 1e-4 of its error. */
   int roundsOfTransfer{ 4 };

@@ -80,7 +80,8 @@ MakeFrameParts(const FrameEnergies & energies, const TileLevels & levels, const 
  * except for statistical scatter.
  *
  * The ratios are medians over the tiles, so that motion in some of them has no influence. NaN where the projection
- * leaves less than InRefined.leastRemainingFraction of a frame; empty if there are too few tiles. \a slopeError is the
+ * leaves less than InRefined.leastRemainingFraction of a frame, or where a frame has so little light that the line does
+ * not predict its noise; empty if there are too few tiles. \a slopeError is the
  * standard error of the slope of \a line [DN/e-]; it may be infinite. Among the slopes within Significance.hint of
  * these errors that a sensor may have, the ratio nearest to 1 is taken. \a known has the ratios found before: the
  * projection leaves some of the noise of a frame in the others, which is corrected by them. Default: all are 1. */

@@ -29,13 +29,35 @@ MedianOf(std::vector<double> values)
   return values.empty() ? Unknown : QuantileOf(std::move(values), 0.5);
 }
 
+/** Returns for each frame whether \a line predicts its noise variance in half of the tiles: the variance is above
+ * InRefined.leastWeighedVariance of the tile's. The line knows little about the small variance of frames without light,
+ * and these have no gain. */
+std::vector<bool>
+ArePredicted(const FrameEnergies & energies, const TileLevels & levels, const VarianceLine & line)
+{
+  Eigen::ArrayXd above = Eigen::ArrayXd::Zero(energies.Frames());
+  for (Eigen::Index i = 0; i < energies.Tiles(); ++i)
+  {
+    const double leastDn2 = InRefined.leastWeighedVariance * energies.SquaresDn2().row(i).mean();
+    above += (VariancesOfFrames(energies, levels, line, i).array() > leastDn2).cast<double>();
+  }
+  std::vector<bool> predicted;
+  for (Eigen::Index t = 0; t < above.size(); ++t)
+  {
+    predicted.push_back(2.0 * above(t) > static_cast<double>(energies.Tiles()));
+  }
+  return predicted;
+}
+
 /** Returns the squares of every frame over their expectation by \a line at its levels, as the median over the tiles.
- * \a noise is the known noise of the frames: the projection leaves some of the noise of each in the others. */
+ * \a noise is the known noise of the frames: the projection leaves some of the noise of each in the others. NaN for
+ * frames that are not \a compared, or of which the projection leaves too little. */
 Eigen::VectorXd
-RatiosOfFrames(const FrameEnergies &   energies,
-               const TileLevels &      levels,
-               const VarianceLine &    line,
-               const Eigen::VectorXd & noise)
+RatiosOfFrames(const FrameEnergies &     energies,
+               const TileLevels &        levels,
+               const VarianceLine &      line,
+               const Eigen::VectorXd &   noise,
+               const std::vector<bool> & compared)
 {
   const Eigen::Index               frames = energies.Frames();
   std::vector<std::vector<double>> ofFrames(static_cast<std::size_t>(frames));
@@ -47,7 +69,8 @@ RatiosOfFrames(const FrameEnergies &   energies,
     std::vector<double>   known;
     for (Eigen::Index t = 0; t < frames; ++t)
     {
-      const bool isLeft = energies.RemainingFraction()(t) > InRefined.leastRemainingFraction && expected(t) > 0.0;
+      const bool isLeft = compared[static_cast<std::size_t>(t)] &&
+                          energies.RemainingFraction()(t) > InRefined.leastRemainingFraction && expected(t) > 0.0;
       ratios.push_back(isLeft ? energies.SquaresDn2()(i, t) * noise(t) / expected(t) : Unknown);
       if (isLeft)
       {
@@ -185,18 +208,19 @@ NoiseOfFrames(const FrameEnergies &   energies,
   {
     return {};
   }
-  const double    slack = Significance.hint * slopeError;
-  const double    down = std::min(slack, std::max(0.0, line.gain));
-  const double    up = std::min(slack, std::max(0.0, SteepestSlope(line, levels) - line.gain));
-  Eigen::VectorXd nearest = RatiosOfFrames(energies, levels, line, noise);
-  Eigen::VectorXd low = nearest;
-  Eigen::VectorXd high = nearest;
+  const std::vector<bool> compared = ArePredicted(energies, levels, line);
+  const double            slack = Significance.hint * slopeError;
+  const double            down = std::min(slack, std::max(0.0, line.gain));
+  const double            up = std::min(slack, std::max(0.0, SteepestSlope(line, levels) - line.gain));
+  Eigen::VectorXd         nearest = RatiosOfFrames(energies, levels, line, noise, compared);
+  Eigen::VectorXd         low = nearest;
+  Eigen::VectorXd         high = nearest;
   for (int step = 1; step <= InRefined.stepsOfSlope; ++step)
   {
     const double part = static_cast<double>(step) / InRefined.stepsOfSlope;
     for (const double turn : { -part * down, part * up })
     {
-      const Eigen::VectorXd ratios = RatiosOfFrames(energies, levels, Turned(line, turn), noise);
+      const Eigen::VectorXd ratios = RatiosOfFrames(energies, levels, Turned(line, turn), noise, compared);
       low = low.cwiseMin(ratios);
       high = high.cwiseMax(ratios);
     }
