@@ -144,13 +144,13 @@ CompareFrames(const StaticVariance &   variance,
     }
     return CompareByEnergies(energies, LinesByError(variance), by, thresholds);
   };
-  const FrameNoise noise = compareOn(flat);
+  FrameNoise noise = compareOn(flat);
   if (noise.HasSeveralGroups() || !correlation.IsCorrelated())
   {
     return noise;
   }
   // A camera may compute other pixels in each frame, as a deinterlacer does.
-  const FrameNoise ofEven = compareOn(EvenOf(flat, by.scene.frame.geometry.width));
+  FrameNoise ofEven = compareOn(EvenOf(flat, by.scene.frame.geometry.width));
   return ofEven.HasSeveralGroups() ? ofEven : noise;
 }
 

@@ -162,6 +162,14 @@ FractionNotCompared(const std::vector<std::uint8_t> & used, const NoiseResiduals
   return 1.0 - std::min(1.0, static_cast<double>(residuals.GetNumberOfPixels()) / std::max(1.0, all));
 }
 
+/** Returns StaticVariance::lostVariance. \a notCompared is the result of FractionNotCompared(). */
+double
+LostVariance(const InterpolatedPixels & interpolated, double notCompared, const NoiseCorrelation & correlation)
+{
+  const double ofFrames = correlation.kind == NoiseKind::Temporal ? 0.0 : correlation.timeFactor.standardError;
+  return std::hypot(interpolated.lostVariance * notCompared, ofFrames);
+}
+
 /** The illumination that is specific to rows or columns, and the squares without it. */
 struct AllowedLines
 {
@@ -333,10 +341,7 @@ MeasurePixelNoise(ResidualSquares                          squares,
   noise.variance.interpolatedFraction = interpolated.fraction;
   MeasureFrames(noise, comparison, blackDn, isOneScene, parallelFor);
   MeasureSettledFrames(noise.correlation, residuals, codesDn2, parallelFor);
-  const double ofFrames =
-    noise.correlation.kind == NoiseKind::Temporal ? 0.0 : noise.correlation.timeFactor.standardError;
-  noise.variance.lostVariance =
-    std::hypot(interpolated.lostVariance * FractionNotCompared(chosen, residuals), ofFrames);
+  noise.variance.lostVariance = LostVariance(interpolated, FractionNotCompared(chosen, residuals), noise.correlation);
   if (noise.correlation.kind != NoiseKind::NotMeasured)
   {
     noise.lines.left = EstimateLineIlluminationChange(residuals, allowed.lines.axis, parallelFor);
