@@ -12,6 +12,7 @@
 #include "pixels/Constants.h"
 #include "pixels/ProjectedVariance.h"
 #include "scene/ReferenceFrame.h"
+#include "series/SceneSeries.h"
 
 #include <algorithm>
 #include <cstddef>
