@@ -111,7 +111,7 @@ TEST(SensorNoiseStrongIllumination, FramesWithoutLightAreNotUnlikeTheOthers)
   SimulationSettings settings = StrongSettings("pulses:0:2");
   settings.camera = { 12000.0, 0.18, 350.0, 0.45 };
   settings.conditions = { 0.0, 0.0, 0.0 };
-  settings.frames = 14;
+  settings.frames = 20;
   const Report report = Measure(Simulate<Codes>(settings, 160, 128)).GetReport();
   ASSERT_EQ(report.gain.status, EstimateStatus::Identified);
   EXPECT_NEAR(*report.gain.value, 0.18, 4.0 * *report.gain.standardError);
