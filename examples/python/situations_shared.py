@@ -121,14 +121,20 @@ def of_samples(kernel, ratios, aligned=False):
     ]
 
 
+def mixed_in_time(frames, weight):
+    """Returns the frames, each with this weight in its mean with the mixed frame before."""
+    for t in range(1, len(frames)):
+        frames[t] = weight * frames[t] + (1 - weight) * frames[t - 1]
+    return frames
+
+
 def recursive(random, electrons, weight, count):
     """Returns `count` frames of noise reduction in time: each is a mean of a new frame, which has this weight, and the
     frame before. The filter has settled."""
     settling = 40
     factors = illumination(random, frames=count + settling)
     frames = expose(random, electrons, factors, offset=OFFSET[BITS])
-    for t in range(1, len(frames)):
-        frames[t] = weight * frames[t] + (1 - weight) * frames[t - 1]
+    frames = mixed_in_time(frames, weight)
     return Burst(digitise(frames[settling:], BITS), offset=OFFSET[BITS], read_noise=READ_NOISE)
 
 
@@ -137,15 +143,14 @@ def lagging(random, electrons, weight):
     settling = 12
     factors = illumination(random, frames=FRAMES + settling)
     charge = random.poisson(factors[:, None, None] * electrons[None]).astype(float)
-    for t in range(1, len(charge)):
-        charge[t] = (1 - weight) * charge[t] + weight * charge[t - 1]
-    charge = charge[settling:]
+    charge = mixed_in_time(charge, 1 - weight)[settling:]
     frames = GAIN * charge + OFFSET[BITS] + READ_NOISE * random.normal(size=charge.shape)
     return Burst(digitise(frames, BITS), offset=OFFSET[BITS], read_noise=READ_NOISE)
 
 
 def converted(random, electrons, ratio):
-    """Returns frames of another frame rate: interpolated in time between frames, of which there are `ratio` a frame."""
+    """Returns frames of another frame rate, each interpolated between two recorded frames. `ratio` is the number of
+    recorded frames per returned frame."""
     places = ratio * np.arange(FRAMES)
     before = places.astype(int)
     frames = expose(random, electrons, illumination(random, frames=before[-1] + 2), offset=OFFSET[BITS])
