@@ -130,9 +130,8 @@ FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
 void
 CorrectKurtosisForTemporalCorrelation(const Eigen::MatrixXd & basis, NoiseCorrelation & found)
 {
-  const Eigen::Index    frames = basis.rows();
-  const Eigen::MatrixXd shared = CorrelationOfFrames(found.time, frames);
-  const Eigen::MatrixXd projection = Eigen::MatrixXd::Identity(frames, frames) - basis * basis.transpose();
+  const Eigen::MatrixXd shared = CorrelationOfFrames(found.time, basis.rows());
+  const Eigen::MatrixXd projection = ResidualProjection(basis);
   const auto            kurtosisOf = [](const Eigen::MatrixXd & covariance) {
     const double trace = covariance.trace();
     return covariance.diagonal().squaredNorm() / (trace * trace + 2.0 * covariance.squaredNorm());

@@ -4,6 +4,7 @@
 
 #include "base/Simd.h"
 #include "correlation/Constants.h"
+#include "correlation/TotalCovariance.h"
 
 #include <algorithm>
 #include <array>
@@ -276,7 +277,7 @@ MixtureKurtosis::MixtureKurtosis(const NoiseResiduals & residuals)
   m_OffsetDn = frames.GetOffsetDn();
   const Eigen::MatrixXd & basis = residuals.GetBasis();
   m_Mean = frames.Autocovariance(basis, 0)(0) / residuals.GetDof();
-  const Eigen::MatrixXd projection = Eigen::MatrixXd::Identity(basis.rows(), basis.rows()) - basis * basis.transpose();
+  const Eigen::MatrixXd projection = ResidualProjection(basis);
   constexpr auto        size = static_cast<Eigen::Index>(Points);
   Eigen::MatrixXd       powers(size, size);
   Eigen::VectorXd       values(size);

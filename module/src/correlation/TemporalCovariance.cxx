@@ -199,6 +199,12 @@ IsCorrelatedInTime(const CorrelationSums & sums, const std::vector<LagCoefficien
 }
 
 Eigen::MatrixXd
+ResidualProjection(const Eigen::MatrixXd & basis)
+{
+  return Eigen::MatrixXd::Identity(basis.rows(), basis.rows()) - basis * basis.transpose();
+}
+
+Eigen::MatrixXd
 CorrelationOfFrames(const std::vector<LagCoefficient> & lags, Eigen::Index frames)
 {
   Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(frames, frames);
@@ -213,8 +219,7 @@ CorrelationOfFrames(const std::vector<LagCoefficient> & lags, Eigen::Index frame
 Eigen::VectorXd
 RemainingOfCorrelated(const Eigen::MatrixXd & basis, const Eigen::MatrixXd & correlation)
 {
-  const Eigen::Index    frames = basis.rows();
-  const Eigen::MatrixXd projection = Eigen::MatrixXd::Identity(frames, frames) - basis * basis.transpose();
+  const Eigen::MatrixXd projection = ResidualProjection(basis);
   const Eigen::VectorXd remaining = (projection * correlation).cwiseProduct(projection).rowwise().sum();
   return remaining.cwiseQuotient(projection.diagonal());
 }

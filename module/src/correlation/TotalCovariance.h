@@ -140,12 +140,16 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found);
 SensorNoise_EXPORT bool
 IsCorrelatedInTime(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients);
 
+/** Returns P = I - Q Q'; \a basis is Q. */
+Eigen::MatrixXd
+ResidualProjection(const Eigen::MatrixXd & basis);
+
 /** Returns the correlation matrix of \a frames frames whose coefficients at the temporal lags are \a lags. */
 SensorNoise_EXPORT Eigen::MatrixXd
 CorrelationOfFrames(const std::vector<LagCoefficient> & lags, Eigen::Index frames);
 
 /** Returns the noise variance that the projection P = I - Q Q' leaves in each frame if frames have the correlation
- * matrix R, over what it leaves of white noise: the diagonal of P R P over that of P [1]. \a basis is Q. */
+ * matrix R, over what it leaves of white noise: the diagonal of P R P over the diagonal of P [1]. \a basis is Q. */
 SensorNoise_EXPORT Eigen::VectorXd
 RemainingOfCorrelated(const Eigen::MatrixXd & basis, const Eigen::MatrixXd & correlation);
 
