@@ -153,35 +153,28 @@ IndexOf(int lag, std::size_t axis)
   return 2 * static_cast<std::size_t>(lag - 1) + axis;
 }
 
-/** Returns for each pixel of a tile how little the noise variance changes around it, from 0 to 1. A filter weights the
- * variances around an edge, so that coefficients there differ with the place, as behind an enlargement. */
-std::vector<double>
-FlatnessOf(const NoiseResiduals & residuals, std::size_t tile)
+/** Returns how little the noise variance changes around the pixel (x, y) of a tile, from 0 to 1. A filter weights the
+ * variances around an edge, so that coefficients there differ with the place, as behind an enlargement. \a weight has
+ * the weights of the tile's pixels, \a side is its width and height. */
+double
+FlatnessAt(const float * weight, std::size_t side, std::size_t x, std::size_t y)
 {
-  const std::size_t   side = residuals.GetTiles().side;
-  const float *       weight = residuals.WeightOf(tile);
-  std::vector<double> flatness(side * side, 0.0);
-  for (std::size_t y = 0; y < side; ++y)
+  float low = weight[y * side + x];
+  float high = low;
+  if (!(low > 0.0F))
   {
-    for (std::size_t x = 0; x < side; ++x)
+    return 0.0;
+  }
+  for (std::size_t v = y - std::min<std::size_t>(y, 1); v < std::min(side, y + 2); ++v)
+  {
+    for (std::size_t u = x - std::min<std::size_t>(x, 1); u < std::min(side, x + 2); ++u)
     {
-      const float own = weight[y * side + x];
-      float       low = own;
-      float       high = own;
-      for (std::size_t v = y - std::min<std::size_t>(y, 1); v < std::min(side, y + 2); ++v)
-      {
-        for (std::size_t u = x - std::min<std::size_t>(x, 1); u < std::min(side, x + 2); ++u)
-        {
-          const float other = weight[v * side + u];
-          low = other > 0.0F ? std::min(low, other) : low;
-          high = std::max(high, other);
-        }
-      }
-      flatness[y * side + x] =
-        own > 0.0F ? std::pow(static_cast<double>(low) / high, InCorrelation.exponentOfFlatness) : 0.0;
+      const float other = weight[v * side + u];
+      low = other > 0.0F ? std::min(low, other) : low;
+      high = std::max(high, other);
     }
   }
-  return flatness;
+  return std::pow(static_cast<double>(low) / high, InCorrelation.exponentOfFlatness);
 }
 
 /** Returns the sums of a tile along one axis. Pairs count by the \a flatness of both pixels. \a squares are the
@@ -231,9 +224,14 @@ SumTraces(const NoiseResiduals & residuals, std::size_t tile)
     lags.push_back({ lag, 0, 0 });
     lags.push_back({ 0, lag, 0 });
   }
-  const auto products = SumProducts(residuals, tile, lags);
-  const auto flatness = FlatnessOf(residuals, tile);
-  TraceSums  sums;
+  const auto          products = SumProducts(residuals, tile, lags);
+  const std::size_t   side = residuals.GetTiles().side;
+  std::vector<double> flatness;
+  for (std::size_t p = 0; p < side * side; ++p)
+  {
+    flatness.push_back(FlatnessAt(residuals.WeightOf(tile), side, p % side, p / side));
+  }
+  TraceSums sums;
   for (std::size_t index = 0; index < sums.axes.size(); ++index)
   {
     const Lag & lag = lags[1 + index];
