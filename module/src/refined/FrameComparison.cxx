@@ -135,14 +135,17 @@ CompareFrames(const StaticVariance &   variance,
                                MovesLittle(by) ? leastUnlike
                                                : std::max(InRefined.leastUnlikeUnderMotion, leastUnlike) };
   const std::vector<std::uint8_t> flat = MaskOfFlatClasses(by.squares, MaskOfUsed(variance.pixelUse), parallelFor);
-  const auto                      compareOn = [&](const std::vector<std::uint8_t> & pixels) {
+  const std::vector<SlopeOfLine>  lines = LinesByError(variance);
+  Eigen::VectorXd                 remaining = Eigen::VectorXd::Ones(by.residuals.GetBasis().rows());
+  if (isTemporal)
+  {
+    const Eigen::MatrixXd & basis = by.residuals.GetBasis();
+    remaining = RemainingOfCorrelated(basis, CorrelationOfFrames(correlation.time, basis.rows()));
+  }
+  const auto compareOn = [&](const std::vector<std::uint8_t> & pixels) {
     FrameEnergies energies(by.residuals, pixels, parallelFor);
-    if (isTemporal)
-    {
-      const Eigen::MatrixXd & basis = by.residuals.GetBasis();
-      energies.DivideBy(RemainingOfCorrelated(basis, CorrelationOfFrames(correlation.time, basis.rows())));
-    }
-    return CompareByEnergies(energies, LinesByError(variance), by, thresholds);
+    energies.DivideBy(remaining);
+    return CompareByEnergies(energies, lines, by, thresholds);
   };
   FrameNoise noise = compareOn(flat);
   if (noise.HasSeveralGroups() || !correlation.IsCorrelated())

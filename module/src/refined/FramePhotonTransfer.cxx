@@ -227,6 +227,12 @@ TileLevels::Of(double signalDn) const
   return m_OffsetDn + m_Illumination.array() * (signalDn + m_ZeroDn - m_OffsetDn);
 }
 
+double
+LeastVarianceDn2(const FrameEnergies & energies, Eigen::Index tile)
+{
+  return InRefined.leastWeighedVariance * energies.SquaresDn2().row(tile).mean();
+}
+
 Eigen::VectorXd
 VariancesOfFrames(const FrameEnergies & energies,
                   const TileLevels &    levels,
@@ -234,8 +240,7 @@ VariancesOfFrames(const FrameEnergies & energies,
                   Eigen::Index          tile)
 {
   const Eigen::VectorXd level = levels.Of(energies.SignalDn()(tile)).head(energies.Frames());
-  const double          least = InRefined.leastWeighedVariance * energies.SquaresDn2().row(tile).mean();
-  return (line.intercept + line.gain * level.array()).max(least);
+  return (line.intercept + line.gain * level.array()).max(LeastVarianceDn2(energies, tile));
 }
 
 VarianceCurve

@@ -50,8 +50,11 @@ private:
   double          m_ZeroDn;
 };
 
-/** Returns the variance by \a line at the level of a \a tile in every frame [DN^2]. It is at least
- * InRefined.leastWeighedVariance of the tile's mean square. */
+/** Returns InRefined.leastWeighedVariance of the mean square of a \a tile [DN^2]. */
+double
+LeastVarianceDn2(const FrameEnergies & energies, Eigen::Index tile);
+
+/** Returns the variance by \a line at the level of a \a tile in every frame, at least LeastVarianceDn2() [DN^2]. */
 SensorNoise_EXPORT Eigen::VectorXd
 VariancesOfFrames(const FrameEnergies & energies,
                   const TileLevels &    levels,

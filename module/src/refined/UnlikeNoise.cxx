@@ -30,7 +30,7 @@ MedianOf(std::vector<double> values)
 }
 
 /** Returns for each frame whether \a line predicts its noise variance in half of the tiles: the variance is above
- * InRefined.leastWeighedVariance of the tile's. The line knows little about the small variance of frames without light,
+ * LeastVarianceDn2(). The line knows little about the small variance of frames without light,
  * and these have no gain. */
 std::vector<bool>
 ArePredicted(const FrameEnergies & energies, const TileLevels & levels, const VarianceLine & line)
@@ -38,8 +38,7 @@ ArePredicted(const FrameEnergies & energies, const TileLevels & levels, const Va
   Eigen::ArrayXd above = Eigen::ArrayXd::Zero(energies.Frames());
   for (Eigen::Index i = 0; i < energies.Tiles(); ++i)
   {
-    const double leastDn2 = InRefined.leastWeighedVariance * energies.SquaresDn2().row(i).mean();
-    above += (VariancesOfFrames(energies, levels, line, i).array() > leastDn2).cast<double>();
+    above += (VariancesOfFrames(energies, levels, line, i).array() > LeastVarianceDn2(energies, i)).cast<double>();
   }
   std::vector<bool> predicted;
   for (Eigen::Index t = 0; t < above.size(); ++t)
@@ -51,7 +50,7 @@ ArePredicted(const FrameEnergies & energies, const TileLevels & levels, const Va
 
 /** Returns the squares of every frame over their expectation by \a line at its levels, as the median over the tiles.
  * \a noise is the known noise of the frames: the projection leaves some of the noise of each in the others. NaN for
- * frames that are not \a compared, or of which the projection leaves too little. */
+ * frames that are not \a compared, and for frames of which the projection leaves too little. */
 Eigen::VectorXd
 RatiosOfFrames(const FrameEnergies &     energies,
                const TileLevels &        levels,
