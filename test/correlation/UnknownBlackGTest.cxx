@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <gtest/gtest.h>
-#include <utility>
 #include <vector>
 
 using namespace sensornoise;

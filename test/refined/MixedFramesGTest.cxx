@@ -4,7 +4,6 @@
 #include "helpers/RefinedTestHelper.h"
 #include "simulation/Random.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>

@@ -167,8 +167,9 @@ struct SensorNoise_EXPORT VarianceCurve
   std::vector<CurveBin> bins; ///< bins of equal numbers of pixels, from dark to bright
 
   /** Returns the reduced chi-square of the bins' mean excesses: 1 if they are sampling noise about a line [1]. Where
-   * neighbours have correlated noise, the variance of a bin's mean is 1 to \a varianceInflation times that of white
-   * noise, as its pixels are neighbours or not. The factor in this range is taken that brings chi-square nearest to 1.
+   * neighbours have correlated noise, the mean of a bin has 1 to \a varianceInflation times the variance that it has
+   * with white noise, as its pixels are neighbours or not. The factor in this range is taken that brings chi-square
+   * nearest to 1.
    */
   double
   ReducedChi2(double varianceInflation = 1.0) const;
