@@ -8,6 +8,7 @@
 #include "base/Stencils.h"
 #include "base/Text.h"
 #include "base/BoxSum.h"
+#include "moments/Constants.h"
 #include "scene/InitialNoiseModel.h"
 
 #include <algorithm>
@@ -46,35 +47,63 @@ UseOf(const ReferenceFrame & frame, const std::vector<std::uint8_t> & valid, std
   return isInner ? PixelUse::NearClip : PixelUse::Border;
 }
 
-/** Returns the smallest and the largest change of the brightness of a frame relative to the average, from the means of
- * the frames or from the model of the variance [1]. */
-std::pair<double, double>
-BrightnessExtremes(const ReferenceFrame &      frame,
-                   const InitialNoiseModel &   model,
-                   const std::vector<double> & frameMeans)
+/** Illumination of the frames about their average [DN]. */
+struct FrameLevels
 {
-  const double average = std::accumulate(frameMeans.begin(), frameMeans.end(), 0.0) / static_cast<double>(frame.frames);
-  const double flux = std::max(1e-3, model.centreDn - model.darkestDn);
+  double lowest;   ///< mean of the darkest frame less the average [DN]
+  double highest;  ///< mean of the brightest frame less the average [DN]
+  double average;  ///< mean of all frames [DN]
+  double variance; ///< variance of the means [DN^2]
+};
+
+FrameLevels
+LevelsOfFrames(const std::vector<double> & frameMeans)
+{
+  const auto   count = static_cast<double>(frameMeans.size());
+  const double average = std::accumulate(frameMeans.begin(), frameMeans.end(), 0.0) / count;
   const auto [lowest, highest] = std::minmax_element(frameMeans.begin(), frameMeans.end());
-  const double typical = InScene.typicalFlickerSds * std::sqrt(model.flickerVariance);
-  const double brightest = std::max((*highest - average) / flux, typical);
-  const double darkest = std::max(-1.0, std::min((*lowest - average) / flux, -typical));
-  return { darkest, brightest };
+  const double squares = std::accumulate(frameMeans.begin(), frameMeans.end(), 0.0, [average](double sum, double mean) {
+    return sum + (mean - average) * (mean - average);
+  });
+  return { *lowest - average, *highest - average, average, squares / std::max(1.0, count - 1.0) };
 }
 
-/** Returns the range of the illumination in levels, and the range of the offset. No mean of a frame is below the
- * offset, and the variance at the offset is not negative. */
-IlluminationRange
-RangeOfIllumination(const ReferenceFrame &      frame,
-                    const InitialNoiseModel &   model,
-                    const std::vector<double> & frameMeans,
-                    double                      darkestNoiseDn2)
+/** Returns the fraction of the model's noise at the centre that is not due to the illumination of the frames. Where the
+ * scene has little contrast, the model takes that for noise, of at most strongChangeOfFlat times the noise. */
+double
+FractionOfNoise(const InitialNoiseModel & model, const FrameLevels & levels)
 {
-  const double average = std::accumulate(frameMeans.begin(), frameMeans.end(), 0.0) / static_cast<double>(frame.frames);
-  const auto [lowest, highest] = std::minmax_element(frameMeans.begin(), frameMeans.end());
-  const double highestOffsetDn = std::min(model.darkestDn, *lowest);
-  const double lowestOffsetDn = std::min(highestOffsetDn, model.darkestDn - model.interceptDn2 / model.slopeDn);
-  return { *lowest - average, *highest - average, lowestOffsetDn, highestOffsetDn, darkestNoiseDn2 };
+  const double rawDn2 = model.RawVariance(model.centreDn, 0.0, 0.0);
+  const double noiseDn2 = std::max(rawDn2 / (1.0 + InMoments.strongChangeOfFlat), rawDn2 - levels.variance);
+  return std::min(1.0, noiseDn2 / model.NoiseVariance(model.centreDn));
+}
+
+/** Returns the range of the illumination in levels, about the largest possible offset: no mean of a frame is below the
+ * offset. */
+IlluminationRange
+RangeOfIllumination(const InitialNoiseModel & model, const FrameLevels & levels)
+{
+  const double offsetDn = std::min(model.darkestDn, levels.average + levels.lowest);
+  // The illumination may change differently from place to place, and leave the means of the frames as they are.
+  const double typical =
+    InScene.typicalFlickerSds * std::sqrt(model.flickerVariance) * (model.centreDn - model.darkestDn);
+  return { std::min(levels.lowest, -typical),       std::max(levels.highest, typical), offsetDn, offsetDn,
+           std::numeric_limits<double>::infinity(), FractionOfNoise(model, levels) };
+}
+
+/** Returns the range of a strong change of the illumination, whose variance is not in the model. The variance at the
+ * smallest possible offset is not negative. */
+IlluminationRange
+RangeOfStrongChange(const InitialNoiseModel & model, const FrameLevels & levels, double darkestNoiseDn2)
+{
+  IlluminationRange range = RangeOfIllumination(model, levels);
+  range.lowestDn = levels.lowest;
+  range.highestDn = levels.highest;
+  range.lowestOffsetDn = std::min(range.highestOffsetDn, model.darkestDn - model.interceptDn2 / model.slopeDn);
+  range.lowestNoiseDn2 = darkestNoiseDn2;
+  range.fractionOfNoise = 1.0;
+  range.scalesMotion = true;
+  return range;
 }
 } // namespace
 
@@ -101,11 +130,10 @@ ExcludeCoarseAndGuarded(const ReferenceFrame &        frame,
                         const ParallelFor &           parallelFor,
                         const std::optional<double> & darkestNoiseDn2)
 {
-  const auto [darkest, brightest] = BrightnessExtremes(frame, model, frameMeans);
-  const auto guarded =
-    darkestNoiseDn2
-      ? FindGuardBand(frame, model, codes, RangeOfIllumination(frame, model, frameMeans, *darkestNoiseDn2), parallelFor)
-      : FindGuardBand(frame, model, codes, brightest, darkest, parallelFor);
+  const FrameLevels       levels = LevelsOfFrames(frameMeans);
+  const IlluminationRange range =
+    darkestNoiseDn2 ? RangeOfStrongChange(model, levels, *darkestNoiseDn2) : RangeOfIllumination(model, levels);
+  const auto   guarded = FindGuardBand(frame, model, codes, range, parallelFor);
   UsablePixels pixels;
   pixels.usable = frame.usable;
   pixels.pixelUse = std::move(pixelUse);
@@ -171,40 +199,12 @@ LevelsOf(const CodeRange & codes, double brightest, double darkest, double sds)
            sds };
 }
 
-/** Marks the usable pixels of [begin, end) that reach a clip level. Small arguments are passed by value: by reference
- * they could alias the output, which prevents vectorization. */
-void
-MarkGuarded(const ReferenceFrame & frame,
-            InitialNoiseModel      model,
-            GuardedLevels          guard,
-            std::size_t            begin,
-            std::size_t            end,
-            std::uint8_t *         guarded)
-{
-  const double * const       mean = frame.mean.data();
-  const double * const       neighbourMean = frame.neighbourMean.data();
-  const std::uint8_t * const usable = frame.usable.data();
-  const std::size_t          width = frame.geometry.width;
-  for (std::size_t p = begin; p < end; ++p)
-  {
-    const auto [gx, gy] = ApplyGradient(mean, width, p);
-    const double level = neighbourMean[p];
-    const double flux = std::max(0.0, level - model.darkestDn);
-    const double noise = model.NoiseVariance(level);
-    const double motion = model.MotionVariance(gx, gy);
-    const double high =
-      level + guard.brightest * flux + guard.sds * std::sqrt(noise * (1.0 + guard.brightest) + motion);
-    const double low = level + guard.darkest * flux - guard.sds * std::sqrt(noise + motion);
-    const bool   isReached = (high >= guard.highDn) | (low <= guard.lowDn); // no short-circuit, to avoid a branch
-    guarded[p] = usable[p] != 0 && isReached ? 1 : 0;
-  }
-}
-
 /** Marks the usable pixels of [begin, end) that reach a clip level, if the signal scales about \a offsetDn. The noise
- * is evaluated at the levels that are reached, so that in a dark frame it is small. */
+ * is evaluated at the levels that are reached, so that in a dark frame it is small. Small arguments are passed by
+ * value: by reference they could alias the output, which prevents vectorization. */
 void
 MarkGuardedAbout(double                 offsetDn,
-                 double                 lowestNoiseDn2,
+                 IlluminationRange      range,
                  const ReferenceFrame & frame,
                  InitialNoiseModel      model,
                  GuardedLevels          guard,
@@ -219,41 +219,22 @@ MarkGuardedAbout(double                 offsetDn,
   for (std::size_t p = begin; p < end; ++p)
   {
     const auto [gx, gy] = ApplyGradient(mean, width, p);
-    const double signal = std::max(0.0, neighbourMean[p] - offsetDn);
-    const double highest = 1.0 + guard.brightest;
-    const double lowest = 1.0 + guard.darkest;
+    const double level = neighbourMean[p];
+    const double signal = std::max(0.0, level - offsetDn);
+    const double highest = range.scalesMotion ? 1.0 + guard.brightest : 1.0;
+    const double lowest = range.scalesMotion ? 1.0 + guard.darkest : 1.0;
     const double motion = model.MotionVariance(gx, gy);
-    const double highDn = offsetDn + highest * signal;
-    const double lowDn = offsetDn + lowest * signal;
-    const double high = highDn + guard.sds * std::sqrt(model.NoiseVariance(highDn) + highest * highest * motion);
-    const double lowNoise = std::min(lowestNoiseDn2, model.NoiseVariance(lowDn));
+    const double highDn = level + guard.brightest * signal;
+    const double lowDn = level + guard.darkest * signal;
+    const double highNoise = range.fractionOfNoise * model.NoiseVariance(highDn);
+    const double high = highDn + guard.sds * std::sqrt(highNoise + highest * highest * motion);
+    const double lowNoise = std::min(range.lowestNoiseDn2, model.NoiseVariance(lowDn));
     const double low = lowDn - guard.sds * std::sqrt(lowNoise + lowest * lowest * motion);
     const bool   isReached = (high >= guard.highDn) | (low <= guard.lowDn);
     guarded[p] = usable[p] != 0 && isReached ? 1 : guarded[p];
   }
 }
 } // namespace
-
-std::vector<std::uint8_t>
-FindGuardBand(const ReferenceFrame &    frame,
-              const InitialNoiseModel & model,
-              const CodeRange &         codes,
-              double                    brightest,
-              double                    darkest,
-              const ParallelFor &       parallelFor,
-              double                    sds)
-{
-  std::vector<std::uint8_t> guarded(frame.mean.size(), 0);
-  if (!codes.clipLowDn && !codes.clipHighDn)
-  {
-    return guarded;
-  }
-  const GuardedLevels guard = LevelsOf(codes, brightest, darkest, sds);
-  ForInnerBlocks(frame.geometry, parallelFor, [&](std::size_t begin, std::size_t end) {
-    MarkGuarded(frame, model, guard, begin, end, guarded.data());
-  });
-  return guarded;
-}
 
 std::vector<std::uint8_t>
 FindGuardBand(const ReferenceFrame &    frame,
@@ -268,13 +249,17 @@ FindGuardBand(const ReferenceFrame &    frame,
   {
     return guarded;
   }
-  for (const double offsetDn : { range.lowestOffsetDn, range.highestOffsetDn })
-  {
+  const auto markAbout = [&](double offsetDn) {
     const double        signal = std::max(1e-3, model.centreDn - offsetDn);
     const GuardedLevels guard = LevelsOf(codes, range.highestDn / signal, std::max(-1.0, range.lowestDn / signal), sds);
     ForInnerBlocks(frame.geometry, parallelFor, [&](std::size_t begin, std::size_t end) {
-      MarkGuardedAbout(offsetDn, range.lowestNoiseDn2, frame, model, guard, begin, end, guarded.data());
+      MarkGuardedAbout(offsetDn, range, frame, model, guard, begin, end, guarded.data());
     });
+  };
+  markAbout(range.highestOffsetDn);
+  if (range.lowestOffsetDn < range.highestOffsetDn)
+  {
+    markAbout(range.lowestOffsetDn);
   }
   return guarded;
 }

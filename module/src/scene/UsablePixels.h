@@ -157,21 +157,6 @@ ExcludeCoarseAndGuarded(const ReferenceFrame &        frame,
 SensorNoise_EXPORT void
 RequireFineQuantization(const UsablePixels & pixels, double stepDn);
 
-/** Marks the pixels that clipping could affect, whether it did or not: those whose expected extreme reaches a clip
- * level. The expected extreme is in the brightest or darkest frame, \a sds standard deviations from the level.
- *
- * Excluding only the pixels that happened to clip would select by the noise: the variance of the others would be too
- * small (estimator.md, 3.2). \a brightest and \a darkest are the extreme relative changes of the brightness of a
- * frame, above -1 [1]; 0 is the brightness of the mean frame. */
-SensorNoise_EXPORT std::vector<std::uint8_t>
-FindGuardBand(const ReferenceFrame &    frame,
-              const InitialNoiseModel & model,
-              const CodeRange &         codes,
-              double                    brightest,
-              double                    darkest,
-              const ParallelFor &       parallelFor,
-              double                    sds = InScene.guardBandSds);
-
 /** Range of the illumination and the offset, estimated from the levels of the frames and a rough model. */
 struct IlluminationRange
 {
@@ -179,11 +164,20 @@ struct IlluminationRange
   double highestDn;       ///< mean of the brightest frame minus the mean of all frames [DN]
   double lowestOffsetDn;  ///< smallest possible offset [DN]
   double highestOffsetDn; ///< largest possible offset, at most the mean of the darkest frame [DN]
-  double lowestNoiseDn2;  ///< upper bound of the noise variance in the darkest frame, for any model [DN^2]
+  double lowestNoiseDn2;  ///< upper bound of the noise variance in the darkest frame; may be infinite [DN^2]
+  /** Fraction of the model's noise variance that is noise, at high levels; the rest is by the illumination [1]. */
+  double fractionOfNoise{ 1.0 };
+  /** Whether motion changes a frame in proportion to its brightness. A weak change moves the extreme by less than the
+   * distance in standard deviations allows for. */
+  bool scalesMotion{ false };
 };
 
-/** Marks the pixels that clipping could affect where the illumination changes strongly. A pixel is marked if it reaches
- * a clip level with the lowest or the highest offset, with the noise at the level that is reached. */
+/** Marks the pixels that clipping could affect, whether it did or not: those whose expected extreme reaches a clip
+ * level. The expected extreme is in the brightest or darkest frame, with the lowest or the highest offset, \a sds
+ * standard deviations of the noise at the level that is reached.
+ *
+ * Excluding only the pixels that happened to clip would select by the noise: the variance of the others would be too
+ * small (estimator.md, 3.2). */
 SensorNoise_EXPORT std::vector<std::uint8_t>
 FindGuardBand(const ReferenceFrame &    frame,
               const InitialNoiseModel & model,
