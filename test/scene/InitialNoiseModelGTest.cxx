@@ -71,6 +71,29 @@ ExpectTruth(const InitialNoiseModel & model)
 }
 } // namespace
 
+TEST(SensorNoiseInitialNoiseModel, VarianceThatChanceExplainsIsUniform)
+{
+  // Sample variances of 40 frames with the same noise everywhere.
+  InitialNoiseModel uniform;
+  uniform.interceptDn2 = 500.0;
+  ReferenceFrame                        frame = FrameOf(uniform);
+  std::mt19937                          random(5);
+  std::chi_squared_distribution<double> chi2(39.0);
+  double                                sum = 0.0;
+  double                                count = 0.0;
+  for (std::size_t p = 0; p < frame.variance.size(); ++p)
+  {
+    frame.variance[p] *= chi2(random) / 39.0;
+    sum += frame.usable[p] * frame.variance[p];
+    count += frame.usable[p];
+  }
+  const InitialNoiseModel model = FitInitialNoiseModel(frame);
+  EXPECT_EQ(model.flickerVariance, 0.0);
+  EXPECT_EQ(model.vibrationXPixels2, 0.0);
+  EXPECT_EQ(model.vibrationYPixels2, 0.0);
+  EXPECT_NEAR(model.interceptDn2, sum / count, 1e-9 * sum / count);
+}
+
 TEST(SensorNoiseInitialNoiseModel, VarianceOfTheModelIsRecoveredExactly)
 {
   const double darkest = FitInitialNoiseModel(FrameOf(Truth(300.0))).darkestDn; // from the mean alone

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,36 @@ SetCoefficients(InitialNoiseModel & model, const VarianceSample::Coefficients & 
   model.vibrationYPixels2 = std::max(0.0, theta(4));
   model.vibrationXY = 0.5 * theta(5);
 }
+
+/** Returns the mean of the raw variances if neither level nor derivatives explain their differences by more than
+ * chance, as in a flat field: a fit would extrapolate noise. */
+std::optional<double>
+FindUniformVariance(const VarianceSample & sample, double largestRatio)
+{
+  VariancePrediction uniform;
+  uniform.variance.assign(sample.Size(), QuantileOf(sample.raw, 0.5));
+  double count = 0.0;
+  double mean = 0.0;
+  for (const double raw : sample.raw)
+  {
+    uniform.keep.push_back(raw < largestRatio * uniform.variance.front() ? 1 : 0);
+    count += uniform.keep.back();
+    mean += uniform.keep.back() * (raw - mean) / std::max(1.0, count);
+  }
+  const VarianceSample::Coefficients theta = SolveKept(sample, uniform);
+  double                             explained = 0.0;
+  double                             left = 0.0;
+  for (std::size_t i = 0; i < sample.Size(); ++i)
+  {
+    const double predicted = sample.TermsOf(i).dot(theta);
+    explained += uniform.keep[i] * (predicted - mean) * (predicted - mean);
+    left += uniform.keep[i] * (sample.raw[i] - predicted) * (sample.raw[i] - predicted);
+  }
+  constexpr double dof = VarianceSample::Terms - 1.0;
+  const double     byChance = left / std::max(1.0, count - VarianceSample::Terms);
+  const bool       isUniform = explained < byChance * (dof + Significance.severalTests * std::sqrt(2.0 * dof));
+  return isUniform ? std::optional<double>(mean) : std::nullopt;
+}
 } // namespace
 
 InitialNoiseModel
@@ -64,8 +95,14 @@ FitInitialNoiseModel(const ReferenceFrame & frame)
   model.largestRatio = std::max(InScene.largestRatio,
                                 1.0 + Significance.everyPixel * std::sqrt(2.0 / static_cast<double>(frame.frames - 1)));
   const VarianceSample         sample = SampleVariance(frame, pixels, model);
-  VariancePrediction           prediction = StartFromMedians(sample);
   VarianceSample::Coefficients theta = VarianceSample::Coefficients::Zero();
+  if (const std::optional<double> uniform = FindUniformVariance(sample, model.largestRatio))
+  {
+    theta(0) = *uniform;
+    SetCoefficients(model, theta, sample);
+    return model;
+  }
+  VariancePrediction prediction = StartFromMedians(sample);
   for (int round = 0; round < InScene.roundsOfFit; ++round)
   {
     theta = SolveKept(sample, prediction);
