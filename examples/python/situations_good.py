@@ -150,6 +150,13 @@ def text(random, highest):
     return burst(expose(random, highest * page, illumination(random)), signal_range=GAIN * highest)
 
 
+def flat(random, electrons, flicker):
+    """Returns a flat field with dark frames, as for a photon transfer."""
+    frames = expose(random, np.full(SHAPE, 0.6 * electrons.max()), illumination(random, flicker=flicker), gain=1.0)
+    dark = expose(random, np.zeros(SHAPE), np.ones(20), gain=1.0)
+    return burst(frames, gain=1.0, signal_range=0.6 * ELECTRONS)._replace(dark=digitise(dark, BITS))
+
+
 def line(name, make, *given, expected=MEASURED):
     return Situation(
         f"good/{name}",
@@ -170,6 +177,7 @@ SITUATIONS = (
     *(line(f"fixed-pattern-{strength:g}", fixed_pattern, strength, expected=MAY_REFUSE) for strength in (0.5, 2.0)),
     *(line(f"half-noisier-{ratio:g}", half_noisier, ratio) for ratio in (1.3, 2.0)),
     *(line(f"noise-grows-{ratio:g}", noise_grows, ratio) for ratio in (1.5, 3.0)),
+    *(line(f"flat-{flicker:.0%}", flat, flicker) for flicker in (0.01, 0.02, 0.05)),
     *(line(f"counting-{highest:g}", counting, highest) for highest in (30.0, 1000.0)),
     *(
         Situation(f"good/text-{highest:g}", lambda random, _electrons, highest=highest: text(random, highest))

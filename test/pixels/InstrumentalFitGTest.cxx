@@ -86,6 +86,13 @@ TEST(SensorNoiseInstrumentalFit, WithoutPatternsItIsTheLineOfAllPixels)
   EXPECT_NEAR(lines.instrumental.intercept, ReadVarianceDn2 - GainDn * BlackDn, 1e-6);
 }
 
+TEST(SensorNoiseInstrumentalFit, NoiseOfTheMeansAloneIsNoInstrument)
+{
+  const Lines lines(
+    Maps([](std::size_t, std::size_t y) { return Pixel{ 100.0 + 0.003 * static_cast<double>(y) }; }, FewFrames));
+  EXPECT_FALSE(lines.instrumental.isDetermined);
+}
+
 TEST(SensorNoiseInstrumentalFit, GainsThatDifferHaveNoPart)
 {
   const std::vector<double> normal = NormalNumbers(Pixels);

@@ -317,8 +317,8 @@ FitInstrumental(const VarianceFit & fit, const VarianceData & data, const Refere
   instrumental.gain = (s[WZV] - zMean * s[WV]) / common;
   instrumental.pivotDn = pivot + s[WX] / s[W];
   instrumental.intercept = s[WV] / s[W] - instrumental.gain * instrumental.pivotDn;
-  // Sums of the squared scores, for the sandwich covariance.
-  const auto   squares = fit.SumWeighed<3>([&](std::size_t p, const VarianceFit::Weighed & weighed, auto & sums) {
+  // Sums of the squared scores, for the sandwich covariance; and of the squared products of x and z.
+  const auto   squares = fit.SumWeighed<4>([&](std::size_t p, const VarianceFit::Weighed & weighed, auto & sums) {
     if (HasDiagonals(frame.usable.data(), frame.geometry.width, p))
     {
       const auto [w, value] = weighed;
@@ -327,6 +327,8 @@ FitInstrumental(const VarianceFit & fit, const VarianceData & data, const Refere
       sums[0] += score * score * z * z;
       sums[1] += score * score * z;
       sums[2] += score * score;
+      const double product = w * z * (data.mean[p] - instrumental.pivotDn);
+      sums[3] += product * product;
     }
   });
   const double widening = WideningByLikeness(fit, frame.geometry, squares[0], [&](std::size_t p, const auto & weighed) {
@@ -341,7 +343,9 @@ FitInstrumental(const VarianceFit & fit, const VarianceData & data, const Refere
   Eigen::Matrix2d toIntercept;
   toIntercept << 1.0, 0.0, -instrumental.pivotDn, 1.0;
   instrumental.covariance = widening * toIntercept * atPivot * toIntercept.transpose();
-  instrumental.isDetermined = std::isfinite(instrumental.gain) && instrumental.covariance.allFinite();
+  // The mean of a ratio by a weak instrument does not exist: Staiger & Stock 1997 demand F > 10.
+  instrumental.isDetermined = common * common > InCommon.strongEvidence * squares[3] &&
+                              std::isfinite(instrumental.gain) && instrumental.covariance.allFinite();
   return instrumental;
 }
 

@@ -54,8 +54,12 @@ TestGain(const RefinedResults & found, const GainEstimate & gain)
 {
   // If all levels are alike, parts of them differ by fixed-pattern noise, and not by a non-linear response.
   const double error = gain.isWide ? std::sqrt(gain.covariance(0, 0)) : gain.StandardError();
-  const bool   areTooFew = AreTooFew(found.variance.pixelUse, found.scene.usable);
-  const bool   isTooLittle = error > InCommon.largestRelativeError * gain.Size() || areTooFew;
+  if (!(gain.line.pivotDn > found.blackDn) && error > InCommon.largestRelativeError * gain.line.gain)
+  {
+    return GainVerdict::NotRising; // the dark frames are brighter than the frames: no signal gives a size of the gain
+  }
+  const bool areTooFew = AreTooFew(found.variance.pixelUse, found.scene.usable);
+  const bool isTooLittle = error > InCommon.largestRelativeError * gain.Size() || areTooFew;
   if (isTooLittle && !found.frameNoise.HasSeveralGroups() && !(gain.nonlinearity > InRefined.largestNonlinearity))
   {
     return areTooFew                 ? GainVerdict::TooFewPixels
