@@ -253,6 +253,17 @@ TEST(SensorNoiseFrameNoise, ThatVariesWithoutGroupsIsScatter)
   EXPECT_GT(found.scatter, InRefined.leastUnlikeNoise);
 }
 
+TEST(SensorNoiseFrameNoise, ThatVariesMuchInFewFramesIsScatter)
+{
+  // 15 of 21 frames differ by less than the limit, and no gap separates the others. Rms 12 %.
+  Eigen::VectorXd noise = Eigen::VectorXd::LinSpaced(21, 0.91, 1.09);
+  noise.head(3) << 0.74, 0.78, 0.83;
+  noise.tail(3) << 1.17, 1.22, 1.26;
+  const FrameNoise found = GroupFramesByNoise(noise, 0.01, InRefined.leastUnlikeNoise);
+  EXPECT_TRUE(found.unlike.empty());
+  EXPECT_NEAR(found.scatter, std::sqrt((noise.array() - 1.0).square().mean()), 1e-12);
+}
+
 TEST(SensorNoiseFrameNoise, ThatIsKnownIsTakenOffTheOthers)
 {
   // The projection distributes a part of the noise of a frame over the others.

@@ -113,8 +113,8 @@ struct FrameNoise
   std::vector<FrameGroup> groups;
   /** Whether the frames have about one level: then the groups cannot be caused by the model of their illumination. */
   bool areFramesEqual{ false };
-  /** Median difference from 1, if it exceeds the threshold without groups: the noise varies from frame to frame; else 0
-   * [1]. */
+  /** Root mean square difference from 1, if it exceeds the threshold without groups: the noise varies from frame to
+   * frame; else 0 [1]. */
   double scatter{ 0.0 };
 
   /** Returns whether there are several groups, or the noise varies. */

@@ -235,13 +235,13 @@ FrameNoise
 GroupFramesByNoise(const Eigen::VectorXd & ofFrames, double chance, double least)
 {
   std::vector<NoiseOfFrame> sorted;
-  std::vector<double>       differences;
+  double                    squares = 0.0;
   for (Eigen::Index t = 0; t < ofFrames.size(); ++t)
   {
     if (std::isfinite(ofFrames(t)))
     {
       sorted.emplace_back(ofFrames(t), static_cast<std::size_t>(t));
-      differences.push_back(std::abs(ofFrames(t) - 1.0));
+      squares += (ofFrames(t) - 1.0) * (ofFrames(t) - 1.0);
     }
   }
   FrameNoise found;
@@ -259,8 +259,8 @@ GroupFramesByNoise(const Eigen::VectorXd & ofFrames, double chance, double least
     found.unlike.insert(found.unlike.end(), found.groups[k].frames.begin(), found.groups[k].frames.end());
   }
   std::sort(found.unlike.begin(), found.unlike.end());
-  const double median = MedianOf(differences);
-  found.scatter = found.unlike.empty() && median > std::max(least, Significance.everyPixel * chance) ? median : 0.0;
+  const double rms = std::sqrt(squares / static_cast<double>(sorted.size()));
+  found.scatter = found.unlike.empty() && rms > std::max(least, Significance.everyPixel * chance) ? rms : 0.0;
   return found;
 }
 
