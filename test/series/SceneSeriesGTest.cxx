@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "series/SceneSeries.h"
+#include "simulation/Random.h"
+#include "base/Stencils.h"
 #include "base/NothingToMeasure.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Settings.h"
@@ -24,6 +26,30 @@ namespace
 constexpr std::size_t Width = 70;
 constexpr std::size_t Height = 45;
 } // namespace
+
+TEST(SensorNoiseSceneSeries, SquaresOfTheShiftsAreNoFlicker)
+{
+  constexpr std::size_t count = 20;
+  MotionSeries          motion;
+  motion.stencils = { StencilX, StencilY };
+  motion.coefficients.resize(count, 2);
+  std::vector<double> ofShifts(count);
+  std::vector<double> ofLamp(count);
+  for (std::size_t t = 0; t < count; ++t)
+  {
+    CounterSeededRandom random(9, t, 0, 0);
+    const double        x = random.Normal();
+    const double        y = random.Normal();
+    motion.coefficients.row(static_cast<Eigen::Index>(t)) << x, y;
+    ofShifts[t] = -1e-3 * (x * x + 0.5 * y * y - 0.3 * x * y) + 1e-4 * random.Normal();
+    ofLamp[t] = 1e-3 * random.Normal();
+  }
+  const Eigen::MatrixXd squares = SquaresThatExplain(ofShifts, motion);
+  ASSERT_EQ(squares.cols(), 3);
+  EXPECT_LT((squares.transpose() * squares - Eigen::MatrixXd::Identity(3, 3)).norm(), 1e-12);
+  EXPECT_LT(squares.colwise().sum().norm(), 1e-12);
+  EXPECT_EQ(SquaresThatExplain(ofLamp, motion).cols(), 0);
+}
 
 TEST(SensorNoiseSceneSeries, FlickerDeterminesTheOffset)
 {

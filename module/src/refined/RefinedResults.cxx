@@ -70,7 +70,7 @@ ReestimateComponents(const FrameSums &           sums,
   RegressorNoise noise = NoiseOfLine(sums.GetRegressors(), variance.line, series.offset + model.centreDn, parallelFor);
   noise.ofProducts = CovarianceOfProducts(sums.GetRegressors(), correctedVariance, parallelFor);
   ReestimatedComponents reestimated;
-  reestimated.line = FitOffsetLine(sums, noise, gamma).value_or(series.line);
+  reestimated.line = FitOffsetLine(sums, noise, gamma, series.squaresOfShifts).value_or(series.line);
   if (!reestimated.line.DeterminesOffset())
   {
     reestimated.line.UseOffset(series.offset);

@@ -163,14 +163,21 @@ DifferenceToFewerClasses(const OffsetLine & line, const std::vector<OffsetLine> 
 } // namespace
 
 std::optional<OffsetLine>
-FitOffsetLine(const FrameSums & sums, const RegressorNoise & noise, const std::vector<double> & gamma)
+FitOffsetLine(const FrameSums &           sums,
+              const RegressorNoise &      noise,
+              const std::vector<double> & gamma,
+              const Eigen::MatrixXd &     without)
 {
   std::vector<OffsetLine>   fewer;
   std::optional<OffsetLine> best;
   double                    smallest = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < GradientClasses; ++c)
   {
-    const FrameEquations      equations = MakeFrameEquations(sums, noise, c, gamma);
+    FrameEquations equations = MakeFrameEquations(sums, noise, c, gamma);
+    if (without.cols() > 0)
+    {
+      equations.response -= without * (without.transpose() * equations.response);
+    }
     std::optional<OffsetLine> line = FitOffsetLine(equations);
     if (line)
     {

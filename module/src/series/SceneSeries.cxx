@@ -165,6 +165,19 @@ LevelOfDarkestFrame(OffsetLine line, double offset)
   return -offset * darkest;
 }
 
+/** Returns the line of \a sums without the squares of the shifts, if these explain the flicker of \a line; they are
+ * filed in \a found. Else returns \a line. */
+OffsetLine
+WithoutSquaresOfShifts(const FrameSums &      sums,
+                       const RegressorNoise & noise,
+                       const OffsetLine &     line,
+                       SceneSeries &          found)
+{
+  const FrameEquations equations = MakeFrameEquations(sums, noise, GradientClasses - 1);
+  found.squaresOfShifts = SquaresThatExplain(line.gamma, SolveMotion(equations, line.gamma, line.offset));
+  return found.squaresOfShifts.cols() > 0 ? FitOffsetLine(sums, noise, {}, found.squaresOfShifts).value_or(line) : line;
+}
+
 /** Returns whether the flicker is significant by the covariance of the products that the raw variances give. The
  * initial model may be wrong, most where few pixels have signal; without flicker, the raw variances are right. */
 bool
@@ -178,6 +191,30 @@ IsSignificantByRawNoise(const FrameSums &                           sums,
   return line && line->flickerZ > Significance.everyPixel;
 }
 } // namespace
+
+Eigen::MatrixXd
+SquaresThatExplain(const std::vector<double> & gamma, const MotionSeries & motion)
+{
+  const auto      frames = static_cast<Eigen::Index>(gamma.size());
+  Eigen::MatrixXd squares(frames, 3);
+  for (Eigen::Index t = 0; t < frames; ++t)
+  {
+    const double x = motion.Get(static_cast<std::size_t>(t), StencilX);
+    const double y = motion.Get(static_cast<std::size_t>(t), StencilY);
+    squares.row(t) << x * x, x * y, y * y;
+  }
+  squares.rowwise() -= squares.colwise().mean();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(squares);
+  const Eigen::Index                          rank = factors.rank();
+  const Eigen::MatrixXd                       basis = factors.householderQ() * Eigen::MatrixXd::Identity(frames, rank);
+  const Eigen::Map<const Eigen::VectorXd>     series(gamma.data(), frames);
+  const double                                all = (series.array() - series.mean()).square().sum();
+  const double                                left = all - (basis.transpose() * series).squaredNorm();
+  const auto                                  count = static_cast<double>(frames);
+  const double                                evidence =
+    count * std::log(all / std::max(left, 1e-12 * all)) - static_cast<double>(rank) * std::log(count);
+  return all > 0.0 && rank + 2 < frames && evidence > InCommon.strongEvidence ? basis : Eigen::MatrixXd(frames, 0);
+}
 
 RegressorNoise
 NoiseOfModel(const FrameRegressors & regressors)
@@ -217,24 +254,24 @@ FindSceneSeries(const FrameSums &                           sums,
           "--clip, or give each colour channel by itself");
   }
   SceneSeries found;
-  found.line = *line;
+  found.line = changesStrongly ? *line : WithoutSquaresOfShifts(sums, noise, *line, found);
   const InitialNoiseModel & model = sums.GetRegressors().GetModel();
   if (!changesStrongly) // the deviations of a non-linear response from the line are larger then
   {
     found.frameOffsets =
-      FindFrameOffsets(*line,
+      FindFrameOffsets(found.line,
                        { std::min(blackDn, model.darkestDn) - model.centreDn, model.darkestDn - model.centreDn, 2 },
                        InSeries.leastOffsetStep * std::sqrt(model.NoiseVariance(model.darkestDn)));
   }
   FrameEquations equations = MakeFrameEquations(sums, noise, GradientClasses - 1);
   // Fixed-pattern noise of a flat field has contrast, too.
   const bool isPrecise =
-    line->standardError < InCommon.largestRelativeError * std::max(0.0, -line->offset) || !changesStrongly;
+    found.line.standardError < InCommon.largestRelativeError * std::max(0.0, -found.line.offset) || !changesStrongly;
   found.isOffsetIdentifiable =
-    line->DeterminesOffset() && isPrecise && IsSignificantByRawNoise(sums, noise, rawNoise, line->lastClass);
-  const bool   hasLevels = line->contrast > InSeries.leastContrast;
+    found.line.DeterminesOffset() && isPrecise && IsSignificantByRawNoise(sums, noise, rawNoise, found.line.lastClass);
+  const bool   hasLevels = found.line.contrast > InSeries.leastContrast;
   const double fallbackDn = hasLevels ? model.darkestDn : std::min(blackDn, model.darkestDn);
-  found.offset = found.isOffsetIdentifiable ? line->offset : knownOffsetDn.value_or(fallbackDn) - model.centreDn;
+  found.offset = found.isOffsetIdentifiable ? found.line.offset : knownOffsetDn.value_or(fallbackDn) - model.centreDn;
   if (!found.isOffsetIdentifiable && !knownOffsetDn && changesStrongly)
   {
     found.offset = LevelOfDarkestFrame(found.line, found.offset);

@@ -108,13 +108,25 @@ struct SceneSeries
   double            offset{ 0.0 }; ///< offset minus the centre: from the line, or as given, or the darkest level [DN]
   bool isOffsetIdentifiable{ false }; ///< whether the flicker determines the offset, so that it is the offset of
                                       ///< the line
-  TemporalBasis basis;                ///< temporal basis of the third pass
-  FrameOffsets  frameOffsets;         ///< frames of another dark offset
+  /** Orthonormal series of the squares of the shifts, if they explain the flicker: then they are no illumination, and
+   * are removed from it. Else empty. */
+  Eigen::MatrixXd squaresOfShifts;
+  TemporalBasis   basis;        ///< temporal basis of the third pass
+  FrameOffsets    frameOffsets; ///< frames of another dark offset
 };
 
 /** Returns the noise according to the initial noise model, for which w V = 1. */
 SensorNoise_EXPORT RegressorNoise
 NoiseOfModel(const FrameRegressors & regressors);
+
+/** Returns orthonormal series of the squares of the shifts and of their product, without their means, if they explain
+ * \a gamma by Schwarz' criterion; else a matrix without columns.
+ *
+ * Where a scene is sharper than the derivatives of the mean describe, each frame has less contrast the further it is
+ * from the mean shift, which looks like flicker. Illumination does not follow the squares of the shifts. Estimator.md,
+ * 3.3. */
+SensorNoise_EXPORT Eigen::MatrixXd
+SquaresThatExplain(const std::vector<double> & gamma, const MotionSeries & motion);
 
 /** Finds flicker, local illumination and motion from the sums of the second pass, with the noise of the initial noise
  * model. Throws NothingToMeasure if the pixels have one intensity.
