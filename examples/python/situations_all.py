@@ -11,6 +11,7 @@ import situations
 import situations_borders
 import situations_branches
 import situations_dark
+import situations_drawn
 import situations_frames
 import situations_gains
 import situations_good
@@ -28,6 +29,7 @@ MODULES = (
     situations_borders,
     situations_branches,
     situations_dark,
+    situations_drawn,
     situations_frames,
     situations_gains,
     situations_good,
