@@ -97,12 +97,20 @@ IsOfFiles(const nlohmann::json & report, const EstimateOptions & one, const Fram
          (one.dark.empty() || IsSameInput(HashOf(OpenFrames(one.dark, {}, one.raw, one.choice)), (*input)["dark"]));
 }
 
+/** Returns whether stored options are the options of this call. Python writes "{}" if there are none; it writes others
+ * in another way, which are not compared. */
+bool
+AreSameOptions(const std::string & stored, const std::string & options)
+{
+  return stored == options || (stored == "{}" && options.empty());
+}
+
 /** Returns the stored report of a burst; none if it has to be measured. */
 const PassportEntry *
 StoredEntry(const Passport & stored, const PassportEntry & entry, const EstimateOptions & one, const FrameList & list)
 {
   const auto found = std::find_if(stored.entries.begin(), stored.entries.end(), [&](const PassportEntry & each) {
-    return each.reason.empty() && each.setting == entry.setting && each.options == entry.options;
+    return each.reason.empty() && each.setting == entry.setting && AreSameOptions(each.options, entry.options);
   });
   const bool canBeUsed = found != stored.entries.end() && HasHash() && one.mask.empty();
   return canBeUsed && IsOfFiles(found->report, one, list) ? &*found : nullptr;

@@ -51,7 +51,7 @@ def camera(bursts, dark, tmp_path):
 def test_each_setting_is_measured_as_by_itself(passport, bursts, dark):
     assert [entry["setting"] for entry in passport["settings"]] == list(ISO_SPEEDS)
     for iso in ISO_SPEEDS:
-        report = sn.estimate_sensor_noise(bursts[iso], dark=dark[iso], bayer="none")
+        report = sn.estimate_sensor_noise(bursts[iso], dark=dark[iso], bayer="none", hash=True)
         assert passport.report(iso) == report
         gain = report["gain"]
         assert abs(gain["value"] - 0.005 * iso) < max(0.01 * 0.005 * iso, 3 * gain["standard_error"])
@@ -109,24 +109,82 @@ def test_a_folder_gives_the_record_of_the_tool(camera, tool, tmp_path):
         assert (entry["name"], entry["setting"], entry["status"]) == (other["name"], other["setting"], other["status"])
 
 
-def test_it_goes_on_where_it_was_interrupted(bursts, tmp_path):
+@pytest.fixture
+def measured(monkeypatch):
+    """Counts the bursts that are measured, by their mean level."""
+    from itk_sensornoise.distributed import _task
+
+    levels = []
+
+    def count(frames, **settings):
+        report = sn.estimate_sensor_noise(frames, **settings)
+        levels.append(round(report["gain"]["value"], 1))
+        return report
+
+    monkeypatch.setattr(_task, "estimate_sensor_noise", count)
+    return levels
+
+
+def test_it_goes_on_where_it_was_interrupted(bursts, measured, tmp_path):
     output = tmp_path / "passport.json"
-    asked = []
-
-    def frames(iso):
-        def read():
-            asked.append(iso)
-            return bursts[iso]
-
-        return read
-
-    first = {iso: frames(iso) for iso in ISO_SPEEDS[:2]}
+    first = {iso: bursts[iso] for iso in ISO_SPEEDS[:2]}
     sn.estimate_sweep(first, output=output, bayer="none")
-    whole = sn.estimate_sweep({**first, 400.0: frames(400.0)}, output=output, bayer="none")
-    assert asked == [100.0, 200.0, 400.0]
-    assert whole == sn.estimate_sweep(bursts, bayer="none") | {"settings": whole["settings"]}
+    whole = sn.estimate_sweep({**first, 400.0: lambda: bursts[400.0]}, output=output, bayer="none")
+    assert measured == [0.5, 1.0, 2.0]
+    assert whole == sn.estimate_sweep(bursts, bayer="none") == sn.Passport.from_json(output)
+    measured.clear()
+    sn.estimate_sweep(bursts, output=output, bayer="none", hash=True, threads=1)
+    assert measured == []
     sn.estimate_sweep(first, output=output, bayer="none", bit_depth=16)
-    assert asked == [100.0, 200.0, 400.0, 100.0, 200.0]  # other options
+    assert measured == [0.5, 1.0]  # other options
+
+
+@pytest.mark.parametrize("kind", ["array", "function", "file"])
+def test_a_burst_that_has_changed_is_measured_again(bursts, measured, kind, tmp_path):
+    output = tmp_path / "passport.json"
+
+    def sweep(high, dark=None):
+        def given(frames):
+            if kind != "file":
+                return frames if kind == "array" else lambda: frames
+            np.save(tmp_path / "burst.npy", frames)
+            return tmp_path / "burst.npy"
+
+        return sn.estimate_sweep({100: bursts[100.0], 200: given(high)}, dark=dark, output=output, bayer="none")
+
+    sweep(bursts[200.0])
+    found = sweep(simulated(1.5, 7))
+    assert measured == [0.5, 1.0, 1.5] and abs(found.report(200).gain.value - 1.5) < 0.1
+    sweep(simulated(1.5, 7))
+    sweep(simulated(1.5, 7).reshape(24, 32, 128))  # the same bytes
+    assert measured == [0.5, 1.0, 1.5, 1.5]
+    for seed in (91, 91, 92):
+        sweep(simulated(1.5, 7).reshape(24, 32, 128), dark={100: simulated(0.5, seed, True)})
+    assert measured[4:] == [0.5, 0.5]  # as the dark frames are new
+
+
+def test_the_mask_of_a_file_may_change(bursts, measured, tmp_path):
+    output = tmp_path / "passport.json"
+    np.save(tmp_path / "mask.npy", np.ones((64, 64), np.uint8))
+    for _ in range(2):
+        sn.estimate_sweep({100: bursts[100.0]}, output=output, mask=tmp_path / "mask.npy", bayer="none")
+    assert measured == [0.5, 0.5]
+
+
+def test_python_goes_on_with_the_passport_of_the_tool(camera, tool, measured, tmp_path):
+    passport = tmp_path / "passport.json"
+    tool("estimate-sensor-noise", "--sweep", str(camera), "--json", str(passport), "--quiet")
+    if "sha256" not in sn.Passport.from_json(passport)["settings"][0]["report"].get("input", {}):
+        pytest.skip("the tool was built without OpenSSL, and its passports have no hashes")
+    found = sn.estimate_sweep(camera, output=passport)
+    assert measured == [] and [entry["status"] for entry in found["settings"]] == ["measured"] * 3
+    record = json.loads(passport.read_text())
+    for entry in record["settings"]:
+        entry["report"]["gain"]["value"] = 9.0  # shows that the report is taken as it is
+    passport.write_text(json.dumps(record))
+    tool("estimate-sensor-noise", "--sweep", str(camera), "--json", str(passport), "--quiet")
+    stored = sn.Passport.from_json(passport)["settings"]
+    assert [entry["report"]["gain"]["value"] for entry in stored] == [9.0] * 3
 
 
 def test_a_bad_burst_is_an_entry_with_its_reason(bursts):

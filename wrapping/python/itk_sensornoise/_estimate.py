@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The one-call way from frames to a report."""
 
-from collections.abc import Sequence
-from typing import Literal, TypedDict, Unpack, overload
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal, TypedDict, Unpack, overload
 
 from . import _options
 from ._channels import ChannelReports, report_of
@@ -278,6 +278,27 @@ def estimate_sensor_noise(
     if all(record["pixels"]["used"] == 0 for record in report.get("channels", [report])):
         warn_of_nan_frames(stack, "frames")
     return report
+
+
+def is_of_frames(report: Mapping[str, Any], frames: Frames, settings: Mapping[str, Any]) -> bool:
+    """Returns whether a report of estimate_sensor_noise() with hashes was made of these frames and dark frames.
+
+    The settings, with `dark`, are the same ones. All frames are read once. The size of arrays is compared, too, unless
+    a region or a range of frames was measured."""
+    span = Settings(frame_range=settings.get("frame_range")).span
+    raw = settings.get("raw")
+    stack = open_frames(frames, span) if raw is None else open_dumps(frames, raw, span)
+    dark = open_dark(settings.get("dark"), raw)
+    known = report.get("input", {})
+    if not FramesHash(stack).is_in(known) or (dark is None) == ("dark" in known):
+        return False
+    if dark is not None and not FramesHash(dark).is_in(known["dark"]):
+        return False
+    first = report.get("channels", [report])[0]
+    planes = 2 if "channels" in report else 1  # of a mosaic along each axis
+    is_cut = span is not None or settings.get("roi") is not None
+    size = tuple(int(first[name]) for name in ("width", "height", "frames"))
+    return is_cut or size == (stack.size[0] // planes, stack.size[1] // planes, stack.size[2])
 
 
 def _set_hashes(estimator: ItkObject, frames: Stack, dark: Stack | None) -> list[FramesHash]:

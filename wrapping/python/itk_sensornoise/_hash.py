@@ -4,7 +4,8 @@
 
 import hashlib
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -33,6 +34,12 @@ class FramesHash:
     def set(self, setter: Callable[[str, int, int], None]) -> None:
         """Calls a method of an estimator with the hash."""
         setter(self._digest.hexdigest(), self.files, self.bytes)
+
+    def is_in(self, record: Mapping[str, Any]) -> bool:
+        """Returns whether `input` of a report, or its `dark`, is this hash."""
+        of = "files" if self.files else "pixels"
+        found = {"of": of, "sha256": self._digest.hexdigest(), "files": self.files, "bytes": self.bytes}
+        return all(record.get(name) == value for name, value in found.items())
 
     def require_unchanged(self) -> None:
         """Raises ValueError if a file has changed since it was hashed. Frames in memory are not tested."""

@@ -6,7 +6,7 @@ import inspect
 import json
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -27,6 +27,7 @@ _SAME = 0.01  # relative; settings are a quarter apart or more
 # Where a report has the setting that its files record.
 _RECORDED = {"iso": "iso_speed", "exposure": "exposure_seconds"}
 _NOT_OF_SWEEP = ("frames", "dark", "maps", "progress", "method", "exposures")
+_NO_OPTIONS_OF_TOOL = ""  # in a passport of estimate-sensor-noise --sweep
 _WAITING = "it is not measured yet"
 
 
@@ -56,11 +57,14 @@ def estimate_sweep(
     dark : mapping of float to frames, optional
         Dark frames of each setting, of the settings that have some. Only with a mapping.
     output : str or os.PathLike, optional
-        File of the passport, written after each setting. If it is there, settings that it holds with the same options
-        and version are not measured again; their files are not looked at. Default: nothing is written.
+        File of the passport, written after each setting. If it is there, a setting that it holds with the same options,
+        the same version and the same SHA-256 of the frames and dark frames is not measured again: its frames are read
+        once. Frames that have changed are measured, and a `mask` in a file has all settings measured. A passport of
+        the tool is continued where no options are given. Default: nothing is written.
     **settings
         The options of estimate_sensor_noise() for all settings, but for `dark`, `exposures`, `maps`,
-        `method` and `progress`.
+        `method` and `progress`. Reports always have the SHA-256 of their frames (`hash`), by which a passport is
+        continued.
 
     Returns
     -------
@@ -100,17 +104,15 @@ def estimate_sweep(
         meaning, bursts = kind or "iso", _bursts_of(sources, dark or {})
     else:
         raise InvalidTypeError(f"sources is of type {type(sources).__name__}; expected {_EXPECTED}")
+    _options.true_or_false("hash", settings.get("hash", True))
     options = _options_text(settings)
-    stored = _stored(output, meaning, options)
-    entries: dict[str, dict[str, Any]] = {}
-    todo: list[_Burst] = []
-    for burst in bursts:
-        entry = burst.entry(options)
-        entries[burst.name] = stored.get(burst.setting, entry) if burst.reason is None else entry
-        if burst.reason is None and burst.setting not in stored:
-            todo.append(burst)
-    named = {burst.name: burst for burst in todo}
-    for name, outcome in outcomes_of(client, iter((burst.name, burst.source()) for burst in todo), settings):
+    stored = {} if is_name(settings.get("mask")) else _stored(output, meaning, options, bursts)
+    entries = {burst.name: burst.entry(options) for burst in bursts}
+    named = {burst.name: burst for burst in bursts if burst.reason is None}
+    for name in named.keys() & stored.keys():
+        entries[name] = stored[name]  # so that an interrupted run keeps it in the output
+    todo = [(name, burst.source(stored.get(name, {}).get("report"))) for name, burst in named.items()]
+    for name, outcome in outcomes_of(client, iter(todo), {**settings, "hash": True}):
         entries[name] = _entry_of(named[name], meaning, outcome, options)
         if output is not None:
             _passport_so_far(meaning, entries).write(output)
@@ -132,11 +134,11 @@ class _Burst:
         self.name, self.setting, self.reason = name, setting, reason
         self._frames, self._dark = frames, dark
 
-    def source(self) -> Any:
-        """Returns the burst as a task measures it."""
+    def source(self, stored: dict[str, Any] | None) -> Any:
+        """Returns the burst as a task measures it, unless a stored report is of these frames."""
         from .distributed._sources import Burst
 
-        return Burst(self._frames, self._dark)
+        return Burst(self._frames, self._dark, stored)
 
     def entry(self, options: str) -> dict[str, Any]:
         """Returns the entry of the passport, without a report."""
@@ -244,11 +246,12 @@ def _options_text(settings: dict[str, Any]) -> str:
     from .distributed._journal import settings_record
 
     defaults = {name: each.default for name, each in inspect.signature(estimate_sensor_noise).parameters.items()}
-    return json.dumps(settings_record(settings, defaults), sort_keys=True)
+    given = {name: value for name, value in settings.items() if name != "hash"}
+    return json.dumps(settings_record(given, defaults), sort_keys=True)
 
 
-def _stored(output: FileName | None, kind: str, options: str) -> dict[float | None, dict[str, Any]]:
-    """Returns the entries of an existing passport that need no new measurement, by their settings."""
+def _stored(output: FileName | None, kind: str, options: str, bursts: Sequence[_Burst]) -> dict[str, dict[str, Any]]:
+    """Returns the entries of an existing passport that were measured with these options, by the names of the bursts."""
     if output is None:
         return {}
     if not is_name(output):
@@ -258,8 +261,12 @@ def _stored(output: FileName | None, kind: str, options: str) -> dict[float | No
     passport = Passport.from_json(output)
     if passport["setting"] != kind or passport["version"] != version_of_package():
         return {}
-    return {
-        entry["setting"]: entry
-        for entry in passport["settings"]
-        if entry["reason"] is None and entry["options"] == options
+    same = (options, _NO_OPTIONS_OF_TOOL) if options == "{}" else (options,)
+    known = [entry for entry in passport["settings"] if entry["reason"] is None and entry["options"] in same]
+    by_setting = {entry["setting"]: entry for entry in known}
+    by_name = {entry["name"]: entry for entry in known}
+    found = {
+        burst.name: by_name.get(burst.name) if burst.setting is None else by_setting.get(burst.setting)
+        for burst in bursts
     }
+    return {name: entry for name, entry in found.items() if entry is not None}

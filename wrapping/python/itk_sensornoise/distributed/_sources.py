@@ -5,7 +5,7 @@
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from .._errors import InvalidTypeError
 from .._names import is_name
@@ -14,10 +14,13 @@ from .._types import Frames
 
 @dataclass(frozen=True)
 class Burst:
-    """Frames with dark frames of their own, or None."""
+    """Frames with dark frames of their own, or None.
+
+    `stored` is a report with the hashes of the frames that it was made of. It is the result where they are the same."""
 
     frames: Frames | Callable[[], Frames]
     dark: Frames | None
+    stored: dict[str, Any] | None = None
 
 
 # What estimate_sensor_noise() takes, or a function without arguments that returns it, called where it is measured.

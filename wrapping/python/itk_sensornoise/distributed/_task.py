@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """One source measured, here or by a worker of Dask; what goes wrong with it is a sentence, not an exception."""
 
+import json
 import pickle
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -10,7 +11,8 @@ import numpy as np
 
 from .._axes import in_time_order
 from .._errors import InvalidTypeError, InvalidValueError, OutOfMemoryError
-from .._estimate import estimate_sensor_noise
+from .._estimate import estimate_sensor_noise, is_of_frames
+from .._names import expand
 from .._types import Frames
 from ._memory import memory_of_task
 from ._sources import Burst
@@ -27,13 +29,16 @@ def measure(source: Any, settings: dict[str, Any], memory_of: Callable[[Any], in
     """Measures frames, or what a function without arguments returns. `memory_of`: the memory_limit for them, unless the
     settings have one."""
     try:
+        stored = None
         if isinstance(source, Burst):
-            settings = {**settings, "dark": source.dark}
+            stored, settings = source.stored, {**settings, "dark": expand(source.dark, "dark")}
             source = source.frames
-        frames = source() if callable(source) else source
+        frames = _read_here(expand(source() if callable(source) else source))
+        if stored is not None and is_of_frames(stored, frames, settings):
+            return Outcome(None, json.dumps(stored))
         if memory_of is not None and settings.get("memory_limit") is None:
             settings = {**settings, "memory_limit": memory_of(frames)}
-        return Outcome(None, estimate_sensor_noise(_read_here(frames), **settings).to_json())
+        return Outcome(None, estimate_sensor_noise(frames, **settings).to_json())
     except Exception as error:  # noqa: BLE001 - of whatever package reads; one bad burst does not end the others
         return Outcome(reason_of(error), None)
 
