@@ -10,10 +10,13 @@ is compared with the report's at several levels. Programs that are not installed
 anscombe-transform, ccdproc, emva1288, ndsafir (pre-release), PiDNG, tifffile. A program: darktable-cli.
 
 CAREamics and deepinv need PyTorch. --torch-free FOLDER names their unpacked wheels: the files of their noise models
-then run on NumPy, with the same arithmetic.
+then run on NumPy, with the same arithmetic. Functions of picassosr and python-microscopy are run from the same folder;
+they need PyYAML. What the folder does not have is left out.
 """
 
 import argparse
+import ast
+import functools
 import json
 import pathlib
 import shutil
@@ -264,6 +267,41 @@ def deepinv(bench: Bench, folder: pathlib.Path) -> tuple[str, float]:
     return "PoissonGaussianNoise, on NumPy", worst(noisy.variance * (WHITE - BLACK) ** 2, bench.line())
 
 
+def functions_of(file: pathlib.Path, names: tuple[str, ...], globals_: dict[str, object]) -> dict[str, object]:
+    """Runs functions of a file by themselves, without their decorators and annotations."""
+    future = ast.parse("from __future__ import annotations").body
+    found = [node for node in ast.walk(ast.parse(file.read_text())) if isinstance(node, ast.FunctionDef)]
+    found = [node for node in found if node.name in names]
+    for node in found:
+        node.decorator_list = []
+    exec(compile(ast.Module([*future, *found], []), file.name, "exec"), globals_)
+    return globals_
+
+
+def picasso(bench: Bench, folder: pathlib.Path) -> tuple[str, float]:
+    """Its own conversion to photons, which have the variance of their number; the read noise is not in its record."""
+    import yaml
+
+    (camera,) = yaml.safe_load(bench.export("picasso").read_text())["Cameras"].values()
+    names = functions_of(folder / "picasso/localize.py", ("_sensitivity", "_to_photons"), {"np": np})
+    photons = names["_to_photons"](LEVELS, {"Gain": 1, **camera})
+    return "_to_photons", worst(photons / camera["Sensitivity"] ** 2 + bench.noise**2, bench.sensor())
+
+
+def pyme(bench: Bench, folder: pathlib.Path) -> tuple[str, float]:
+    """Its own standard deviation of a pixel, whose variance has one electron more than the sensor's."""
+    import yaml
+
+    (camera,) = yaml.safe_load(bench.export("pyme").read_text()).values()
+    (mode,) = camera["noise_properties"].values()
+    metadata = {f"Camera.{name}": value for name, value in {**mode, "NoiseFactor": 1, "TrueEMGain": 1}.items()}
+    (file,) = folder.glob("**/PYME/localization/remFitBuf.py")
+    maps = types.SimpleNamespace(getVarianceMap=lambda given: given["Camera.ReadNoise"] ** 2)
+    names = functions_of(file, ("calcSigma",), {"np": np, "cameraMaps": maps})
+    deviation = np.ravel(names["calcSigma"](None, metadata, LEVELS - mode["ADOffset"]))
+    return "calcSigma", worst(deviation**2 - 1 / mode["ElectronsPerCount"] ** 2, bench.sensor())
+
+
 PROOFS = {
     "dng": dng,
     "ndsafir": ndsafir,
@@ -274,18 +312,26 @@ PROOFS = {
     "darktable": darktable,
 }
 
+# The file of the package that is run.
+UNPACKED = {
+    "careamics": ("careamics/models/lvae/noise_models.py", careamics),
+    "deepinv": ("deepinv/physics/noise.py", deepinv),
+    "picasso": ("picasso/localize.py", picasso),
+    "pyme": ("PYME/localization/remFitBuf.py", pyme),
+}
+
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", type=pathlib.Path, required=True, help="folder of the built programs")
-    parser.add_argument("--torch-free", type=pathlib.Path, help="folder of unpacked wheels: CAREamics, deepinv")
+    parser.add_argument("--torch-free", type=pathlib.Path, help="folder of unpacked packages")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(options.bin.resolve(), pathlib.Path(folder))
         proofs = dict(PROOFS)
-        if options.torch_free:
-            proofs["careamics"] = lambda given: careamics(given, options.torch_free)
-            proofs["deepinv"] = lambda given: deepinv(given, options.torch_free)
+        for name, (file, prove) in UNPACKED.items():
+            if options.torch_free and any(options.torch_free.glob(f"**/{file}")):
+                proofs[name] = functools.partial(prove, folder=options.torch_free)
         print(f"{'format':20}{'by':40}largest relative difference of the variance")
         for name, prove in proofs.items():
             try:
