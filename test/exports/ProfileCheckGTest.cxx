@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "helpers/ProfileTestHelper.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 using namespace sensornoise;
@@ -152,6 +154,27 @@ TEST_F(ProfileCheck, SmoothedFramesHaveTheSensorsRecord)
                                        ReadCameraNoise(m_Report));
   EXPECT_EQ(check.verdict, NoiseModelCheck::Verdict::Fits) << check.sentence;
   EXPECT_NEAR(check.bands.front().ratio.value_or(0.0), 1.0, 1e-6);
+}
+
+// Multiplied electrons have more shot noise than the record of the sensor says. The read noise is as it says.
+TEST_F(ProfileCheck, MultipliedElectronsHaveTheSensorsRecord)
+{
+  constexpr double factor = 2.0;
+  constexpr double noise = 40.0; // DN: as much as the shot noise of 1,600 electrons
+  m_Report.numbers["/settings/excess_noise_factor"] = factor;
+  this->SetQuantity("/variance_slope", factor * gain);
+  this->SetQuantity("/total_intercept", noise * noise - factor * gain * offset);
+  this->SetQuantity("/read_noise", noise);
+  const Report frames = Frames(factor * gain, noise * noise - factor * gain * offset);
+  for (const auto & readNoiseElectrons : { std::optional<double>(noise / gain), std::optional<double>() })
+  {
+    const auto check =
+      CheckNoiseProfile(SensorProfile(1.0 / gain, readNoiseElectrons, offset), frames, ReadCameraNoise(m_Report));
+    EXPECT_EQ(check.verdict, NoiseModelCheck::Verdict::Fits) << check.sentence;
+    EXPECT_NEAR(check.bands.front().ratio.value_or(0.0), 1.0, 1e-6);
+  }
+  const auto check = CheckNoiseProfile(SensorProfile(gain, noise / gain, offset), frames, ReadCameraNoise(m_Report));
+  EXPECT_NE(check.sentence.find(exchanged), std::string::npos) << check.sentence;
 }
 
 // Without a read noise in the file and in the report, the variance of the burst's line at its own dark level is taken.

@@ -142,3 +142,22 @@ TEST_F(SensorExports, AMosaicIsExportedByChannel)
     IsRefused(format, { "4 channels", "R, G1, G2 or B", "--channel" });
   }
 }
+
+// No record of a sensor holds the excess noise of multiplied electrons: its program would take it for no noise.
+TEST_F(SensorExports, MultipliedElectronsAreRefused)
+{
+  const std::string line = TextOf("ndsafir"); // of the variance of the frames, which has the excess noise
+  for (const char * const at : { "/settings", "/channels/0/settings" })
+  {
+    m_Report.numbers[std::string(at) + "/excess_noise_factor"] = 2.0;
+    for (const sensornoise::ExportFormat & format : sensornoise::ExportFormats())
+    {
+      if (format.takes == sensornoise::ExportTakes::Sensor)
+      {
+        IsRefused(format.name, { "report.json", "excess noise factor of 2", format.name, "2 e-/DN", "ndsafir" });
+      }
+    }
+    EXPECT_EQ(TextOf("ndsafir"), line);
+    m_Report.numbers.erase(std::string(at) + "/excess_noise_factor");
+  }
+}

@@ -91,6 +91,7 @@ struct CameraNoise
   std::optional<unsigned int> bitDepth; ///< bit depth of the digital numbers [bit]
   double                      analogueGain{ 1.0 };
   std::optional<double>       maxAnalogueIso;
+  double                      excessNoiseFactor{ 1.0 }; ///< F [1]: the slope of the sensor's variance is F times g
   NoiseMaps                   maps;
 };
 

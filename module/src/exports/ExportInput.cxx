@@ -82,6 +82,8 @@ ReadCameraSettings(const StoredReport & report, CameraNoise & noise)
     either(noise.blackLevelDn, "black_level");
     either(noise.whiteLevelDn, "white_level");
     either(noise.isoSpeed, "iso_speed");
+    noise.excessNoiseFactor =
+      NumberAt(report, std::string(at) + "/settings/excess_noise_factor").value_or(noise.excessNoiseFactor);
     noise.camera = noise.camera.empty() ? TextAt(report, camera + "name") : noise.camera;
     for (const std::string & pointer : { camera + "bit_depth", std::string(at) + "/bit_depth" })
     {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/NoiseExport.h"
 
+#include "base/Text.h"
 #include "exports/Darktable.h"
 #include "exports/ExportFormats.h"
 #include "report/JsonWriter.h"
@@ -198,6 +199,26 @@ NamesOfFormats()
   }
   return names;
 }
+
+/** Throws ExportError for the record of a sensor that multiplies electrons: it has no member for the excess noise,
+ * which programs take only with a multiplication, and the frames do not determine the multiplication. */
+void
+RequireNoExcessNoise(const CameraNoise & noise, const std::string & format)
+{
+  if (!(noise.excessNoiseFactor > 1.0))
+  {
+    return;
+  }
+  const ChannelNoise & channel = noise.channels.front();
+  const std::string    offset = channel.offset.value ? "the offset " + Text(*channel.offset.value) + " DN and " : "";
+  const std::string    gain = channel.gain.value ? Text(1.0 / *channel.gain.value) + " e-/DN" : "its gain";
+  const std::string    factor = Text(noise.excessNoiseFactor);
+  throw ExportError("the report " + noise.name + " has an excess noise factor of " + factor + ", and " + format +
+                    " has no member for it: its program would take a shot noise variance that is " + factor +
+                    " times too low. Choose a format of the variance line, as ndsafir or careamics, or set the "
+                    "multiplication of electrons in the program itself, with " +
+                    offset + gain + " for each photoelectron.");
+}
 } // namespace
 
 const std::vector<ExportFormat> &
@@ -255,8 +276,16 @@ ExportNoise(const std::string & format, const std::vector<CameraNoise> & setting
   if (settings.size() < least || (!found->takesSeveral && settings.size() > least))
   {
     throw ExportError(
-      std::to_string(settings.size()) + " reports were given; " + format + " takes " +
-      (!found->takesSeveral ? "one" : std::to_string(least) + " or more, each of a different ISO setting"));
+      (settings.size() == 1 ? "1 report was given; " : std::to_string(settings.size()) + " reports were given; ") +
+      format + " takes " +
+      (!found->takesSeveral
+         ? "one. Leave out the reports of other settings."
+         : std::to_string(least) + " or more, each of a different ISO speed. Measure bursts at more ISO "
+                                   "speeds, as estimate-sensor-noise --sweep does."));
+  }
+  if (found->takes == ExportTakes::Sensor)
+  {
+    RequireNoExcessNoise(settings.front(), format);
   }
   return found->write(settings);
 }

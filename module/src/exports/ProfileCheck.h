@@ -23,7 +23,8 @@ Squared(double value)
   return value * value;
 }
 
-/** The variance that a profile gives for one channel of a burst: slope (x - level) + dark at the level x [DN]. */
+/** The variance that a profile gives for one channel of a burst: smoothing (excess slope (x - level) + dark) at the
+ * level x [DN]. */
 struct ProfileVariance
 {
   ProfileForm form{ ProfileForm::Line };
@@ -32,6 +33,7 @@ struct ProfileVariance
   double      darkDn2{ 0.0 };         ///< variance at that level
   double      unitDn{ 1.0 };          ///< unit in which the file has the root of darkDn2
   double      smoothing{ 1.0 };       ///< variance of smoothed frames over the variance of the sensor [1]
+  double      excess{ 1.0 };          ///< excess noise factor of the burst [1], which a sensor's record does not have
   double      floorDn2{ 0.0 };        ///< lowest variance that the program takes
   double      roundingDn2{ 0.0 };     ///< largest error by rounding in the file
   double      relativeError{ 0.0 };   ///< error of the variance, relative [1]

@@ -118,8 +118,10 @@ SetSensor(const std::string &    file,
                       "frames (--dark), the offset (--offset) or the black level (--black).");
   }
   const NoiseModel line = ModelOf(burst, measured);
-  variance.smoothing =
-    measured.gain.value && *measured.gain.value > 0.0 ? line.varianceSlopeDn / *measured.gain.value : 1.0;
+  variance.excess = burst.excessNoiseFactor;
+  variance.smoothing = measured.gain.value && *measured.gain.value > 0.0
+                         ? line.varianceSlopeDn / (*measured.gain.value * variance.excess)
+                         : 1.0;
   variance.levelDn = *level;
   variance.slope = 1.0 / channel.scale;
   variance.unitDn = variance.slope;
@@ -140,7 +142,7 @@ ProfileVariance::At(double level) const
   {
     return LibcameraVariance(root, camera, level);
   }
-  const double variance = smoothing * (slope * (level - levelDn) + darkDn2);
+  const double variance = smoothing * (excess * slope * (level - levelDn) + darkDn2);
   // Where rounding may have made a variance negative, the largest that it allows is taken.
   const bool isRoundedAway = !(variance > 0.0) && variance + roundingDn2 > 0.0;
   return std::max(floorDn2, isRoundedAway ? variance + roundingDn2 : variance);
