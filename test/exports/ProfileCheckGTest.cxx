@@ -53,6 +53,30 @@ TEST_F(ProfileMistakes, ExchangedGain)
   Names(NormalisedProfile(1.0 / otherGain / range, dark / (range * range)), exchanged);
 }
 
+// The exchanged numbers may be the gain alone, or the gain with the offset of its line.
+TEST_F(ProfileMistakes, ExchangedGainWithTheTrueIntercept)
+{
+  Names(LineProfile(1.0 / otherGain, dark - otherGain * offset), exchanged);
+}
+
+TEST_F(ProfileMistakes, ExchangedScaleAndOffset)
+{
+  const double scale = otherGain / range;
+  Names(NormalisedProfile(dark / (range * range), scale), "scale and offset are exchanged");
+}
+
+TEST_F(ProfileMistakes, DifferencesOfFramesAreHalvedOnce)
+{
+  const std::string high = "all variances are 2 times too high, as of a difference of two frames that is not halved";
+  const std::string low = "all variances are 2 times too low, as of a difference of two frames that is halved twice";
+  for (const auto & [factor, words] : { std::pair(2.0, high), std::pair(0.5, low) })
+  {
+    Names(LineProfile(factor * otherGain, factor * (dark - otherGain * offset)), words);
+    Names(NormalisedProfile(factor * otherGain / range, factor * dark / (range * range)), words);
+    Names(SensorProfile(1.0 / (factor * otherGain), 10.0 / std::sqrt(factor), offset), words);
+  }
+}
+
 TEST_F(ProfileMistakes, VarianceInElectrons)
 {
   const double square = 1.0 / (otherGain * otherGain);

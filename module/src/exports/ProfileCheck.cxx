@@ -56,6 +56,11 @@ AddInverses(const ProfileVariance & profile, std::vector<ProfileMistake> & mista
     corrected.darkDn2 = profile.hasReadNoise ? dark : profile.darkDn2;
     mistakes.push_back({ exchanged, corrected });
   }
+  if (profile.form == ProfileForm::Line)
+  {
+    corrected.darkDn2 = profile.darkDn2 + (inverse - profile.slope) * profile.levelDn; // the intercept is right
+    mistakes.push_back({ exchanged, corrected });
+  }
   if (profile.form != ProfileForm::Sensor)
   {
     corrected.darkDn2 = profile.darkDn2 * Squared(inverse);
@@ -116,6 +121,51 @@ AddReadNoises(const ProfileVariance & profile, std::vector<ProfileMistake> & mis
   const double unit2 = Squared(profile.unitDn);
   add("the dark variance has the value of a standard deviation", Squared(profile.darkDn2) / unit2);
   add("the read noise has the value of a variance", std::sqrt(std::max(0.0, profile.darkDn2)) * profile.unitDn);
+}
+
+/** Adds the mistake of scale and offset in the other order. */
+void
+AddExchangedTerms(const ProfileVariance & profile, std::vector<ProfileMistake> & mistakes)
+{
+  ProfileVariance corrected = profile;
+  if (profile.form == ProfileForm::Normalised)
+  {
+    corrected.slope = profile.darkDn2 / profile.unitDn;
+    corrected.darkDn2 = profile.slope * profile.unitDn;
+  }
+  else if (profile.form == ProfileForm::Line)
+  {
+    corrected.slope = profile.darkDn2 - profile.slope * profile.levelDn;
+    corrected.darkDn2 = profile.slope + corrected.slope * profile.levelDn;
+  }
+  else
+  {
+    return;
+  }
+  mistakes.push_back({ "scale and offset are exchanged", corrected });
+}
+
+/** Calls \a add with the factors of the variance of a difference of two frames, which is halved once, and with words.
+ */
+template <typename TAdd>
+void
+ForHalves(TAdd add)
+{
+  const std::string of = ", as of a difference of two frames that is ";
+  add(0.5, "all variances are 2 times too high" + of + "not halved");
+  add(2.0, "all variances are 2 times too low" + of + "halved twice");
+}
+
+/** Adds the mistakes of ForHalves(). */
+void
+AddHalves(const ProfileVariance & profile, std::vector<ProfileMistake> & mistakes)
+{
+  ForHalves([&](double factor, const std::string & words) {
+    ProfileVariance corrected = profile;
+    corrected.slope *= factor;
+    corrected.darkDn2 *= factor;
+    mistakes.push_back({ words, corrected });
+  });
 }
 
 /** Adds the mistake of a preset that darktable's tool measured with another demosaicing than today's. */
@@ -185,6 +235,7 @@ LibcameraMistakes(const ProfileVariance & profile)
   };
   add("the slope lacks the factor 1.4 of rpi-ctt", 1.0, libcameraSlopeFactor);
   add("the slope has the factor 1.4 of rpi-ctt twice", 1.0, 1.0 / libcameraSlopeFactor);
+  ForHalves([&add](double factor, const std::string & words) { add(words, std::sqrt(factor), std::sqrt(factor)); });
   ForPowers([&add](double factor, const std::string & times) {
     add("its levels are " + times + ", as for another bit depth or analogue gain", factor, std::sqrt(factor));
   });
@@ -211,6 +262,8 @@ KnownMistakes(const ProfileVariance & profile)
   AddInverses(profile, mistakes);
   AddLevels(profile, mistakes);
   AddReadNoises(profile, mistakes);
+  AddExchangedTerms(profile, mistakes);
+  AddHalves(profile, mistakes);
   AddPowers(profile, mistakes);
   return mistakes;
 }
