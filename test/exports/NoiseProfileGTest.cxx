@@ -82,6 +82,45 @@ TEST_F(NoiseProfiles, ExportsAreReadBack)
   IsTrue(ReadNoiseProfile(m_Report));
 }
 
+namespace
+{
+/** Returns a card of a FITS header: 80 characters. */
+std::string
+Card(std::string text)
+{
+  text.resize(80, ' ');
+  return text;
+}
+} // namespace
+
+// A header of FITS has no ends of lines, and a comment behind the number may be missing.
+TEST_F(NoiseProfiles, HeadersOfFitsAreCards)
+{
+  const std::string begin = Card("SIMPLE  =                    T / standard") +
+                            Card("COMMENT EGAIN   = 7 and RDNOISE = 8 are not here") + Card("NOTE    = 'EGAIN   = 9'");
+  const std::string egain = Card("EGAIN   = 2");
+  const std::string noise = Card("RDNOISE =              3.0D0");
+  for (const std::string & header : { begin + egain + noise + Card("END"), begin + noise + egain + Card("END") })
+  {
+    const NoiseProfile profile = ReadNoiseProfile("frame.fits", header + std::string(2880, '\0'));
+    EXPECT_EQ(profile.format, "fits");
+    EXPECT_EQ(profile.channels.front().scale, 2.0);
+    EXPECT_EQ(profile.channels.front().constant, 3.0);
+  }
+  EXPECT_EQ(ReadNoiseProfile("h.txt", "EGAIN   = 2\r\nRDNOISE =3/ e-").channels.front().constant, 3.0);
+  IsDamaged(begin + egain + Card("END") + noise, { "no card RDNOISE" });
+  IsDamaged(begin + egain + Card("RDNOISE = 'three'"), { "RDNOISE", "'three'" });
+}
+
+TEST_F(NoiseProfiles, PicassosModeIsTheOnlyOne)
+{
+  const std::string  modes = "Cameras:\n  c:\n    Baseline: 1\n    Sensitivity:\n      16-bit:\n        slow: 0.5\n";
+  const NoiseProfile profile = ReadNoiseProfile("config.yaml", modes);
+  EXPECT_EQ(profile.format, "picasso");
+  EXPECT_EQ(profile.channels.front().scale, 0.5);
+  IsDamaged(modes + "        fast: 0.7\n", { "2 modes in Sensitivity", "Leave only", "the mode of these frames" });
+}
+
 TEST_F(NoiseProfiles, TagOfADngFileIsReadBack)
 {
   const auto pairs = NoiseProfileOf(ReadCameraNoise(m_Report));

@@ -173,10 +173,57 @@ ProfileOfThunderstorm(const std::string & text)
     "thunderstorm", NumberBehind(text, "photons2adu=", " \")"), std::nullopt, NumberBehind(text, "offset=", " \")"));
 }
 
+/** Returns the cards of a header of FITS without the END card: 80 characters each, or lines of a text. */
+std::vector<std::string>
+FitsCards(const std::string & text)
+{
+  constexpr std::size_t    cardSize = 80;
+  const bool               areLines = text.substr(0, cardSize + 2).find('\n') != std::string::npos;
+  std::vector<std::string> cards;
+  for (std::size_t begin = 0; begin < text.size();)
+  {
+    const std::size_t end = areLines ? std::min(text.find('\n', begin), text.size()) : begin + cardSize;
+    cards.push_back(text.substr(begin, end - begin));
+    cards.back().erase(cards.back().find_last_not_of('\r') + 1);
+    if (WithoutBlanks(cards.back()) == "END")
+    {
+      cards.pop_back();
+      break;
+    }
+    begin = areLines ? end + 1 : end;
+  }
+  return cards;
+}
+
+/** Returns the number of a card: the text behind "=", up to a comment. Throws ExportError if there is none. */
+double
+FitsNumber(const std::vector<std::string> & cards, const std::string & keyword)
+{
+  std::string start = keyword;
+  start.resize(8, ' ');
+  start += '=';
+  const auto card =
+    std::find_if(cards.begin(), cards.end(), [&](const std::string & each) { return each.rfind(start, 0) == 0; });
+  if (card == cards.end())
+  {
+    throw ExportError("the FITS header has no card " + keyword + "; expected EGAIN [e-/ADU] and RDNOISE [e-]");
+  }
+  std::string value = WithoutBlanks(card->substr(start.size(), card->find('/', start.size()) - start.size()));
+  const auto  shown = value;
+  std::replace(value.begin(), value.end(), 'D', 'E'); // exponents may be written either way
+  const auto number = FiniteNumber(value);
+  if (!number)
+  {
+    throw ExportError("the FITS header has " + keyword + " = " + shown + "; expected a number");
+  }
+  return *number;
+}
+
 NoiseProfile
 ProfileOfFits(const std::string & text)
 {
-  return SensorProfile("fits", NumberBehind(text, "EGAIN   =", "/\n"), NumberBehind(text, "RDNOISE =", "/\n"));
+  const std::vector<std::string> cards = FitsCards(text);
+  return SensorProfile("fits", FitsNumber(cards, "EGAIN"), FitsNumber(cards, "RDNOISE"));
 }
 
 /** Returns a text with blanks in place of the ends of its lines. */

@@ -212,11 +212,35 @@ ReadPyme(const ProfileValues & values)
                     values.Number("ADOffset"));
 }
 
+/** Returns the path of picasso's Sensitivity: a number, or mappings of the modes of the camera, which end in one
+ * number. Throws ExportError if there are several modes. */
+std::string
+SensitivityMember(const ProfileValues & values)
+{
+  const std::string        name = "Sensitivity";
+  std::vector<std::string> modes;
+  for (const auto & [pointer, number] : values.Record().numbers)
+  {
+    const std::size_t at = pointer.find("/" + name + "/");
+    if (at != std::string::npos)
+    {
+      modes.push_back(pointer.substr(at + 1));
+    }
+  }
+  if (modes.size() > 1)
+  {
+    throw ExportError("the profile " + values.File() + " has " + std::to_string(modes.size()) + " modes in " + name +
+                      ", as " + modes.front() + " and " + modes.back() +
+                      "; expected one. Leave only the mode of these frames in a copy of the file.");
+  }
+  return modes.empty() ? name : modes.front();
+}
+
 NoiseProfile
 ReadPicasso(const ProfileValues & values)
 {
   RequireNoMultiplication(values, "Gain");
-  return OneChannel(ProfileForm::Sensor, values.Positive("Sensitivity"), {}, values.Number("Baseline"));
+  return OneChannel(ProfileForm::Sensor, values.Positive(SensitivityMember(values)), {}, values.Number("Baseline"));
 }
 
 NoiseProfile
