@@ -75,6 +75,31 @@ EntryOf(const Json & record, const std::string & file)
   }
   return entry;
 }
+
+bool
+HasTrue(const Json & record, const char * name)
+{
+  const auto found = record.find(name);
+  return found != record.end() && found->is_boolean() && found->get<bool>();
+}
+
+/** Returns the settings that leave the line of the gains, with their deviations. */
+std::map<double, double>
+OffLineIn(const Json & record)
+{
+  std::map<double, double> offLine;
+  const Json               deviations = record.value(Json::json_pointer("/gain_line/deviations"), Json::array());
+  for (const Json & each : deviations)
+  {
+    const auto setting = each.is_object() ? NumberIn(each, "setting") : std::nullopt;
+    const auto deviation = each.is_object() ? NumberIn(each, "deviation") : std::nullopt;
+    if (setting && deviation && HasTrue(each, "leaves_line"))
+    {
+      offLine[*setting] = *deviation;
+    }
+  }
+  return offLine;
+}
 } // namespace
 
 bool
@@ -112,6 +137,7 @@ ReadPassport(const std::string & file)
     }
     passport.switchBetween = { *below, *above };
   }
+  passport.offLine = OffLineIn(record);
   return passport;
 }
 
@@ -132,15 +158,18 @@ RangeOf(const Passport & passport, const ExportSettings & settings)
   MeasuredRange range;
   range.kind = passport.kind;
   range.switchBetween = passport.switchBetween;
+  range.offLine = passport.offLine;
+  for (const UnmeasuredSetting & each : UnmeasuredOf(passport))
+  {
+    if (each.setting)
+    {
+      range.unmeasured[*each.setting] = each.reason;
+    }
+  }
   for (const PassportEntry * const entry : measured)
   {
     const std::string name = passport.name.empty() ? entry->name : passport.name + " (" + entry->name + ")";
-    range.noise.push_back(ReadCameraNoise(ValuesOfJson(name, entry->report), settings));
-    range.settings.push_back(*entry->setting);
-    if (range.kind == SettingKind::Iso)
-    {
-      range.noise.back().isoSpeed = entry->setting;
-    }
+    AddSetting(range, ReadCameraNoise(ValuesOfJson(name, entry->report), settings), *entry->setting);
   }
   return range;
 }

@@ -6,6 +6,7 @@
 #include "sweep/Setting.h"
 #include "sweep/SweepSummary.h"
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -35,6 +36,7 @@ struct Passport
   SettingKind                kind{ SettingKind::Iso };
   std::vector<PassportEntry> entries;
   std::optional<std::pair<double, double>> switchBetween;
+  std::map<double, double>                 offLine; ///< settings that leave the line of the gains, see MeasuredRange
 };
 
 /** Returns whether a JSON record says that it is a passport. */
@@ -46,8 +48,7 @@ IsPassport(const nlohmann::json & record);
 Passport
 ReadPassport(const std::string & file);
 
-/** Returns the measured settings in ascending order. ISO speeds replace the ISO speeds of the reports. Throws
- * ExportError as ReadCameraNoise(). */
+/** Returns the measured settings in ascending order, by AddSetting(). Throws ExportError as ReadCameraNoise(). */
 MeasuredRange
 RangeOf(const Passport & passport, const ExportSettings & settings = {});
 

@@ -38,12 +38,11 @@ RangeOfEntries(const TEntries & entries, const std::string & kind, const sensorn
   {
     if (entry.reason.empty())
     {
-      range.noise.push_back(sensornoise::ReadCameraNoise(entry.report, settings));
-      range.settings.push_back(entry.setting);
-      if (range.kind == sensornoise::SettingKind::Iso)
-      {
-        range.noise.back().isoSpeed = entry.setting;
-      }
+      sensornoise::AddSetting(range, sensornoise::ReadCameraNoise(entry.report, settings), entry.setting);
+    }
+    else if (entry.setting > 0.0)
+    {
+      range.unmeasured[entry.setting] = entry.reason;
     }
   }
   return range;
@@ -90,12 +89,13 @@ SensorNoiseSweep::MakeExport(const std::string & format, double setting) const
   sensornoise::ExportSettings settings = this->MakeExportSettings();
   settings.channel = m_Channel;
   settings.maxAnalogueIso = IfKnown(m_MaxAnalogueIso);
-  sensornoise::MeasuredRange range = RangeOfEntries(m_Entries, m_SettingKind, settings);
-  const auto found = sensornoise::SummariseSweep(RangeOfEntries(m_Entries, m_SettingKind, {})).conversionSwitch;
-  if (found)
+  sensornoise::MeasuredRange      range = RangeOfEntries(m_Entries, m_SettingKind, settings);
+  const sensornoise::SweepSummary summary = sensornoise::SummariseSweep(RangeOfEntries(m_Entries, m_SettingKind, {}));
+  if (summary.conversionSwitch)
   {
-    range.switchBetween = { found->below, found->above };
+    range.switchBetween = { summary.conversionSwitch->below, summary.conversionSwitch->above };
   }
+  range.offLine = sensornoise::SettingsOffLine(summary);
   std::string              note;
   const auto               chosen = sensornoise::ChooseSettings(range, format, IfKnown(setting), "of this sweep", note);
   sensornoise::NoiseExport made = sensornoise::ExportNoise(format, chosen);

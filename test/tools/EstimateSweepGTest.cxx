@@ -323,6 +323,71 @@ TEST_F(EstimateSweepTool, ExportsASettingOfThePassport)
   SaysInOneSentence({ "between 200 and 800", "switches its conversion gain" });
 }
 
+// A setting that the camera scales in another way says nothing about the settings beside it.
+TEST_F(EstimateSweepTool, DoesNotInterpolateBesideASettingThatLeavesTheLine)
+{
+  nlohmann::json passport = MakePassport();
+  const auto     deviation = [](double setting, double value) {
+    return nlohmann::json{ { "setting", setting }, { "deviation", value }, { "leaves_line", value != 0.0 } };
+  };
+  passport["gain_line"] = { { "parts", nlohmann::json::array() },
+                            { "deviations", { deviation(100, -0.2), deviation(200, 0.0), deviation(800, 0.0) } } };
+  WriteText("p.json", passport.dump());
+  EXPECT_EQ(Export("p.json --format dng --setting 150"), 3);
+  SaysInOneSentence(
+    { "ISO 150 is between 100 and 200, and ISO 100 leaves the line of the gains: its gain is 20 % below it",
+      "Measure a burst at this setting" });
+  EXPECT_EQ(Export("p.json --format dng --setting 100"), 0) << m_Message;
+  ASSERT_EQ(Export("p.json --format dng --setting 400"), 0) << m_Message;
+  EXPECT_TRUE(Says("gain 2.000 +- 0.014 DN/e-, read noise 6.000 +- 0.042 DN")) << m_Message;
+}
+
+TEST_F(EstimateSweepTool, SaysWhyABurstOfThePassportHasNoNoise)
+{
+  nlohmann::json passport = MakePassport();
+  for (const double iso : { 400.0, 1600.0 })
+  {
+    passport["settings"].push_back({ { "name", "x" },
+                                     { "setting", iso },
+                                     { "reason", "the lamp was off." },
+                                     { "options", "" },
+                                     { "report", nullptr } });
+  }
+  WriteText("p.json", passport.dump());
+  EXPECT_EQ(Export("p.json --format dng --setting 1600"), 3);
+  SaysInOneSentence({ "ISO 1600 is outside", "could not be measured: the lamp was off." });
+  ASSERT_EQ(Export("p.json --format dng --setting 400"), 0) << m_Message;
+  EXPECT_TRUE(Says("interpolated between the measured settings 200 and 800")) << m_Message;
+  EXPECT_TRUE(Says("could not be measured: the lamp was off.")) << m_Message;
+}
+
+// The gain of the camera is libcamera's analogue gain, unless another one is given.
+TEST_F(EstimateSweepTool, GainsAreTheAnalogueGainsOfLibcamera)
+{
+  nlohmann::json passport = MakePassport();
+  passport["setting"] = "gain";
+  for (nlohmann::json & entry : passport["settings"])
+  {
+    entry["report"]["bit_depth"] = 12;
+    entry["setting"] = entry["setting"].get<double>() / 100.0;
+  }
+  WriteText("p.json", passport.dump());
+  WriteText("report.json", passport["settings"][2]["report"].dump());
+  ASSERT_EQ(Export("report.json --format libcamera --analogue-gain 8"), 0) << m_Message;
+  const std::string expected = m_Output;
+  ASSERT_EQ(Export("p.json --format libcamera --setting 8"), 0) << m_Message;
+  EXPECT_EQ(m_Output, expected);
+  ASSERT_EQ(Export("report.json --format libcamera --analogue-gain 3"), 0) << m_Message;
+  const std::string given = m_Output;
+  ASSERT_EQ(Export("p.json --format libcamera --setting 8 --analogue-gain 3"), 0) << m_Message;
+  EXPECT_EQ(m_Output, given);
+  // A power law: one electron is the same number of libcamera's levels at every gain.
+  ASSERT_EQ(Export("p.json --format libcamera --setting 4"), 0) << m_Message;
+  EXPECT_NEAR(nlohmann::json::parse(m_Output)["rpi.noise"]["reference_slope"].get<double>(),
+              nlohmann::json::parse(expected)["rpi.noise"]["reference_slope"].get<double>(),
+              0.2);
+}
+
 // Closed form: S = 0.005 ISO / (W - B), and O = (3 x 0.005 ISO)^2 / (W - B)^2, are Android's model.
 TEST_F(EstimateSweepTool, ExportsAllSettingsForAndroid)
 {

@@ -16,6 +16,9 @@ namespace sensornoise
 {
 namespace
 {
+/** Relative difference of a setting that was typed with six digits. */
+constexpr double sameSetting = 1e-6;
+
 /** A number of a channel at one setting; none: it is not identified there. */
 using NumberOfSetting = std::function<std::optional<NumberWithError>(const CameraNoise &)>;
 
@@ -31,7 +34,7 @@ public:
     };
     for (std::size_t i = 0; i < range.settings.size(); ++i)
     {
-      if (isOnSide(range.settings[i]))
+      if (isOnSide(range.settings[i]) && range.offLine.count(range.settings[i]) == 0)
       {
         m_Settings.push_back(range.settings[i]);
         m_Noise.push_back(&range.noise[i]);
@@ -211,6 +214,16 @@ SettingWords(const MeasuredRange & range, double setting)
   return (range.kind == SettingKind::Iso ? "" : "the ") + SettingText(range.kind, setting);
 }
 
+/** Returns a sentence with the reason why the burst of a setting was not measured; "": it has no burst. */
+std::string
+UnmeasuredText(const MeasuredRange & range, double setting)
+{
+  const auto found = std::find_if(range.unmeasured.begin(), range.unmeasured.end(), [setting](const auto & each) {
+    return std::abs(each.first / setting - 1.0) < sameSetting;
+  });
+  return found == range.unmeasured.end() ? "" : " The burst of this setting could not be measured: " + found->second;
+}
+
 /** Throws ExportError unless the setting can be interpolated. */
 void
 RequireInside(const MeasuredRange & range, double setting)
@@ -221,7 +234,7 @@ RequireInside(const MeasuredRange & range, double setting)
                       (range.settings.empty()
                          ? ", as none was measured"
                          : ", " + Text(range.settings.front()) + " to " + Text(range.settings.back())) +
-                      "; nothing is extrapolated. Measure a burst at this setting.");
+                      "; nothing is extrapolated. Measure a burst at this setting." + UnmeasuredText(range, setting));
   }
   if (range.switchBetween && setting > range.switchBetween->first && setting < range.switchBetween->second)
   {
@@ -231,12 +244,63 @@ RequireInside(const MeasuredRange & range, double setting)
                       "burst at this setting.");
   }
 }
+
+/** Throws ExportError if a neighbour of the setting leaves the line of the gains. */
+void
+RequireNeighboursOnLine(const MeasuredRange & range, double setting)
+{
+  const auto   above = std::upper_bound(range.settings.begin(), range.settings.end(), setting);
+  const double below = *(above - 1);
+  for (const double neighbour : { below, *above })
+  {
+    const auto found = range.offLine.find(neighbour);
+    if (found != range.offLine.end())
+    {
+      throw ExportError(SettingWords(range, setting) + " is between " + Text(below) + " and " + Text(*above) +
+                        ", and " + SettingWords(range, neighbour) + " leaves the line of the gains: its gain is " +
+                        Percent(std::abs(found->second)) + (found->second > 0.0 ? " above" : " below") +
+                        " it. Measure a burst at this setting.");
+    }
+  }
+}
+
+/** Returns " gain 6.004 +- 0.016 DN/e-" of all channels that have the number; "": none has. */
+std::string
+NumbersText(const CameraNoise & noise, ReportedNumber ChannelNoise::* member, const char * name, const char * unit)
+{
+  std::string numbers;
+  for (const ChannelNoise & channel : noise.channels)
+  {
+    const ReportedNumber & number = channel.*member;
+    if (number.value)
+    {
+      numbers += (numbers.empty() ? "" : ", ") + (channel.channel == "mono" ? "" : channel.channel + " ") +
+                 Measured(*number.value, number.standardError.value_or(0.0));
+    }
+  }
+  return numbers.empty() ? "" : std::string(" ") + name + " " + numbers + " " + unit;
+}
 } // namespace
+
+void
+AddSetting(MeasuredRange & range, const CameraNoise & noise, double setting)
+{
+  range.noise.push_back(noise);
+  range.settings.push_back(setting);
+  CameraNoise & added = range.noise.back();
+  if (range.kind == SettingKind::Iso)
+  {
+    added.isoSpeed = setting;
+  }
+  else if (range.kind == SettingKind::Gain && added.analogueGain == 1.0)
+  {
+    added.analogueGain = setting;
+  }
+}
 
 InterpolatedNoise
 InterpolateNoise(const MeasuredRange & range, double setting)
 {
-  constexpr double sameSetting = 1e-6; // relative: a setting that was typed with six digits
   for (std::size_t i = 0; i < range.settings.size(); ++i)
   {
     if (std::abs(range.settings[i] / setting - 1.0) < sameSetting)
@@ -250,6 +314,7 @@ InterpolateNoise(const MeasuredRange & range, double setting)
     throw ExportError(SettingWords(range, setting) +
                       " was not measured; nothing is interpolated between exposures. Choose a measured one.");
   }
+  RequireNeighboursOnLine(range, setting);
   const NoiseBetween between(range, setting);
   between.RequireSameChannels();
   InterpolatedNoise made{ between.Below(), between.SettingBelow(), between.SettingAbove() };
@@ -265,6 +330,8 @@ InterpolateNoise(const MeasuredRange & range, double setting)
   made.noise.blackLevelDn = level(&CameraNoise::blackLevelDn);
   made.noise.whiteLevelDn = level(&CameraNoise::whiteLevelDn);
   made.noise.isoSpeed = range.kind == SettingKind::Iso ? std::optional<double>(setting) : std::nullopt;
+  const bool isAnalogue = made.noise.analogueGain == made.below && range.kind == SettingKind::Gain;
+  made.noise.analogueGain = isAnalogue ? setting : made.noise.analogueGain;
   for (std::size_t channel = 0; channel < made.noise.channels.size(); ++channel)
   {
     made.noise.channels[channel] = InterpolateChannel(between, channel);
@@ -279,17 +346,11 @@ SentenceOf(const InterpolatedNoise & noise)
   {
     return "";
   }
-  std::string gains;
-  for (const ChannelNoise & channel : noise.noise.channels)
-  {
-    if (channel.gain.value)
-    {
-      gains += (gains.empty() ? "" : ", ") + (channel.channel == "mono" ? "" : channel.channel + " ") +
-               Measured(*channel.gain.value, channel.gain.standardError.value_or(0.0));
-    }
-  }
+  const std::string gains = NumbersText(noise.noise, &ChannelNoise::gain, "gain", "DN/e-");
+  const std::string readNoises = NumbersText(noise.noise, &ChannelNoise::readNoise, "read noise", "DN");
   return "The noise is interpolated between the measured settings " + Text(noise.below) + " and " + Text(noise.above) +
-         (gains.empty() ? "." : ": gain " + gains + " DN/e-.");
+         (gains.empty() && readNoises.empty() ? "" : ":") + gains + (gains.empty() || readNoises.empty() ? "" : ",") +
+         readNoises + ".";
 }
 
 std::vector<CameraNoise>
@@ -303,6 +364,7 @@ ChooseSettings(const MeasuredRange &         range,
   {
     const InterpolatedNoise chosen = InterpolateNoise(range, *setting);
     note = SentenceOf(chosen);
+    note += note.empty() ? "" : UnmeasuredText(range, *setting);
     return { chosen.noise };
   }
   const auto & formats = ExportFormats();

@@ -7,6 +7,7 @@
 #include "sensornoise/NoiseExport.h"
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -99,7 +100,14 @@ struct MeasuredRange
   std::vector<double>                      settings;      ///< setting of each of noise, in ascending order
   std::optional<std::pair<double, double>> switchBetween; ///< settings between which the conversion gain is switched
   SettingKind                              kind{ SettingKind::Iso };
+  std::map<double, std::string>            unmeasured; ///< settings whose burst could not be measured, with the reasons
+  std::map<double, double> offLine; ///< settings that leave the line of the gains: gain over the line, less 1 [1]
 };
+
+/** Adds a measured setting to the range, whose kind is known. An ISO speed replaces the ISO speed of the report. A gain
+ * is the analogue gain of libcamera, unless the noise has one other than 1. */
+SensorNoise_EXPORT void
+AddSetting(MeasuredRange & range, const CameraNoise & noise, double setting);
 
 /** The noise at a setting that was not measured. */
 struct InterpolatedNoise
@@ -117,11 +125,12 @@ struct InterpolatedNoise
  * the offset minus slope times offset. Where the offset is not identified, the black level takes its place. Levels at
  * which pixels saturate, and the measured range of levels, are the narrower ones. A quantity that is not identified at
  * one of the neighbours is missing. Throws ExportError if the setting is outside of the measured ones, the switch is
- * between its neighbours, or the channels of the settings differ. */
+ * between its neighbours, a neighbour leaves the line of the gains, or the channels of the settings differ. */
 SensorNoise_EXPORT InterpolatedNoise
 InterpolateNoise(const MeasuredRange & range, double setting);
 
-/** Returns a sentence about an interpolated noise: its neighbours, and the gain with its error. "" if it was measured.
+/** Returns a sentence about an interpolated noise: its neighbours, gain and read noise with their errors. "" if it was
+ * measured.
  */
 SensorNoise_EXPORT std::string
 SentenceOf(const InterpolatedNoise & noise);

@@ -214,4 +214,18 @@ SummariseSweep(const MeasuredRange & range, const std::vector<UnmeasuredSetting>
   return summary;
 }
 
+std::map<double, double>
+SettingsOffLine(const SweepSummary & summary)
+{
+  std::map<double, double> offLine;
+  for (std::size_t i = 0; i < summary.settings.size(); ++i)
+  {
+    if (summary.line.isBeside[i] && summary.line.deviation[i])
+    {
+      offLine[summary.settings[i].setting] = *summary.line.deviation[i];
+    }
+  }
+  return offLine;
+}
+
 } // namespace sensornoise

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -171,6 +172,10 @@ MeanOverChannels(const MeasuredRange & range);
  * Android's noise model. Exposures have no line and no switch: their gains are tested for equality, and pooled. */
 SensorNoise_EXPORT SweepSummary
 SummariseSweep(const MeasuredRange & range, const std::vector<UnmeasuredSetting> & unmeasured = {});
+
+/** Returns the settings that leave the line of the gains, with their gain over the line, less 1 [1]. */
+SensorNoise_EXPORT std::map<double, double>
+SettingsOffLine(const SweepSummary & summary);
 
 /** Returns the table of all settings as plain text in UTF-8, and the sentences of FindingsOf(). */
 SensorNoise_EXPORT std::string
