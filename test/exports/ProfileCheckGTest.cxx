@@ -166,6 +166,27 @@ TEST_F(ProfileCheck, ProfileWithoutVarianceSaysWhere)
   EXPECT_NE(check.sentence.find("has no variance at "), std::string::npos) << check.sentence;
 }
 
+// The best values of libcamera's formula may be far from the line: no mistake, and no reason to use them unseen.
+TEST_F(ProfileCheck, MisfitOfLibcamerasFormulaIsNotCalledUsable)
+{
+  constexpr double dark = 2000.0;
+  this->SetQuantity("/total_intercept", dark - slope * offset);
+  const CameraNoise burst = ReadCameraNoise(m_Report);
+  const auto        best = FitLibcamera(burst);
+  const auto        check = CheckNoiseProfile(
+    ProfileOf(ProfileForm::Root, best.slope, best.constant), Frames(slope, dark - slope * offset), burst);
+  double largest = 0.0;
+  for (const auto & band : check.bands)
+  {
+    largest = std::max(largest, std::abs(band.ratio.value_or(0.0) - 1.0));
+  }
+  ASSERT_GT(largest, 0.08);
+  EXPECT_EQ(check.verdict, NoiseModelCheck::Verdict::Fits);
+  EXPECT_EQ(check.sentence.find("can be used"), std::string::npos) << check.sentence;
+  EXPECT_NE(check.sentence.find("times too "), std::string::npos) << check.sentence;
+  EXPECT_NE(check.sentence.find("libcamera's formula"), std::string::npos) << check.sentence;
+}
+
 // Averages of neighbours lower the variance of the frames: the record of the sensor stays true.
 TEST_F(ProfileCheck, SmoothedFramesHaveTheSensorsRecord)
 {

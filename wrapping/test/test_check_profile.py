@@ -32,7 +32,9 @@ def test_an_export_is_true_of_its_frames(report, tmp_path, format):
     report.export(format, tmp_path / "profile", **LEVELS)
     found = sn.check_noise_profile(report, tmp_path / "profile", **LEVELS)
     assert found and found["schema"] == "itk-sensornoise-check/1", found
-    assert all(band["fits"] for band in found["bands"]) and "this model can be used" in str(found)
+    # The formula of libcamera is off near the black level.
+    conclusion = "libcamera's formula" if format == "libcamera" else "this model can be used"
+    assert all(band["fits"] for band in found["bands"]) and conclusion in str(found)
 
 
 def test_the_mistake_is_named(report, tmp_path):

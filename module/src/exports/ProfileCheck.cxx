@@ -320,6 +320,27 @@ DescribeExcess(const Band & band)
                 factor);
   return "is " + std::string(text.data()) + " times too " + (isLow ? "low" : "high") + level;
 }
+
+/** Returns the band that deviates most from a profile of libcamera which fits as well as its formula can; null: no band
+ * deviates by more than profiles may. */
+const Band *
+WorstMisfit(const NoiseModelCheck & check)
+{
+  constexpr double errors = 4.0; // as bands are tested, in standard errors
+  const Band *     worst = nullptr;
+  double           largest = 0.0; // of the logarithm
+  for (const Band & band : check.bands)
+  {
+    const bool deviates = band.fits && band.ratio && *band.ratio > 0.0 &&
+                          std::abs(*band.ratio - 1.0) > std::max(profileTolerance, errors * band.standardError);
+    if (deviates && std::abs(std::log(*band.ratio)) > largest)
+    {
+      worst = &band;
+      largest = std::abs(std::log(*band.ratio));
+    }
+  }
+  return check.verdict == NoiseModelCheck::Verdict::Fits ? worst : nullptr;
+}
 } // namespace
 
 NoiseModelCheck
@@ -335,6 +356,13 @@ CheckNoiseProfile(const NoiseProfile & profile, const Report & frames, const Cam
                      (cause.empty() ? "no known mistake explains it. Write a profile of these frames with "
                                       "export-noise-model"
                                     : cause);
+  }
+  const Band * const misfit = variance.form == ProfileForm::Root ? WorstMisfit(check) : nullptr;
+  if (misfit)
+  {
+    check.sentence = "the profile " + profile.file + " (" + profile.format + ") " + DescribeExcess(*misfit) +
+                     ", as far as constant + slope sqrt(signal) is from the variance of these frames. No values of "
+                     "libcamera's formula agree better: use the profile only where such an error is small enough";
   }
   if (!variance.hasReadNoise)
   {
