@@ -175,10 +175,12 @@ TEST_F(AndroidExport, ReportsThatAreNotARangeAreRefused)
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
     }
   };
-  refused({ one }, "takes 2 or more");
+  refused({ one },
+          "1 report was given; android takes 2 or more, each of a different ISO speed. Measure bursts at more");
   refused({ one, one }, "all reports have the ISO speed 100");
   other.channels.pop_back();
   refused({ one, other }, "4 and 3 channels");
   other.isoSpeed.reset();
   refused({ one, other }, "no ISO speed");
+  refused({ one, other }, "--sweep and folders named by their ISO speeds, as iso100");
 }

@@ -90,7 +90,21 @@ TEST_F(LineExports, AMosaicWithoutAChannelIsRefused)
 {
   this->MakeMosaic();
   m_Report.texts.erase("/channels/3/channel");
-  IsRefused("dng", { "no channel B", "R, G1, G2 and B" });
+  IsRefused("dng", { "no channel B", "R, G1, G2 and B", "whole mosaic" });
+  sensornoise::ExportSettings settings;
+  settings.channel = "G1";
+  IsRefused("dng", { "no channel R", "leave out the channel (--channel)" }, settings);
+}
+
+// The errors of read noise and offset are 0.5 DN and 2 DN: of the variance hypot(2 x 1.5 x 0.5, 0.5 x 2) DN^2.
+TEST_F(LineExports, ANegativeVarianceAtTheBlackLevelHasItsError)
+{
+  m_Report.numbers["/read_noise/standard_error"] = 0.5;
+  m_Report.numbers["/offset/standard_error"] = 2.0;
+  m_Report.numbers["/camera/black_level"] = offset - 20.0;
+  IsRefused("dng", { "a variance of -7.7 +- 1.8 DN^2 at the black level 44.5 DN", "--black", "--dark" });
+  m_Report.numbers.erase("/offset/standard_error");
+  IsRefused("dng", { "a variance of -7.6" });
 }
 
 TEST_F(LineExports, NdsafirHasTheLineOfEachChannel)

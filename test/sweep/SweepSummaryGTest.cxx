@@ -81,13 +81,21 @@ TEST(SweepSummary, FitsAndroidsModelToIsoSpeeds)
   {
     CameraNoise & noise = range.noise[i];
     noise.isoSpeed = range.settings[i];
-    noise.blackLevelDn = 64.0;
     noise.whiteLevelDn = 4064.0;
     for (ChannelNoise & channel : noise.channels)
     {
       channel.varianceSlope = channel.gain;
       channel.totalIntercept.value = std::pow(*channel.readNoise.value, 2.0) - *channel.gain.value * 64.0;
     }
+  }
+  // A sweep has no option for the levels.
+  EXPECT_TRUE(Contains(MakeText(SummariseSweep(range)), "no black level"));
+  EXPECT_FALSE(Contains(MakeText(SummariseSweep(range)), "(--black)"));
+  EXPECT_TRUE(Contains(MakeText(SummariseSweep(range)),
+                       "export-noise-model passport.json --format android --black BLACK --white WHITE"));
+  for (CameraNoise & noise : range.noise)
+  {
+    noise.blackLevelDn = 64.0;
   }
   EXPECT_EQ(SummariseSweep(range).android->files[0].bytes, ExportNoise("android", range.noise).files[0].bytes);
   EXPECT_TRUE(Contains(MakeText(SummariseSweep(range)), "Android's noise model: The fitted variance differs"));

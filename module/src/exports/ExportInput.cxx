@@ -215,6 +215,18 @@ RequirePositive(const CameraNoise & noise, const ChannelNoise & channel, double 
   }
   return value;
 }
+
+/** Returns the standard error of the variance near the dark offset [DN^2], by the errors of read noise and offset;
+ * null: one is not known. */
+std::optional<double>
+DarkVarianceError(const ChannelNoise & channel, double slopeDn)
+{
+  const auto & noiseError = channel.readNoise.standardError;
+  const auto & offsetError = channel.offset.standardError;
+  return channel.readNoise.value && noiseError && offsetError
+           ? std::optional<double>(std::hypot(2.0 * *channel.readNoise.value * *noiseError, slopeDn * *offsetError))
+           : std::nullopt;
+}
 } // namespace
 
 const ChannelNoise &
@@ -248,11 +260,14 @@ NormalisedLineOf(const CameraNoise & noise, const ChannelNoise & channel)
   if (darkVariance < 0.0)
   {
     const bool hasOffset = channel.offset.value.has_value();
-    throw ExportError(ReportWords(noise, channel) + " has a variance of " + Rounded(darkVariance) +
-                      " DN^2 at the black level " + Text(black) + " DN; expected 0 or more. The line is 0 at " +
+    const auto error = DarkVarianceError(channel, model.varianceSlopeDn);
+    throw ExportError(ReportWords(noise, channel) + " has a variance of " +
+                      (error ? Measured(darkVariance, *error) : Rounded(darkVariance)) + " DN^2 at the black level " +
+                      Text(black) + " DN; expected 0 or more. The line is 0 at " +
                       Text(-model.totalInterceptDn2 / model.varianceSlopeDn) + " DN" +
                       (hasOffset ? ", and the measured offset is " + Text(*channel.offset.value) + " DN" : "") +
-                      ". Give the level of the camera's dark frames as the black level (--black).");
+                      ". Give the level of the camera's dark frames as the black level (--black), or measure with "
+                      "dark frames (estimate-sensor-noise --dark).");
   }
   return { model.varianceSlopeDn / range, darkVariance / (range * range) };
 }
@@ -309,7 +324,8 @@ RequireIsoSpeeds(const std::vector<CameraNoise> & settings, const std::string & 
     if (!noise.isoSpeed || !(*noise.isoSpeed > 0.0))
     {
       throw ExportError("the report " + noise.name + " has no ISO speed, as its files do not have one; " + format +
-                        " needs the ISO speed of each report");
+                        " needs the ISO speed of each report. Measure with estimate-sensor-noise --sweep and folders "
+                        "named by their ISO speeds, as iso100 and iso200.");
     }
     if (noise.channels.size() != settings.front().channels.size())
     {

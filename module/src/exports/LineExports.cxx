@@ -30,7 +30,9 @@ RequireChannel(const CameraNoise & noise, const std::string & name)
     }
   }
   throw ExportError("the report " + noise.name + " has no channel " + name +
-                    " of its mosaic; expected R, G1, G2 and B. Take the report of the whole mosaic.");
+                    " of its mosaic; expected R, G1, G2 and B. " +
+                    (noise.channels.size() == 1 ? "NoiseProfile takes all channels: leave out the channel (--channel)."
+                                                : "Take the report of the whole mosaic."));
 }
 
 std::pair<double, double>

@@ -188,8 +188,13 @@ FindingsOf(const SweepSummary & summary)
   }
   else if (!summary.androidReason.empty())
   {
-    findings.push_back("Android's noise model is not fitted: " + summary.androidReason +
-                       " The tool export-noise-model fits it with these options.");
+    const std::size_t command = summary.androidReason.find(" Give the "); // of export-noise-model, not of a sweep
+    findings.push_back("Android's noise model is not fitted: " + summary.androidReason.substr(0, command));
+    if (command != std::string::npos)
+    {
+      findings.back() += " Fit it from the passport with the levels of the camera in DN: export-noise-model "
+                         "passport.json --format android --black BLACK --white WHITE";
+    }
   }
   for (std::string & finding : findings)
   {
