@@ -130,9 +130,17 @@ def test_a_mosaic_has_a_profile_of_three_planes(mosaic):
     lines = {name: variance(mosaic.channel(name)) for name in ("R", "G1", "G2", "B")}
     for pair, expected in zip(pairs, (lines["R"], (lines["G1"] + lines["G2"]) / 2, lines["B"]), strict=True):
         assert of_profile(*pair) == pytest.approx(expected, rel=1e-6)
-    with pytest.raises(ValueError, match=r"4 channels.*reports\.channel\(name\)\.export\(\)"):
+    with pytest.raises(ValueError, match=r"4 channels.*\(channel=\)"):
         exported(mosaic, "deepinv")
     assert json.loads(exported(mosaic.channel("B"), "deepinv").text)["gain"] == pairs[2, 0]
+    assert exported(mosaic, "deepinv", channel="B") == exported(mosaic.channel("B"), "deepinv")
+    made = sn.export_noise_model(mosaic.to_dict(), "deepinv", channel="B", black=BLACK, white=WHITE)
+    assert made == exported(mosaic.channel("B"), "deepinv")
+    for reports, wrong in ((mosaic, "G"), (mosaic.channel("B"), "R"), (mosaic, 3)):
+        with pytest.raises((TypeError, ValueError), match=rf'channel is {wrong!r}; expected "R"'):
+            exported(reports, "deepinv", channel=wrong)
+    with pytest.raises(ValueError, match=r"leave out the channel \(channel=\)"):
+        exported(mosaic, "dng", channel="G1")
 
 
 def test_a_dng_file_gets_the_tag(report, tmp_path):

@@ -230,6 +230,7 @@ def test_a_client_measures_the_same(passport, bursts, dark):
     [
         (3, {}, "sources is of type int; expected a mapping"),
         ("no such folder", {}, "is no folder; expected a mapping"),
+        ({}, {}, "sources is an empty mapping; expected a mapping of settings"),
         ({0: "a.mha"}, {}, "a setting is 0; expected a number above 0"),
         ({"iso": "a.mha"}, {}, "a setting is 'iso'"),
         ({1: "a.mha"}, {"dark": {2: "b.mha"}}, "dark has the setting 2"),

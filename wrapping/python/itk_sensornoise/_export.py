@@ -97,6 +97,7 @@ def export_noise_model(
     format: str,
     output: FileName | None = None,
     *,
+    channel: str = "",
     black: float | None = None,
     white: float | None = None,
     analogue_gain: float = 1.0,
@@ -113,6 +114,8 @@ def export_noise_model(
         Name of the format, see export_formats().
     output : str or os.PathLike, optional
         File to write, or an existing folder for a format of several files. Default: nothing is written.
+    channel : {"", "R", "G1", "G2", "B"}
+        The only channel of a mosaic. Default: all.
     black, white : float, optional
         Black and white level [DN]. Default: the camera settings in the report.
     analogue_gain : float
@@ -151,7 +154,7 @@ def export_noise_model(
     given = [reports] if isinstance(reports, Mapping) else list(reports)
     exporter = itk.NoiseModelExporter.New()
     for number, report in enumerate(given, 1):
-        _add(exporter, report, str(number) if len(given) > 1 else "of this export")
+        _add(exporter, _channel_of(report, channel), str(number) if len(given) > 1 else "of this export")
     if given and format == "maps":
         _set_maps(exporter, getattr(given[0], "maps", {}))
     set_numbers(exporter, black=black, white=white, analogue_gain=analogue_gain, max_analogue_iso=max_analogue_iso)
@@ -160,6 +163,19 @@ def export_noise_model(
             raise _options.refuse_type("into", into, "the name of a DNG file")
         exporter.SetDngFile(os.fsdecode(into))
     return export_by(exporter, format, output)
+
+
+def _channel_of(report: Any, channel: str) -> Any:
+    """Returns the report of a channel of a mosaic; the whole report if `channel` is empty."""
+    if channel == "":
+        return report
+    expected = '"R", "G1", "G2" or "B" of a mosaic, or ""'
+    if not isinstance(channel, str):
+        raise _options.refuse_type("channel", channel, expected)
+    found = [each for each in report.get("channels", []) if each.get("channel") == channel]
+    if not found:
+        raise _options.refuse("channel", channel, expected)
+    return found[0]
 
 
 def _add(exporter: ItkObject, report: Mapping[str, Any], name: str) -> None:

@@ -119,6 +119,7 @@ class PagedRecord(Record):
         format: str,
         output: FileName | None = None,
         *,
+        channel: str = "",
         black: float | None = None,
         white: float | None = None,
         analogue_gain: float = 1.0,
@@ -134,7 +135,7 @@ class PagedRecord(Record):
         from ._export import export_noise_model
 
         return export_noise_model(
-            self, format, output, black=black, white=white, analogue_gain=analogue_gain, into=into
+            self, format, output, channel=channel, black=black, white=white, analogue_gain=analogue_gain, into=into
         )
 
     def _page_text(self) -> str:

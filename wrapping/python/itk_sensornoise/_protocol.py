@@ -48,6 +48,7 @@ class NoiseReport(Protocol):
         format: str,
         output: FileName | None = None,
         *,
+        channel: str = "",
         black: float | None = None,
         white: float | None = None,
         analogue_gain: float = 1.0,

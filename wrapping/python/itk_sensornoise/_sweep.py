@@ -101,6 +101,8 @@ def estimate_sweep(
             raise InvalidTypeError("dark was given with a folder, whose dark frames are in its folders; expected none")
         meaning, bursts = _bursts_in(Path(os.fsdecode(sources)), kind)
     elif isinstance(sources, Mapping):
+        if not sources:
+            raise ValueError(f"sources is an empty mapping; expected {_EXPECTED}")
         meaning, bursts = kind or "iso", _bursts_of(sources, dark or {})
     else:
         raise InvalidTypeError(f"sources is of type {type(sources).__name__}; expected {_EXPECTED}")

@@ -15,7 +15,7 @@ _PARAMETERS = {
     " (--check-profile)": "",
     "--black": "black=",
     "--white": "white=",
-    "--channel": "reports.channel(name).export()",
+    "--channel": "channel=",
     "--dark": "dark=",
     "--offset": "offset=",
     "--bayer": "bayer=",
