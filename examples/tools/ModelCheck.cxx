@@ -79,7 +79,8 @@ JsonOf(const std::optional<NoiseModelCheck> & check)
   return text;
 }
 
-/** Adds the checks to a report in JSON: one as the member \a name, several as the list of this name in the plural. */
+/** Adds the checks to a report in JSON: one as the member \a name, several as the list of this name in the plural,
+ * each with its channel. */
 void
 AddChecks(const std::string & name, const ModelChecks & checks, std::string & text)
 {
@@ -90,9 +91,14 @@ AddChecks(const std::string & name, const ModelChecks & checks, std::string & te
   if (checks.size() > 1)
   {
     std::string list;
-    for (const auto & check : checks)
+    for (std::size_t k = 0; k < checks.size(); ++k)
     {
-      list += (list.empty() ? "" : ", ") + JsonOf(check);
+      std::string check = JsonOf(checks[k]);
+      if (checks[k])
+      {
+        check.insert(check.find('{') + 1, "\"channel\": \"" + std::string(NameOf(BayerPlanes.at(k))) + "\", ");
+      }
+      list += (list.empty() ? "" : ", ") + check;
     }
     text.insert(text.rfind('}'), ", \"" + name + "s\": [" + list + "]");
   }

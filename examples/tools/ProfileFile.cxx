@@ -11,7 +11,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <stdexcept>
+#include <string>
 #include <variant>
 
 namespace sensornoise::tools
@@ -65,7 +67,8 @@ CheckProfile(const NoiseProfile & profile, const MeasuredStack & measured, const
   const auto         tell = [&profile](const std::string & reason) {
     std::cerr << "error: the profile " << profile.file << " cannot be checked: " << reason << '\n';
   };
-  ModelChecks checks;
+  ModelChecks           checks;
+  std::set<std::string> told; // channels often lack the same
   try
   {
     CameraNoise noise = ReadCameraNoise(frames, settings);
@@ -73,7 +76,7 @@ CheckProfile(const NoiseProfile & profile, const MeasuredStack & measured, const
     for (const ChannelProfileCheck & channel : CheckStoredFrames(profile, frames, noise))
     {
       checks.push_back(channel.check);
-      if (!channel.check)
+      if (!channel.check && told.insert(channel.reason).second)
       {
         tell(channel.reason);
       }

@@ -105,6 +105,7 @@ TEST_F(EstimateProfileTool, TableEndsWithTheSentence)
   EXPECT_EQ(Run("burst.mha --check-profile " + Changed("smap", "\"conversion\":", 0.3)), 0) << m_Message;
   EXPECT_NE(m_Output.find("\nprofile:\nlevel [DN]"), std::string::npos) << m_Output;
   EXPECT_NE(m_Output.find("are exchanged"), std::string::npos) << m_Output;
+  EXPECT_EQ(m_Output.find("transform"), std::string::npos) << m_Output; // of models alone
 }
 
 TEST_F(EstimateProfileTool, ChannelsOfAMosaicAreCheckedOneByOne)
@@ -117,10 +118,17 @@ TEST_F(EstimateProfileTool, ChannelsOfAMosaicAreCheckedOneByOne)
   EXPECT_EQ(Run("burst.mha --bayer RGGB --json report.json --quiet"), 0) << m_Message;
   const auto report = ReportOf("burst.mha --bayer RGGB --check-profile " + Export("ndsafir"));
   ASSERT_EQ(report["profile_checks"].size(), 4U);
+  std::string channels;
   for (const auto & check : report["profile_checks"])
   {
     EXPECT_EQ(check["verdict"], "fits") << check;
+    channels += check["channel"].get<std::string>() + ' ';
   }
+  EXPECT_EQ(channels, "R G1 G2 B ");
+  ReportOf("burst.mha --bayer RGGB --check-profile " + WriteText("profile.txt", "1e-4 2e-7\n"), 3);
+  const std::size_t said = m_Message.find("cannot be checked");
+  ASSERT_NE(said, std::string::npos) << m_Message;
+  EXPECT_EQ(m_Message.find("cannot be checked", said + 1), std::string::npos) << m_Message; // once for all channels
 }
 
 TEST_F(EstimateProfileTool, LevelsThatAreMissingAreAskedForAndTheReportIsWritten)

@@ -33,12 +33,12 @@ WithError(double number, double error, int decimals)
   return WithDecimals(number, decimals) + " +- " + WithDecimals(error, decimals);
 }
 
-/** Returns the row of a table, without its end. */
+/** Returns the row of a table, without its end. An empty \a transform is a table without this column. */
 std::string
 RowOf(const std::string & levels, const std::string & pixels, const std::string & ratio, const std::string & transform)
 {
-  return PaddedRight(levels, 22) + ' ' + PaddedLeft(pixels, 10) + "  " + PaddedRight(ratio, 17) + ' ' +
-         PaddedLeft(transform, 10);
+  const std::string text = PaddedRight(levels, 22) + ' ' + PaddedLeft(pixels, 10) + "  ";
+  return transform.empty() ? text + ratio : text + PaddedRight(ratio, 17) + ' ' + PaddedLeft(transform, 10);
 }
 
 } // namespace
@@ -176,12 +176,16 @@ ToJson(const NoiseModelCheck & check)
 std::string
 MakeTable(const NoiseModelCheck & check)
 {
-  std::string text = RowOf("level [DN]", "pixels", "variance/model", "transform") + '\n';
+  const bool hasTransform = std::any_of(
+    check.bands.begin(), check.bands.end(), [](const auto & band) { return band.transformVariance.has_value(); });
+  std::string text = RowOf("level [DN]", "pixels", "variance/model", hasTransform ? "transform" : "") + '\n';
   for (const NoiseModelCheck::Band & band : check.bands)
   {
     const std::string levels = LevelText(band.lowDn) + " to " + LevelText(band.highDn);
     const std::string ratio = band.ratio ? WithError(*band.ratio, band.standardError, 3) : "no variance";
-    const std::string transform = band.transformVariance ? WithDecimals(*band.transformVariance, 3) : "-";
+    const std::string transform = band.transformVariance ? WithDecimals(*band.transformVariance, 3)
+                                  : hasTransform         ? "-"
+                                                         : "";
     text +=
       RowOf(levels, std::to_string(band.pixels), WithSigns(ratio), transform) + (band.fits ? "\n" : "  does not fit\n");
   }
