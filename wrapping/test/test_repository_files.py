@@ -14,7 +14,8 @@ WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
 YAML_FILES = [*WORKFLOWS, *sorted((ROOT / ".github" / "ISSUE_TEMPLATE").glob("*.yml"))]
 YAML_FILES += [ROOT / "recipe" / "recipe.yaml", ROOT / "CITATION.cff", ROOT / ".readthedocs.yaml"]
 
-# The inputs that the reusable workflows of ITKRemoteModuleBuildTestPackageAction declare at the tag v5.4.4.
+# The inputs that the reusable workflows of ITKRemoteModuleBuildTestPackageAction declare at the commit that is named: the
+# end of the branch v5.4.5.
 INPUTS = {
     "build-test-cxx.yml": {
         *("cmake-options", "ctest-options", "warnings-to-ignore"),
@@ -56,8 +57,9 @@ def test_workflow_says_that_it_was_not_run_and_calls_what_exists(file):
     assert workflow[True]["push"]["branches"] == ["main"]
     for job in workflow["jobs"].values():
         if "uses" in job:
-            called = re.fullmatch(rf"{ACTION}/\.github/workflows/(.+)@v5\.4\.4", job["uses"])[1]
+            called = re.fullmatch(rf"{ACTION}/\.github/workflows/(.+)@[0-9a-f]{{40}}", job["uses"])[1]
             assert set(job["with"]) <= INPUTS[called]
+            assert all(job["with"][name] == "v5.4.5" for name in job["with"] if name.endswith("-tag"))
             assert all(isinstance(value, str) for value in job["with"].values())
             continue
         for step in job["steps"]:
