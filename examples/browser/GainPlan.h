@@ -6,6 +6,9 @@
 namespace sensornoise::browser
 {
 
+inline constexpr double MostContrast = 1000.0; ///< largest contrast that a plan proposes [1]
+inline constexpr double MostFlickerSd = 0.5;   ///< largest flicker that a plan proposes [1]
+
 /** A burst that is to be recorded. Its grey values are spread evenly between a dark and a bright level. */
 struct PlannedBurst
 {
@@ -18,18 +21,23 @@ struct PlannedBurst
   double readNoiseDn{ 3.0 };       ///< read noise [DN], 0 or more
 };
 
-/** Smallest errors that an unbiased estimate of the planned burst can have, and the frames that reach the goals. */
+/** Smallest errors that an unbiased estimate of the planned burst can have, and what reaches the goals: a standard
+ * error of 1 % of the gain, and of 1 DN of the offset. Each value that reaches a goal holds for the other values as
+ * planned. */
 struct GainPlan
 {
-  double gainPercent;     ///< standard error of the gain, relative to the gain [%]
-  double offsetDn;        ///< standard error of the dark offset [DN]; infinity: it is not identifiable
-  double framesForGain;   ///< frames with which the gain has a standard error of 1 %
-  double framesForOffset; ///< frames with which the offset has a standard error of 1 DN; infinity: none
+  double gainPercent;       ///< standard error of the gain, relative to the gain [%]
+  double offsetDn;          ///< standard error of the dark offset [DN]; infinity: it is not identifiable
+  double framesForGain;     ///< least frames for the gain
+  double framesForOffset;   ///< least frames for the offset; infinity: none
+  double contrastForGain;   ///< least contrast for the gain [1]; infinity: none up to MostContrast
+  double contrastForOffset; ///< least contrast for the offset [1]; infinity: none up to MostContrast
+  double flickerForOffset;  ///< least flicker for the offset [1]; infinity: none up to MostFlickerSd
 };
 
 /** Computes the plan from ComputePrecisionLimit(), the Cramér-Rao bound in closed form, in which the variances of gain
- * and offset fall with the number of frames less one and with the number of pixels. Throws std::invalid_argument for
- * values out of their range. */
+ * and offset fall with the number of frames less one and with the number of pixels. Least contrast and least flicker
+ * are found by bisection. Throws std::invalid_argument for values out of their range. */
 GainPlan
 PlanBurst(const PlannedBurst & burst);
 

@@ -239,7 +239,12 @@ Plan(const json & request)
   return { { "gain_percent", plan.gainPercent },
            { "offset_dn", plan.offsetDn },
            { "frames_for_gain", plan.framesForGain },
-           { "frames_for_offset", plan.framesForOffset } };
+           { "frames_for_offset", plan.framesForOffset },
+           { "contrast_for_gain", plan.contrastForGain },
+           { "contrast_for_offset", plan.contrastForOffset },
+           { "flicker_for_offset", plan.flickerForOffset },
+           { "most_contrast", MostContrast },
+           { "most_flicker", MostFlickerSd } };
 }
 
 /** Answers the request {"what": "inspect", "estimate", "example", "formats", "export" or "plan", ...}. Infinite numbers

@@ -370,6 +370,9 @@ def test_plan_is_that_of_the_cramer_rao_bound(page):
     assert math.isclose(few["gain_percent"], 2.0 * many["gain_percent"], rel_tol=1e-12)
     assert math.isclose(few["offset_dn"], 2.0 * many["offset_dn"], rel_tol=1e-12)
     assert plan(20, 0.0)["offset_dn"] is None
+    assert math.isclose(plan(26, few["flicker_for_offset"])["offset_dn"], 1.0, rel_tol=1e-6)
+    assert "; with 50 frames a contrast of 1." in page.text("planned")
+    assert ", or a flicker of " in page.text("planned")
     page.set(flicker="0")
     page.browser.run("part('flicker').dispatchEvent(new Event('input', { bubbles: true }))")
     page.wait("part('planned').textContent.includes('record dark frames')")

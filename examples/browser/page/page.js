@@ -235,6 +235,15 @@ function fitReport() {
 
 const planned = (id) => (part(id).dataset.power ? 10 ** Number(part(id).value) : Number(part(id).value));
 
+/** Says which least value reaches a goal, rounded up to three digits; null: none up to the largest one does. */
+function enough(what, least, most, unit) {
+  if (least === null) {
+    return "no " + what + " up to " + most.toLocaleString("en") + unit + " is enough";
+  }
+  const step = 10 ** (Math.floor(Math.log10(least)) - 2);
+  return "a " + what + " of " + Number((Math.ceil(least / step) * step).toPrecision(3)) + unit + " is enough";
+}
+
 async function plan() {
   const values = {};
   for (const slider of part("plan").querySelectorAll("input")) {
@@ -251,11 +260,17 @@ async function plan() {
     return;
   }
   const number = (value) => (value === null ? "" : value.toPrecision(2).includes("e") ? Number(value.toPrecision(2)).toLocaleString("en") : value.toPrecision(2));
+  const frames = (count) => Math.max(2, count).toLocaleString("en") + " frames";
+  const gainFrames = "± 1 % needs " + frames(answer.frames_for_gain) + "; with " + frames(values.frames) + " ";
+  const contrast = (least) => enough("contrast", least, answer.most_contrast, "");
+  const percent = (part) => (part === null ? null : 100 * part);
+  const flicker = enough("flicker", percent(answer.flicker_for_offset), percent(answer.most_flicker), " %");
   const offset = answer.offset_dn === null
-    ? "The offset is not identifiable without flicker: record dark frames."
-    : "Offset: ± " + number(answer.offset_dn) + " DN; ± 1 DN needs " + Math.max(2, answer.frames_for_offset).toLocaleString("en") + " frames.";
-  part("planned").textContent = "Gain: ± " + number(answer.gain_percent) + " %; ± 1 % needs " +
-    Math.max(2, answer.frames_for_gain).toLocaleString("en") + " frames. " + offset + " Record at least 20 frames.";
+    ? "The offset is not identifiable without flicker: record dark frames. For ± 1 DN with " + frames(values.frames) + ", " + flicker
+    : "Offset: ± " + number(answer.offset_dn) + " DN; ± 1 DN needs " + frames(answer.frames_for_offset) + "; with " +
+      frames(values.frames) + " " + contrast(answer.contrast_for_offset) + ", or " + flicker;
+  part("planned").textContent = "Gain: ± " + number(answer.gain_percent) + " %; " + gainFrames +
+    contrast(answer.contrast_for_gain) + ". " + offset + ". Record at least 20 frames.";
 }
 
 // ---- events ----
