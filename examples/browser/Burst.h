@@ -21,6 +21,7 @@ struct Burst
   FrameGeometry  geometry{};
   std::size_t    frames{ 0 };
   CameraSettings camera{};
+  std::string    arguments{ "FRAMES" }; ///< arguments of estimate-sensor-noise for the same files and options
   /** Reads consecutive frames into a buffer, which has room for them. Throws FileError if they cannot be read. */
   std::function<void(std::size_t first, std::size_t count, void * buffer)> read{};
 };

@@ -83,7 +83,7 @@ RequirePageMemory(const Burst & burst, const BurstOptions & options)
     throw std::runtime_error("the estimate of frames of " + std::to_string(burst.geometry.width) + " x " +
                              std::to_string(burst.geometry.height) + " pixels needs " + TextOfBytes(need) +
                              " of memory, but a page can use " + TextOfBytes(PageMemoryBytes) +
-                             ". Use the program: estimate-sensor-noise FRAMES --plot report.html");
+                             ". Use the program: estimate-sensor-noise " + burst.arguments + " --plot report.html");
   }
 }
 

@@ -6,6 +6,7 @@
 #include "browser/BurstEstimate.h"
 #include "browser/BurstMemory.h"
 #include "browser/GainPlan.h"
+#include "browser/ToolArguments.h"
 #include "itkSensorNoiseFrameFiles.h"
 #include "sensornoise/NoiseExport.h"
 #include "sensornoise/ReportPage.h"
@@ -89,6 +90,14 @@ OptionsIn(const json & request)
   return options;
 }
 
+Burst
+WithArguments(Burst burst, const json & request)
+{
+  burst.arguments = ArgumentsOfTool(
+    { NamesIn(request, "files"), NamesIn(request, "dark"), request.value("raw", std::string()), OptionsIn(request) });
+  return burst;
+}
+
 json
 AnswerOf(const BurstResult & result, const Burst & burst, const PageTitle & title)
 {
@@ -116,7 +125,7 @@ json
 Inspect(const json & request)
 {
   const FrameList list = OpenList(request, "files");
-  const Burst     burst = BurstOf(list);
+  const Burst     burst = WithArguments(BurstOf(list), request);
   const double    need = MemoryNeedOf(burst, OptionsIn(request));
   json            answer{ { "frames", list.frames },
                           { "frame", DescribeFrame(list) },
@@ -132,7 +141,7 @@ Inspect(const json & request)
 json
 Estimate(const json & request)
 {
-  const Burst          burst = BurstOf(OpenList(request, "files"));
+  const Burst          burst = WithArguments(BurstOf(OpenList(request, "files")), request);
   std::optional<Burst> dark;
   if (!NamesIn(request, "dark").empty())
   {

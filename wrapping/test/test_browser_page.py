@@ -355,7 +355,7 @@ def test_frames_that_need_too_much_memory_are_refused(page, tmp_path):
         file.write(header)
         file.truncate(len(header) + 8000 * 8000 * 2)
     error = page.choose([sparse])
-    assert "a page can use 2 GB" in error and "estimate-sensor-noise" in error
+    assert "a page can use 2 GB" in error and f"estimate-sensor-noise {sparse.name} --plot report.html" in error
 
 
 def test_plan_is_that_of_the_cramer_rao_bound(page):
