@@ -1,14 +1,24 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-# Builds the page that measures bursts in a browser: bash examples/browser/build.sh
+# Builds the page that measures bursts in a browser.
+#
+#   build.sh               no arguments; --help prints this text
 #
 # Installs what is missing (Debian, Ubuntu), compiles the library by Emscripten into build/browser, and leaves the page in
 # build/browser/site: index.html for a server, and sensor-noise.html, one file that browsers open from the disk. Compiled
 # objects are kept as by examples/setup.sh, which has the variables of the caches. SENSORNOISE_ZLIB_SOURCE is a folder with
-# the sources of zlib (default: those of the distribution, downloaded once into the cache). Exit code 69: Emscripten or
-# the sources cannot be had; the last line says why.
+# the sources of zlib (default: those of the distribution, downloaded once into the cache). Exit codes: 2 wrong
+# arguments, 69 Emscripten or the sources cannot be had; the last line says why.
 set -euo pipefail
+if [ $# -gt 0 ]; then
+  if [ "$*" = "--help" ]; then
+    sed -n '4,/^set /{/^#/s/^# \{0,1\}//p}' "$0"
+    exit 0
+  fi
+  echo "build.sh: the arguments are \"$*\"; expected none, or --help" >&2
+  exit 2
+fi
 here="$(cd "$(dirname "$0")/../.." && pwd)"
 source "$here/examples/setup.sh"
 folder="$here/build/browser"

@@ -4,6 +4,7 @@
 
 import json
 import re
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -14,8 +15,8 @@ WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
 YAML_FILES = [*WORKFLOWS, *sorted((ROOT / ".github" / "ISSUE_TEMPLATE").glob("*.yml"))]
 YAML_FILES += [ROOT / "recipe" / "recipe.yaml", ROOT / "CITATION.cff", ROOT / ".readthedocs.yaml"]
 
-# The inputs that the reusable workflows of ITKRemoteModuleBuildTestPackageAction declare at the commit that is named: the
-# end of the branch v5.4.5.
+# The inputs that the reusable workflows of ITKRemoteModuleBuildTestPackageAction declare at the commit that is named:
+# the end of their branch v5.4.5.
 INPUTS = {
     "build-test-cxx.yml": {
         *("cmake-options", "ctest-options", "warnings-to-ignore"),
@@ -68,6 +69,14 @@ def test_workflow_says_that_it_was_not_run_and_calls_what_exists(file):
                 assert set(step.get("with", {})) <= STEP_INPUTS[step["uses"]]
             for script in re.findall(r"bash (\S+)", step.get("run", "")):
                 assert (ROOT / script).is_file()
+
+
+@pytest.mark.parametrize(("argument", "code"), [("--help", 0), ("--quick", 2)])
+def test_build_of_the_page_takes_no_arguments(argument, code):
+    script = ROOT / "examples" / "browser" / "build.sh"
+    done = subprocess.run(["bash", script, argument], capture_output=True, text=True, check=False)
+    assert done.returncode == code
+    assert "build.sh               no arguments" in done.stdout if code == 0 else "--quick" in done.stderr
 
 
 def test_workflow_builds_by_a_preset_that_exists():
