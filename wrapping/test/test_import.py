@@ -59,18 +59,21 @@ def test_import_loads_neither_our_library_nor_what_draws(fresh):
     assert fresh(code) == "[]\n"
 
 
-def test_import_costs_less_than_a_tenth_of_a_second(fresh):
+def test_import_costs_less_than_itk_itself(fresh):
+    """What the package adds to `import itk` takes less time than `import itk` in the same process."""
     code = (
         "import sys, time\n"
+        "start = time.perf_counter()\n"
         "import itk\n"
+        "of_itk = time.perf_counter() - start\n"
         "for name in [name for name in sys.modules if name.startswith('itk_sensornoise')]:\n"
         "    del sys.modules[name]\n"
         "start = time.perf_counter()\n"
         "import itk_sensornoise._install\n"
         "itk_sensornoise._install.install()\n"
-        "print(time.perf_counter() - start)"
+        "print((time.perf_counter() - start) / of_itk)"
     )
-    assert min(float(fresh(code)) for _ in range(3)) < 0.1
+    assert min(float(fresh(code)) for _ in range(3)) < 1.0
 
 
 def test_reload_keeps_our_functions(burst):
