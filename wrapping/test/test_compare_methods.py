@@ -83,6 +83,12 @@ def test_quick_measures_one_setting_of_each_kind(tmp_path):
     _, quick, _ = parse(["--bin", str(tmp_path), "--quick"])
     assert (len(every), len(quick)) == (38, 6)
     assert {(one.group, one.scene, one.bits) for one in quick} == {(one.group, one.scene, one.bits) for one in every}
+    (tmp_path / "saz_75x40x640_u8.npy").touch()
+    _, with_real, note = parse(["--bin", str(tmp_path), "--quick", "--real", str(tmp_path)])
+    assert [one.name for one in with_real] == [one.name for one in quick] + ["SA-Z"]
+    assert note.endswith("does not have the frames: EMCCD.")
+    _, _, note = parse(["--bin", str(tmp_path), "--settings", "B3/*", "--real", str(tmp_path)])
+    assert note.endswith("Left out by --settings, as real frames that it does not name: SA-Z.")
     text = text_of_times(dict(zip(PARTS, (6.0, 3.0, 1.0), strict=True)))
     assert text == "processor time: 10 s (simulation 60 %, methods of this project 30 %, other programs 10 %)"
 
@@ -145,6 +151,7 @@ def test_all_methods_measure_the_smallest_settings(programs, tmp_path):
     assert compare_methods.main([*map(str, arguments), "--settings", *settings]) == 0
     text = output.with_suffix(".md").read_text(encoding="utf-8")
     assert "Real frames are left out: --real names no folder." in text
+    assert "cameras A and B in Table 3 are missing" in text
     lines = [line.strip("|").split("|") for line in text.splitlines() if line.startswith("|") and "---" not in line]
     rows = [[cell.strip() for cell in line] for line in lines]
     page = Cells()
