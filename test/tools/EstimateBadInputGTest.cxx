@@ -40,10 +40,10 @@ TEST_F(EstimateBadInputTool, OneToFourFramesAreRefused)
     for (const std::string name : { "s.mha", "s.nrrd", "s.tif" })
     {
       Write(name, Cut<unsigned short>(burst, { { 0, 0, 0 } }, { { 64, 64, frames } }).GetPointer());
-      IsRefused(name, { found, "expected at least 5" });
+      IsRefused(name, { found, "expected at least 5", "--method single-image" });
     }
     const auto end = names.begin() + static_cast<std::ptrdiff_t>(frames);
-    IsRefused(Joined({ names.begin(), end }), { found, "expected at least 5" });
+    IsRefused(Joined({ names.begin(), end }), { found, "expected at least 5", "--method single-image" });
   }
   EXPECT_NE(Run(Joined(names)), 2) << m_Message;
 }

@@ -9,7 +9,11 @@ import pytest
 STACK = np.arange(6 * 8 * 9, dtype=np.uint16).reshape(6, 8, 9)
 
 WRONG_FRAMES = {
-    "rank 2": (STACK[0], "frames has 2 dimensions, shape (8, 9); expected 3, the axes (t, y, x)"),
+    "rank 2": (
+        STACK[0],
+        "frames has 2 dimensions, shape (8, 9); expected 3, the axes (t, y, x). For one frame, use "
+        'method="single-image"',
+    ),
     "rank 4": (STACK[None], "frames has 4 dimensions, shape (1, 6, 8, 9); expected 3, the axes (t, y, x)"),
     "RGB": (np.zeros((6, 8, 9, 3), np.uint8), "expected 3, the axes (t, y, x); of a colour image, give one channel"),
     "RGB frames": ([np.zeros((8, 9, 3), np.uint8)] * 6, "frames[0] has 3 dimensions"),
@@ -54,6 +58,7 @@ def test_too_few_frames_are_a_wrong_value(count, make):
         itk.estimate_sensor_noise(make(STACK[:count]))
     frames = "1 frame" if count == 1 else f"{count} frames"
     assert str(error.value).startswith(f"the stack has {frames}; expected at least 5. Give all frames of the burst")
+    assert str(error.value).endswith('or measure each frame by itself with method="single-image"')
     assert error.value.__cause__ is None and error.value.__suppress_context__
 
 

@@ -24,7 +24,8 @@ RequireStack(const FrameGeometry & geometry, std::size_t frames, std::size_t mas
   {
     throw std::invalid_argument("the stack has " + std::to_string(frames) + (frames == 1 ? " frame" : " frames") +
                                 "; expected at least " + std::to_string(MinimumFrames) +
-                                ". Give all frames of the burst, as a list, a folder or a stack");
+                                ". Give all frames of the burst, as a list, a folder or a stack, or measure each frame "
+                                "by itself with --method single-image");
   }
   if (frames > MaximumFrames)
   {

@@ -29,6 +29,8 @@ _EXPECTED = (
     ("itk::SizeValueType", "a whole number, 0 or more"),
     ("Image", "an itk.Image of the type that the filter takes"),
 )
+# An option of the tool in a sentence of the library, and the same in Python.
+_OPTION = re.compile(r"--method ([\w-]+)")
 _NO_MEMORY = ("std::bad_alloc", "Failed to allocate memory")
 _ABORTED = "aborted by an external request"
 
@@ -51,14 +53,15 @@ def _expected_of(cpp_type: str) -> str:
 
 
 def cause_of(error: BaseException) -> str:
-    """Returns the sentence of an ITK exception on one line, without the file, class and address before it."""
+    """Returns the sentence of an ITK exception on one line, without the file, class and address before it, and with the
+    name of a method as Python has it."""
     text = str(error)
     argument = _ARGUMENT.match(text)
     if argument:
         return f"expected {_expected_of(argument[1])}"
     if text.startswith(_OVERLOADED):
         return f"expected {_expected_of(text)}"
-    return " ".join(_CLASS.sub("", _PLACE.sub("", text)).split())
+    return _OPTION.sub(r'method="\1"', " ".join(_CLASS.sub("", _PLACE.sub("", text)).split()))
 
 
 def python_error_of(error: BaseException, context: str = "", kind: type[Exception] = InvalidValueError) -> Exception:

@@ -256,7 +256,7 @@ def estimate_sensor_noise(
     frames, dark = expand(frames), expand(dark, "dark")
     if folder is not None:
         require_apart(folder, frames=frames, dark=dark, mask=mask)
-    stack = open_frames(frames, settings.span) if raw is None else open_dumps(frames, raw, settings.span)
+    stack = _open_burst(frames, settings.span) if raw is None else open_dumps(frames, raw, settings.span)
     dark_stack = open_dark(dark, raw)
     prepared = prepare(stack, dark_stack, settings)
     estimator = prepared.estimator
@@ -299,6 +299,16 @@ def is_of_frames(report: Mapping[str, Any], frames: Frames, settings: Mapping[st
     is_cut = span is not None or settings.get("roi") is not None
     size = tuple(int(first[name]) for name in ("width", "height", "frames"))
     return is_cut or size == (stack.size[0] // planes, stack.size[1] // planes, stack.size[2])
+
+
+def _open_burst(frames: Frames, span: tuple[int, int] | None) -> Stack:
+    """Opens the frames as open_frames(). The error for an array of one frame names the method that measures it."""
+    try:
+        return open_frames(frames, span)
+    except ValueError as error:
+        if getattr(frames, "ndim", None) != 2:
+            raise
+        raise type(error)(f'{error}. For one frame, use method="single-image"') from None
 
 
 def _set_hashes(estimator: ItkObject, frames: Stack, dark: Stack | None) -> list[FramesHash]:
