@@ -184,6 +184,21 @@ TEST_F(FitsFile, SaysWhatTheHeaderSaysOfTheCamera)
   EXPECT_EQ(camera(ordered).bayerPattern, "");
 }
 
+TEST_F(FitsFile, AnExposureOf0IsRecorded)
+{
+  const auto exposure = [this](const Cards & cards) {
+    const std::string bytes = UnitOf(CardsOf(16, cards), std::string(32, 'a'));
+    return IsFrames("a.fits", bytes, FramePixel::Short, 4, 2, 2).camera.exposureSeconds;
+  };
+  EXPECT_EQ(exposure({ { "EXPTIME", "0.0" } }), 0.0); // of a bias frame
+  EXPECT_EQ(exposure({ { "EXPTIME", "0." }, { "EXPOSURE", "0.5" } }), 0.5);
+  EXPECT_EQ(exposure({ { "EXPTIME", "2.5D-1" } }), 0.25);
+  EXPECT_TRUE(std::isnan(exposure({})));
+  EXPECT_TRUE(std::isnan(exposure({ { "EXPTIME", "-1.0" } })));
+  EXPECT_TRUE(std::isnan(exposure({ { "EXPTIME", "'unknown'" } })));
+  EXPECT_TRUE(std::isnan(exposure({ { "EXPTIME", "" } })));
+}
+
 TEST_F(FitsFile, DamagedHeadersAreRefused)
 {
   const std::string pixels(32, 'a');

@@ -273,6 +273,12 @@ TEST_F(EstimateEmvaTool, ExposuresAreTakenFromFilesThatRecordThem)
   Refuses(flats + method, { "no dark frames", "--dark" });
   Refuses(flats + " --dark " + m_Names[0] + method, { m_Names[0] + " records none" });
   Refuses("list.csv --dark" + darks + method, { "--dark", "list.csv" });
+  std::string bias; // frames of the shortest exposure, which FITS records as 0
+  for (std::size_t t = 0; t < DarkFrames; ++t)
+  {
+    bias += " " + WriteFits(t, 0.0);
+  }
+  EXPECT_EQ(ReportOf(flats + " --dark" + bias + method)["sensitivity"]["gain"]["status"], "identified");
 }
 
 TEST_F(EstimateEmvaTool, RefusesListsThatAreNone)

@@ -5,9 +5,11 @@
 #include "files/FrameReader.h"
 #include "files/FrameSizes.h"
 #include "files/TextHeader.h"
+#include "base/Text.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -263,6 +265,17 @@ ScaleOfFits(const FitsHeader & header)
   return scale;
 }
 
+/** Returns the exposure time [s] that a keyword records; 0 for a bias frame. NaN: none. Other programs write words
+ * there, so that no value is an error. */
+double
+ExposureIn(const FitsHeader & header, const std::string & key)
+{
+  std::string text = header.Text(key);
+  std::replace(text.begin(), text.end(), 'D', 'E'); // the exponent in Fortran
+  const double seconds = FiniteNumber(text).value_or(-1.0);
+  return seconds >= 0.0 ? seconds : std::numeric_limits<double>::quiet_NaN();
+}
+
 /** Sets camera, Bayer pattern and exposure time [s]. The pattern is set only if ROWORDER says that rows are stored from
  * the top and if its offsets are 0. */
 void
@@ -283,11 +296,10 @@ ReadCameraOfFits(const FitsHeader & header, CameraSettings & camera)
   }
   for (const char * const key : { "EXPTIME", "EXPOSURE" })
   {
-    const double seconds = std::atof(header.Text(key).c_str());
-    if (seconds > 0.0)
+    const double seconds = ExposureIn(header, key);
+    if (std::isfinite(seconds) && !(camera.exposureSeconds > 0.0))
     {
       camera.exposureSeconds = seconds;
-      return;
     }
   }
 }
