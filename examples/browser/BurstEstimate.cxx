@@ -62,8 +62,7 @@ FindMosaic(const Burst & burst, const BurstOptions & options)
   }
   std::vector<TPixel> frame(burst.geometry.Pixels());
   burst.read(0, 1, frame.data());
-  const std::vector<double> levels(frame.begin(), frame.end());
-  const auto                pattern = RecogniseMosaic(levels, burst.geometry.width, burst.geometry.height);
+  const auto pattern = RecogniseMosaic(frame.data(), burst.geometry.width, burst.geometry.height);
   return pattern ? std::optional<Mosaic>(Mosaic{ *pattern, BayerSource::Levels }) : std::nullopt;
 }
 

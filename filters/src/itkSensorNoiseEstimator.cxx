@@ -141,10 +141,9 @@ SensorNoiseEstimator<TStack>::FindMosaic()
   this->GenerateNthInputRequestedRegion(0); // the first chunk, so that the first pass does not read it again
   stack->Update();
   RequirePixels(stack, "the stack");
-  const auto                first = stack->GetLargestPossibleRegion();
-  const PixelType * const   pixels = stack->GetBufferPointer() + stack->ComputeOffset(first.GetIndex());
-  const std::vector<double> levels(pixels, pixels + frame.Pixels());
-  if (const auto pattern = sensornoise::RecogniseMosaic(levels, frame.width, frame.height, this->GetParallelFor()))
+  const auto              first = stack->GetLargestPossibleRegion();
+  const PixelType * const pixels = stack->GetBufferPointer() + stack->ComputeOffset(first.GetIndex());
+  if (const auto pattern = sensornoise::RecogniseMosaic(pixels, frame.width, frame.height, this->GetParallelFor()))
   {
     return SensorNoiseMosaic{ { frame, *pattern }, BayerSource::Levels };
   }

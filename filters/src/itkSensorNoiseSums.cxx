@@ -107,9 +107,7 @@ SensorNoiseSums<TStack>::RecogniseBayerPattern(const TStack * frames)
   {
     itkGenericExceptionMacro("the image has no pixels; expected a frame");
   }
-  const auto *              pixels = frames->GetBufferPointer();
-  const std::vector<double> levels(pixels, pixels + width * height);
-  const auto                pattern = sensornoise::RecogniseMosaic(levels, width, height, sensornoise::SerialFor);
+  const auto pattern = sensornoise::RecogniseMosaic(frames->GetBufferPointer(), width, height, sensornoise::SerialFor);
   return pattern ? sensornoise::NameOf(*pattern) : "none";
 }
 

@@ -73,8 +73,8 @@ SingleImageNoiseEstimator<TStack>::StartMeasurement(const PixelType * firstFrame
   const std::string &              inFile = m_Measurement->camera.bayerPattern;
   if (m_BayerPattern == "auto" && inFile.empty())
   {
-    const std::vector<double> levels(firstFrame, firstFrame + frame.Pixels());
-    m_Measurement->pattern = sensornoise::RecogniseMosaic(levels, frame.width, frame.height, this->GetParallelFor());
+    m_Measurement->pattern =
+      sensornoise::RecogniseMosaic(firstFrame, frame.width, frame.height, this->GetParallelFor());
     m_Measurement->source = BayerSource::Levels;
   }
   else if (m_BayerPattern != "none")

@@ -40,8 +40,9 @@ struct BlockLevels
   bool   isKnown{ false };
 };
 
+/** Returns the levels of the block whose first pixel is \a first, at (left, top), of rows \a width pixels apart. */
 BlockLevels
-LevelsOfBlock(const std::vector<double> & frame,
+LevelsOfBlock(const double *              first,
               std::size_t                 width,
               std::size_t                 left,
               std::size_t                 top,
@@ -58,7 +59,7 @@ LevelsOfBlock(const std::vector<double> & frame,
   {
     for (std::size_t x = left; x < left + size; ++x)
     {
-      const double *    pixel = frame.data() + y * width + x;
+      const double *    pixel = first + (y - top) * width + (x - left);
       const auto        row = static_cast<std::ptrdiff_t>(width);
       const double      diagonal = 0.25 * (pixel[-row - 1] + pixel[-row + 1] + pixel[row - 1] + pixel[row + 1]);
       const double      cross = 0.25 * (pixel[-row] + pixel[row] + pixel[-1] + pixel[1]);
@@ -91,11 +92,9 @@ LevelsOfBlock(const std::vector<double> & frame,
 
 /** Returns the levels of all blocks that lie in the frame with their neighbours. A frame that is too small for one has
  * a single smaller block. */
+template <typename TPixel>
 std::vector<BlockLevels>
-LevelsOfBlocks(const std::vector<double> & frame,
-               std::size_t                 width,
-               std::size_t                 height,
-               const ParallelFor &         parallelFor)
+LevelsOfBlocks(const TPixel * frame, std::size_t width, std::size_t height, const ParallelFor & parallelFor)
 {
   std::vector<BlockLevels> blocks;
   const std::size_t        side = std::min(width, height);
@@ -109,9 +108,13 @@ LevelsOfBlocks(const std::vector<double> & frame,
   blocks.resize(columns * rows);
   const std::vector<double> window = MakeWindow(size);
   parallelFor(rows, [&](std::size_t row) {
+    const std::size_t   top = row * size;           // of the block's neighbours
+    std::vector<double> levels((size + 2) * width); // a copy of the whole frame would take longer than the comparison
+    std::copy(frame + top * width, frame + top * width + levels.size(), levels.begin());
     for (std::size_t column = 0; column < columns; ++column)
     {
-      blocks[row * columns + column] = LevelsOfBlock(frame, width, 1 + column * size, 1 + row * size, window);
+      const std::size_t left = 1 + column * size;
+      blocks[row * columns + column] = LevelsOfBlock(levels.data() + width + left, width, left, top + 1, window);
     }
   });
   blocks.erase(std::remove_if(blocks.begin(), blocks.end(), [](const BlockLevels & block) { return !block.isKnown; }),
@@ -121,11 +124,9 @@ LevelsOfBlocks(const std::vector<double> & frame,
 
 } // namespace
 
+template <typename TPixel>
 std::optional<BayerPattern>
-RecogniseMosaic(const std::vector<double> & frameDn,
-                std::size_t                 width,
-                std::size_t                 height,
-                const ParallelFor &         parallelFor)
+RecogniseMosaic(const TPixel * frameDn, std::size_t width, std::size_t height, const ParallelFor & parallelFor)
 {
   const std::vector<BlockLevels> blocks = LevelsOfBlocks(frameDn, width, height, parallelFor);
   if (blocks.empty())
@@ -173,5 +174,10 @@ RecogniseMosaic(const std::vector<double> & frameDn,
   }
   return oneLessOther > 0.0 ? BayerPattern::RGGB : BayerPattern::BGGR;
 }
+
+#define SensorNoise_INSTANTIATE(TPixel) \
+  template std::optional<BayerPattern> RecogniseMosaic(const TPixel *, std::size_t, std::size_t, const ParallelFor &)
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 
 } // namespace sensornoise

@@ -23,11 +23,21 @@ namespace sensornoise
  * A grid of dots with a period of exactly two pixels in the whole frame cannot be distinguished from a mosaic.
  *
  * The levels do not determine which of the two colours that are not green is red: the brighter one is called red. */
+template <typename TPixel>
 SensorNoise_EXPORT std::optional<BayerPattern>
+RecogniseMosaic(const TPixel *      frameDn,
+                std::size_t         width,
+                std::size_t         height,
+                const ParallelFor & parallelFor = SerialFor);
+
+inline std::optional<BayerPattern>
 RecogniseMosaic(const std::vector<double> & frameDn,
                 std::size_t                 width,
                 std::size_t                 height,
-                const ParallelFor &         parallelFor = SerialFor);
+                const ParallelFor &         parallelFor = SerialFor)
+{
+  return RecogniseMosaic(frameDn.data(), width, height, parallelFor);
+}
 
 } // namespace sensornoise
 

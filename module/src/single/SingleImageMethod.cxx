@@ -7,7 +7,9 @@
 #include "single/ImageNoise.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -37,20 +39,26 @@ void
 CountPixels(const PlaneOfFrame<TPixel> & pixels, MeasuredPlane & plane, const ParallelFor & parallelFor)
 {
   const std::size_t width = plane.geometry.width;
+  const ClipLevels  clip = LimitsOf(plane.codes).clip;
   const auto        counts =
     SumBlocks<3>(plane.geometry.height, parallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
       for (std::size_t y = begin; y < end; ++y)
       {
+        std::array<std::size_t, 3> ofRow{}; // whole numbers, which the compiler counts several at a time
         for (std::size_t x = 0; x < width; ++x)
         {
           const std::size_t p = pixels.layout.At(x, y);
           const auto        value = static_cast<double>(pixels.pixels[p]);
           const bool        isMasked = pixels.mask != nullptr && pixels.mask[p] == 0;
-          const bool        isClipped = std::isfinite(value) && plane.codes.IsClipped(value, value);
-          sums[0] += !isMasked && isClipped ? 1.0 : 0.0;
-          sums[1] += !isMasked && !std::isfinite(value) ? 1.0 : 0.0;
-          sums[2] += isMasked ? 1.0 : 0.0;
+          const bool        isFinite = std::isfinite(value);
+          const bool        isClipped = (value <= clip.lowDn) | (value >= clip.highDn);
+          ofRow[0] += static_cast<std::size_t>(!isMasked & isFinite & isClipped);
+          ofRow[1] += static_cast<std::size_t>(!isMasked & !isFinite);
+          ofRow[2] += static_cast<std::size_t>(isMasked);
         }
+        std::transform(ofRow.begin(), ofRow.end(), sums.begin(), sums.begin(), [](std::size_t count, double sum) {
+          return sum + static_cast<double>(count);
+        });
       }
     });
   plane.clipped = static_cast<std::size_t>(counts[0]);
