@@ -205,6 +205,24 @@ TEST(SensorNoiseReportPage, PartsOfUnlikeGainHaveATable)
   }
 }
 
+TEST(SensorNoiseReportPage, OfOneFrameItSaysNothingOfFlickerAndMotion)
+{
+  Report report = MakeGoodReport(1);
+  report.method = "single-image";
+  report.singleImage.emplace();
+  report.scatter.correctedVariance = report.scatter.variance;
+  const std::string page = ToHtml(report);
+  for (const std::string words : { "without flicker and motion", "Flicker and motion add", "orange rings", "1 frames" })
+  {
+    EXPECT_EQ(page.find(words), std::string::npos) << words;
+  }
+  for (const std::string words : { "1 frame of 6000", "level sets", "Each point is a level set" })
+  {
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  }
+  EXPECT_NE(ToHtml(MakeGoodReport(40)).find("without flicker and motion"), std::string::npos);
+}
+
 TEST(SensorNoiseReportPage, WhatIsNotANumberIsNotDrawn)
 {
   Report report = MakeGoodReport(50);

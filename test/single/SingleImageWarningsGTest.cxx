@@ -67,6 +67,19 @@ TEST(SensorNoiseSingleImageWarnings, FilteredFramesGiveNoGain)
   EXPECT_TRUE(HasWarning(report, WarningCode::NothingToMeasure));
 }
 
+TEST(SensorNoiseSingleImageWarnings, ARefusalSaysTheCountThatWasFound)
+{
+  const Report report = Measure(Simulate<unsigned short>(PaperSettings('B'), 320, 320, MakeTextureScene(320, 320)));
+  ASSERT_FALSE(report.gain.value) << MakeText(report);
+  ASSERT_GT(report.pixels.used, 100U);
+  const std::string message = report.warnings.back().message;
+  const std::string before = "even areas have ";
+  ASSERT_EQ(message.rfind(before, 0), 0U) << message;
+  const double found = std::stod(message.substr(before.size()));
+  EXPECT_GT(found, 0.1 * static_cast<double>(report.pixels.used)) << message; // a position has 4 pixels
+  EXPECT_LT(found, 0.5 * static_cast<double>(report.pixels.used)) << message;
+}
+
 TEST(SensorNoiseSingleImageWarnings, FramesWithoutLevelsGiveNoGain)
 {
   const Stack<unsigned short> constant{ 128, 128, 1, std::vector<unsigned short>(128 * 128, 100) };

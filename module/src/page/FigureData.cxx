@@ -207,6 +207,7 @@ FigureData
 MakeFigureData(const Report & report)
 {
   FigureData data;
+  data.isOfLevelSets = report.singleImage.has_value();
   AddCurve(data, report);
   AddLine(data, report);
   data.flicker = report.flicker;

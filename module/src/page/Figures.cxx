@@ -90,16 +90,21 @@ DrawResiduals(std::string & svg, const FigureData & data, const PanelPlace & pla
 std::string
 DrawCurve(const FigureData & data)
 {
-  const bool         hasResiduals = !data.residuals.empty();
-  std::size_t        above = 0;
-  const auto         axis = VarianceAxis(data, above);
-  const PanelPlace   place(MeanAxis(data), { axis, ResidualAxis(data) });
-  std::string        svg = OpenSvg(hasResiduals ? 546.0 : 424.0, "temporal variance against mean");
+  const bool       hasResiduals = !data.residuals.empty();
+  std::size_t      above = 0;
+  const auto       axis = VarianceAxis(data, above);
+  const PanelPlace place(MeanAxis(data), { axis, ResidualAxis(data) });
+  std::string      svg = OpenSvg(hasResiduals ? 546.0 : 424.0,
+                            data.isOfLevelSets ? "variance against level" : "temporal variance against mean");
   const char * const line = data.isIndicative ? "third dashed" : "third";
   const std::string  higher =
     above > 0 ? " (" + std::to_string(above) + (above == 1 ? " point is higher)" : " points are higher)") : "";
-  LegendEntry(svg, 4.0, 12.0, PointSign("before point"), "as measured" + higher);
-  const double next = LegendEntry(svg, 4.0, 32.0, PointSign("after point full"), "without flicker and motion");
+  if (!data.isOfLevelSets)
+  {
+    LegendEntry(svg, 4.0, 12.0, PointSign("before point"), "as measured" + higher);
+  }
+  const double next = LegendEntry(
+    svg, 4.0, 32.0, PointSign("after point full"), data.isOfLevelSets ? "level sets" : "without flicker and motion");
   if (!data.lineMean.empty())
   {
     const std::string band = data.bandLow.empty() ? "" : ", 95 % band";
@@ -112,7 +117,10 @@ DrawCurve(const FigureData & data)
                    axis,
                    hasResiduals ? "" : "mean [DN]",
                    "variance [DN\u00B2]");
-    panel.Points(data.mean, data.variance, "before", PlotMarker::Ring);
+    if (!data.isOfLevelSets)
+    {
+      panel.Points(data.mean, data.variance, "before", PlotMarker::Ring);
+    }
     panel.Band(data.lineMean, data.bandLow, data.bandHigh, "third");
     panel.Points(data.mean, data.corrected, "after", PlotMarker::Disc);
     panel.Line(data.lineMean, data.lineVariance, line);

@@ -42,6 +42,9 @@ struct FigureData
   /** Upper bounds, as bandLow [DN^2]. */
   std::vector<double> bandHigh;
   bool                isIndicative{ false }; ///< whether there is a line but no gain; a plot dashes the line
+  /** Whether the points are level sets of single frames. Their variance has no flicker and motion: corrected equals
+   * variance. */
+  bool isOfLevelSets{ false };
 
   std::vector<double> flicker; ///< gamma_t of each frame, the illumination factor minus 1 [1]; empty: not known
   std::vector<double> motionX; ///< motion alpha_t of each frame along x [pixel]; empty: not known

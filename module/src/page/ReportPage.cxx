@@ -30,6 +30,17 @@ const char * const CurveWords =
   "variance (orange rings). Without them the variance is a line (blue discs), whose slope "
   "is the gain if the noise is white.";
 
+const char * const LevelSetWords =
+  "Each point is a level set: areas of about one level, without edges and texture. Their variance is a line, whose "
+  "slope is the gain if the noise is white.";
+
+/** Returns what the points of the noise curve are. */
+std::string
+PointWords(bool isOfLevelSets)
+{
+  return isOfLevelSets ? LevelSetWords : CurveWords;
+}
+
 /** Returns sentences on the residuals below the curve. \a spread: FigureData::residualSpread [1]. */
 std::string
 ResidualWords(double spread)
@@ -44,7 +55,7 @@ ResidualWords(double spread)
 std::string
 CurveCaption(const FigureData & data)
 {
-  return CurveWords + std::string(data.lineMean.empty() ? " No line was fitted." : "") +
+  return PointWords(data.isOfLevelSets) + (data.lineMean.empty() ? " No line was fitted." : "") +
          (data.isIndicative ? " The dashed line is no measurement." : "") +
          (data.residuals.empty() ? "" : ResidualWords(data.residualSpread));
 }
@@ -105,7 +116,8 @@ CurvesOfChannels(const ChannelReports & reports)
     spread = std::max(spread, data.residualSpread);
   }
   return Heading("h2", "Noise curves") + "<div class=\"maps\">\n" + figures + "</div>\n<p class=\"soft\">" +
-         CurveWords + (hasResiduals ? ResidualWords(spread) : "") + "</p>\n";
+         PointWords(reports.channels.front().singleImage.has_value()) + (hasResiduals ? ResidualWords(spread) : "") +
+         "</p>\n";
 }
 
 /** Returns the known values, for example "flicker 0.01 ± 0.001; motion x 0.1, y 0.2 pixel". */

@@ -244,6 +244,33 @@ FillLevelSets(Report & report, const std::vector<std::optional<ImageNoise>> & fr
   }
 }
 
+/** Returns how many details were found, and how many of them the lines of the frames are made of: level sets that are
+ * large enough, and mostly between the clip levels by the last line that was tried. */
+std::string
+ReasonOfFewDetails(const SingleImageFindings & found)
+{
+  double      details = 0.0;
+  double      inSets = 0.0;
+  std::size_t sets = 0;
+  for (const auto & frame : found.frames)
+  {
+    for (std::size_t i = 0; frame && i < frame->diagonal.size(); ++i)
+    {
+      const bool isFitted = frame->line.isFitted[i];
+      details += frame->diagonal[i].details;
+      inSets += isFitted ? frame->diagonal[i].details : 0.0;
+      sets += isFitted ? 1 : 0;
+    }
+  }
+  const auto count = [](double number) { return std::to_string(std::llround(number)); };
+  return "even areas have " + count(details) + " detail coefficients, and " + count(inSets) + " of them, in " +
+         std::to_string(sets) + (sets == 1 ? " level set" : " level sets") +
+         ", are left for the line (expected at least " + count(InSingle.leastCoefficients) + " in " +
+         std::to_string(InSingle.leastLevelSets) +
+         "): texture and edges fill the frame, the noise was filtered, or the frame has one level. Include even areas "
+         "from dark to bright, or use --method refined with a burst";
+}
+
 /** Why there is no line, or the numbers cannot stand; "": they can. */
 std::string
 ReasonAgainst(Report & report, const SingleImageFindings & found, const AllFrames & all, const NoiseLine & line)
@@ -269,17 +296,7 @@ ReasonAgainst(Report & report, const SingleImageFindings & found, const AllFrame
                   "). Use more bits, or a higher analogue gain");
     return "the quantization step hides the noise";
   }
-  if (!line.isDetermined || line.details < InSingle.leastCoefficients)
-  {
-    return "even areas have only " + Rounded(line.details) +
-           " detail coefficients between the clip levels (expected at "
-           "least " +
-           Rounded(InSingle.leastCoefficients) +
-           ", of different levels): texture and edges fill the frame, the noise was filtered, or the frame has one "
-           "level. "
-           "Include even areas from dark to bright, or use --method refined with a burst";
-  }
-  return "";
+  return line.isDetermined && line.details >= InSingle.leastCoefficients ? "" : ReasonOfFewDetails(found);
 }
 } // namespace
 

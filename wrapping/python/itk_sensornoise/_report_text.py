@@ -30,7 +30,7 @@ def text_of_report(record: Mapping[str, Any]) -> str:
     pixels = record["pixels"]
     used = 100.0 * pixels["used"] / pixels["total"]
     lines = [
-        f"{record['frames']} frames{_counted(record)} of {record['width']} x {record['height']} pixels{_codes(record)}",
+        f"{_frames(record)}{_counted(record)} of {record['width']} x {record['height']} pixels{_codes(record)}",
         f"{pixels['used']} of {pixels['total']} pixels used ({used:.1f} %), {pixels['clipped']} clipped, "
         f"{pixels['not_finite']} not finite",
         f"method: {record['method']}",
@@ -61,7 +61,7 @@ def text_of_channels(record: Mapping[str, Any]) -> str:
     aligned = ["".join(map(str.ljust, row, widths)).rstrip() for row in rows]
     joint, motion = record["joint"], record["joint_vibration"]
     lines = [
-        f"{first['frames']} frames, planes of {first['width']} x {first['height']} pixels of a {bayer['pattern']} "
+        f"{_frames(first)}, planes of {first['width']} x {first['height']} pixels of a {bayer['pattern']} "
         f"mosaic ({bayer['source']})",
         f"method: {first['method']}",
         *_input(record.get("input")),
@@ -91,6 +91,10 @@ def _warnings_of_channels(record: Mapping[str, Any]) -> list[Mapping[str, Any]]:
         {"severity": severity, "message": f"{', '.join(names)}: {message}", "code": code}
         for (severity, message, code), names in channels_of.items()
     ]
+
+
+def _frames(record: Mapping[str, Any]) -> str:
+    return "1 frame" if record["frames"] == 1 else f"{record['frames']} frames"
 
 
 def _counted(record: Mapping[str, Any]) -> str:
