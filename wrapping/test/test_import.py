@@ -59,8 +59,8 @@ def test_import_loads_neither_our_library_nor_what_draws(fresh):
     assert fresh(code) == "[]\n"
 
 
-def test_import_costs_less_than_itk_itself(fresh):
-    """What the package adds to `import itk` takes less time than `import itk` in the same process."""
+def test_import_costs_a_small_part_of_that_of_itk(fresh):
+    """What the package adds to `import itk` takes less than a quarter of its time in the same process, found: 8 %."""
     code = (
         "import sys, time\n"
         "start = time.perf_counter()\n"
@@ -73,7 +73,7 @@ def test_import_costs_less_than_itk_itself(fresh):
         "itk_sensornoise._install.install()\n"
         "print((time.perf_counter() - start) / of_itk)"
     )
-    assert min(float(fresh(code)) for _ in range(3)) < 1.0
+    assert min(float(fresh(code)) for _ in range(3)) < 0.25
 
 
 def test_reload_keeps_our_functions(burst):
