@@ -141,6 +141,7 @@ BandTile::TransformRow(std::size_t row, bool hasDetails)
   float * const highOdd = highEven + m_Half;
   MixRows(m_Rows.data(), width, oldest, Wavelet::high, width, highEven);
   const std::size_t first = (row - WaveletWindow::Detail) * m_Tile.width;
+  float * const     toDetail = detail.data() + first;
   float * const     toDiagonal = diagonal.data() + first;
   float * const     toHorizontal = horizontal.data() + first;
   float * const     toVertical = vertical.data() + first;
@@ -150,6 +151,7 @@ BandTile::TransformRow(std::size_t row, bool hasDetails)
     const float       d = AlongRow(highEven, highOdd, Wavelet::high, at);
     const float       h = AlongRow(lowEven, lowOdd, Wavelet::high, at);
     const float       v = AlongRow(highEven, highOdd, Wavelet::low, at);
+    toDetail[i] = d;
     toDiagonal[i] = d * d;
     toHorizontal[i] = h * h;
     toVertical[i] = v * v;
@@ -208,7 +210,7 @@ BandTile::Compute(const SingleFrame<TPixel> & frame, const TileOfPositions & til
   m_Mixed.resize(4 * m_Half);
   const std::size_t rows = tile.height + WaveletWindow::Reach;
   m_Approximation.resize(m_Columns * rows);
-  for (std::vector<float> * const of : { &level, &roughness, &diagonal, &horizontal, &vertical })
+  for (std::vector<float> * const of : { &level, &roughness, &detail, &diagonal, &horizontal, &vertical })
   {
     of->resize(this->Positions());
   }

@@ -185,6 +185,19 @@ SumSample(const std::vector<BandTile> & sample, const LevelGrid & grid, const Pa
   return sums;
 }
 
+DetailCorrelation
+CorrelateSample(const std::vector<BandTile> & sample, const LevelGrid & grid, const ParallelFor & parallelFor)
+{
+  std::vector<DetailCorrelation> parts(sample.size());
+  parallelFor(sample.size(), [&](std::size_t k) { parts[k].Add(sample[k], grid); });
+  DetailCorrelation correlation;
+  for (const DetailCorrelation & part : parts)
+  {
+    correlation.Add(part);
+  }
+  return correlation;
+}
+
 template <typename TPixel>
 LevelSums
 SumFrame(const SingleFrame<TPixel> & frame,
@@ -280,6 +293,7 @@ MeasureFrame(const PlaneOfFrame<TPixel> & plane, const LevelLimits & limits, con
   }
   const LevelSums sums = SumFrame(frame, tiles, grid, parallelFor);
   ImageNoise      noise;
+  noise.correlation = CorrelateSample(sample, grid, parallelFor);
   noise.diagonal = setsOf(sums, grid, DetailBand::Diagonal);
   noise.sides = setsOf(sums, grid, DetailBand::Sides);
   noise.line = FitNoiseLine(noise.diagonal, limits.clip, leastDn2, line);

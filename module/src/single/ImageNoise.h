@@ -9,6 +9,7 @@
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Report.h"
 #include "base/PixelLayout.h"
+#include "single/DetailCorrelation.h"
 #include "single/NoiseLine.h"
 
 #include <cstddef>
@@ -36,6 +37,7 @@ struct ImageNoise
   std::vector<LevelSet> diagonal;      ///< level sets, with variances from the diagonal details
   std::vector<LevelSet> sides;         ///< the same sets, with variances from horizontal and vertical details
   NoiseLine             line;          ///< line through the variances of the diagonal details
+  DetailCorrelation     correlation;   ///< correlation of neighbouring diagonal details, in a sample of the frame
   double                finite{ 0.0 }; ///< number of positions whose pixels are all finite
   double                even{ 0.0 };   ///< number of positions without edges and texture
 };

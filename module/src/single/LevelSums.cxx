@@ -142,17 +142,13 @@ void
 LevelSums::Add(const BandTile & tile, const LevelGrid & grid)
 {
   sets.resize(grid.variance.size());
-  const auto  last = static_cast<float>(sets.size() - 1);
-  const auto  low = static_cast<float>(grid.low);
-  const auto  perLevel = static_cast<float>(grid.perLevel);
   const auto  largestRoughness = static_cast<float>(InSingle.largestRoughness);
   const auto  limit = static_cast<float>(InSingle.largestDetail * InSingle.largestDetail);
   std::size_t found = 0;
   for (std::size_t i = 0; i < tile.Positions(); ++i)
   {
     const float roughness = tile.roughness[i];
-    const float place = std::min(std::max(0.0F, (tile.level[i] - low) * perLevel), last);
-    const auto  k = static_cast<std::size_t>(place); // std::max replaces NaN by 0
+    const auto  k = grid.SetOf(tile.level[i]);
     const float variance = grid.variance[k];
     found += roughness >= 0.0F ? 1 : 0;
     if (!(roughness < largestRoughness * variance))

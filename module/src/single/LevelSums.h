@@ -7,6 +7,7 @@
 #include "base/PixelLayout.h"
 #include "single/NoiseLine.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -108,10 +109,16 @@ public:
   {
     return m_Tile.width * m_Tile.height;
   }
+  std::size_t
+  Width() const
+  {
+    return m_Tile.width;
+  }
 
   std::vector<float> level; ///< mean of the approximation in the window
   std::vector<float>
-    roughness; ///< unbiased variance of a pixel's noise, by the approximation's deviations in the window
+    roughness;               ///< unbiased variance of a pixel's noise, by the approximation's deviations in the window
+  std::vector<float> detail; ///< diagonal detail
   std::vector<float> diagonal;   ///< square of the diagonal detail
   std::vector<float> horizontal; ///< square of the horizontal detail
   std::vector<float> vertical;   ///< square of the vertical detail
@@ -176,6 +183,15 @@ struct LevelGrid
   CentreOf(std::size_t set) const
   {
     return low + (static_cast<double>(set) + 0.5) / perLevel;
+  }
+  /** Returns the set of a level; the first one for NaN. */
+  std::size_t
+  SetOf(float level) const
+  {
+    const auto last = static_cast<float>(variance.size() - 1);
+    // std::max replaces NaN by 0
+    return static_cast<std::size_t>(
+      std::min(std::max(0.0F, (level - static_cast<float>(low)) * static_cast<float>(perLevel)), last));
   }
 };
 

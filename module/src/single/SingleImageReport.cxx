@@ -23,6 +23,7 @@ struct AllFrames
 {
   double                finite{ 0.0 };
   double                even{ 0.0 };
+  DetailCorrelation     correlation;
   std::vector<LevelSet> diagonal;
   std::vector<LevelSet> sides;
 };
@@ -37,6 +38,7 @@ Gather(const std::vector<std::optional<ImageNoise>> & frames)
     {
       all.finite += frame->finite;
       all.even += frame->even;
+      all.correlation.Add(frame->correlation);
       all.diagonal.insert(all.diagonal.end(), frame->diagonal.begin(), frame->diagonal.end());
       all.sides.insert(all.sides.end(), frame->sides.begin(), frame->sides.end());
     }
@@ -160,7 +162,7 @@ DescribeFrames(Report & report, const SingleImageFindings & found, const AllFram
 
 /** Texts of what speaks for texture; empty: nothing does. */
 std::string
-SignsOfTexture(const SingleImageRecord & record, const NoiseLine & line)
+SignsOfTexture(const SingleImageRecord & record, const NoiseLine & line, const DetailCorrelation::Lag & correlation)
 {
   const double slopeError = std::sqrt(line.slopeVariance) / std::max(std::abs(line.line.slopeDn), 1e-300);
   std::string  text;
@@ -174,6 +176,13 @@ SignsOfTexture(const SingleImageRecord & record, const NoiseLine & line)
   {
     add("horizontal and vertical details have " + Percent(record.bandExcess) +
         " more variance than diagonal ones (expected at most " + Percent(InSingle.largestBandExcess) + ")");
+  }
+  if (std::abs(correlation.value) >
+      InSingle.largestDetailCorrelation + Significance.oneTest * correlation.standardError)
+  {
+    const auto pixels = [](int lag) { return std::to_string(2 * lag); };
+    add("details " + pixels(correlation.x) + " columns and " + pixels(correlation.y) + " rows apart correlate by " +
+        Rounded(correlation.value) + " (expected at most " + Rounded(InSingle.largestDetailCorrelation) + " in size)");
   }
   if (line.reducedChi2 > InSingle.largestReducedChi2)
   {
@@ -334,7 +343,7 @@ MakeSingleImageReport(const SingleImageFindings & found)
     return report;
   }
   FillParameters(report, found, line);
-  const std::string signs = SignsOfTexture(*report.singleImage, line);
+  const std::string signs = SignsOfTexture(*report.singleImage, line, all.correlation.Largest());
   if (!signs.empty())
   {
     report.Warn(WarningCode::TextureDominates,
