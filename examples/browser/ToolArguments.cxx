@@ -20,7 +20,7 @@ ShellWord(const std::string & text)
   const auto isPlain = [](unsigned char letter) {
     return std::isalnum(letter) != 0 || std::string("_./,:=+-@%").find(static_cast<char>(letter)) != std::string::npos;
   };
-  const std::string word = text.rfind('-', 0) == 0 ? "./" + text : text; // no option
+  std::string word = text.rfind('-', 0) == 0 ? "./" + text : text; // no option
   if (std::all_of(word.begin(), word.end(), isPlain))
   {
     return word;
