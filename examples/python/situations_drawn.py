@@ -42,8 +42,8 @@ def offset_drifts(random, camera):
 
 
 def gain_changes(random, camera):
-    """Returns a burst whose gain becomes 10 to 100 % larger, while the exposure becomes as much shorter. The larger part
-    of the frames has the true gain."""
+    """Returns a burst whose gain becomes 10 to 100 % larger, while the exposure becomes as much shorter. The
+    larger part of the frames has the true gain."""
     ratio = 1 + random.choice([0.1, 0.5, 1.0])
     share = random.choice([random.uniform(0.2, 0.4), random.uniform(0.6, 0.8)])
     later = np.arange(camera.frames) >= int(camera.frames * share)

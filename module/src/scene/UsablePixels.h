@@ -160,11 +160,11 @@ RequireFineQuantization(const UsablePixels & pixels, double stepDn);
 /** Range of the illumination and the offset, estimated from the levels of the frames and a rough model. */
 struct IlluminationRange
 {
-  double lowestDn;        ///< mean of the darkest frame minus the mean of all frames [DN]
-  double highestDn;       ///< mean of the brightest frame minus the mean of all frames [DN]
-  double lowestOffsetDn;  ///< smallest possible offset [DN]
-  double highestOffsetDn; ///< largest possible offset, at most the mean of the darkest frame [DN]
-  double lowestNoiseDn2;  ///< upper bound of the noise variance in the darkest frame; may be infinite [DN^2]
+  double lowestDn{ 0.0 };        ///< mean of the darkest frame minus the mean of all frames [DN]
+  double highestDn{ 0.0 };       ///< mean of the brightest frame minus the mean of all frames [DN]
+  double lowestOffsetDn{ 0.0 };  ///< smallest possible offset [DN]
+  double highestOffsetDn{ 0.0 }; ///< largest possible offset, at most the mean of the darkest frame [DN]
+  double lowestNoiseDn2{ 0.0 };  ///< upper bound of the noise variance in the darkest frame; may be infinite [DN^2]
   /** Fraction of the model's noise variance that is noise, at high levels; the rest is by the illumination [1]. */
   double fractionOfNoise{ 1.0 };
   /** Whether motion changes a frame in proportion to its brightness. A weak change moves the extreme by less than the
