@@ -5,6 +5,8 @@
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal, TypedDict, Unpack, overload
 
+import numpy as np
+
 from . import _options
 from ._channels import ChannelReports, report_of
 from ._errors import itk_errors
@@ -306,7 +308,7 @@ def _open_burst(frames: Frames, span: tuple[int, int] | None) -> Stack:
     try:
         return open_frames(frames, span)
     except ValueError as error:
-        if getattr(frames, "ndim", None) != 2:
+        if not (isinstance(frames, np.ndarray) and frames.ndim == 2):
             raise
         raise type(error)(f'{error}. For one frame, use method="single-image"') from None
 
