@@ -25,11 +25,11 @@ constexpr std::size_t Frames = 30;
 constexpr std::size_t FramesBefore = 12; // of a recursive filter: 0.4^12 of the first frame is left
 
 Stack<Codes>
-Unmixed(std::size_t width, std::size_t height)
+Unmixed(std::size_t width, std::size_t height, double vibrationPixels = 0.0)
 {
   SimulationSettings settings = FlickeringSettings(Frames + FramesBefore);
   settings.camera = { 4000.0, GainDn, 100.0, 5.0 };
-  settings.conditions = { 0.01, 0.0, 0.0 };
+  settings.conditions = { 0.01, vibrationPixels, vibrationPixels };
   return Simulate<Codes>(settings, width, height);
 }
 
@@ -80,6 +80,14 @@ TEST(SensorNoiseMixedFrames, InterpolatedAtUnequalTimesHaveNoGain)
   CounterSeededRandom random(7);
   const Report        report =
     ReportOf(Mix(Unmixed(128, 96), false, [&](std::size_t) { return 0.05 + 0.45 * random.Uniform(); }));
+  EXPECT_NE(report.gain.status, EstimateStatus::Identified) << *report.gain.value;
+}
+
+// Motion hides which frames are mixed, and is itself common to mixed frames.
+TEST(SensorNoiseMixedFrames, UnderStrongVibrationHaveNoGain)
+{
+  const Stack<Codes> stack = Unmixed(128, 96, 0.6);
+  const Report       report = ReportOf(Mix(stack, false, [](std::size_t t) { return t % 2 == 0 ? 0.5 : 0.0; }));
   EXPECT_NE(report.gain.status, EstimateStatus::Identified) << *report.gain.value;
 }
 

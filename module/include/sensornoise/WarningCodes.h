@@ -189,8 +189,8 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
   { WarningCode::StrongVibration,
     "strong-vibration",
     Severity::Warning,
-    "The scene may move by more than 0.4 pixels rms, so that rough areas are left out. Register the frames to whole "
-    "pixels first." },
+    "The scene may move by more than 0.4 pixels rms, so that rough areas are left out. Choose a smooth part "
+    "of the scene (--roi), or keep camera and scene still." },
   { WarningCode::PeriodicInterference,
     "periodic-interference",
     Severity::Note,

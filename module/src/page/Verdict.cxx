@@ -65,10 +65,10 @@ SeverityOf(const ChannelReports & reports)
 namespace
 {
 /** First words of the actions in WarningTable and in the messages of both methods. */
-constexpr std::array<const char *, 22> Commands{ "Change ", "Check ",   "Choose ", "Correct ", "Expose ",   "Fit ",
-                                                 "Give ",   "Include ", "Leave ",  "Let ",     "Look ",     "Measure ",
-                                                 "Open ",   "Read ",    "Record ", "Reduce ",  "Register ", "Set ",
-                                                 "Switch ", "Try ",     "Use ",    "Wait " };
+constexpr std::array<const char *, 22> Commands{ "Change ",  "Check ",   "Choose ", "Correct ", "Expose ", "Fit ",
+                                                 "Give ",    "Include ", "Keep ",   "Leave ",   "Let ",    "Look ",
+                                                 "Measure ", "Open ",    "Read ",   "Record ",  "Reduce ", "Set ",
+                                                 "Switch ",  "Try ",     "Use ",    "Wait " };
 
 bool
 IsCommand(const std::string & sentence)

@@ -38,7 +38,7 @@ struct RefinedConstants
 
   /** \name Errors of the gain */
   ///@{
-  /** Vibration above which the expansion in derivatives fails, so that the frames should be registered [pixels rms].
+  /** Vibration above which the expansion in derivatives fails [pixels rms].
    * The bias of the gain is then proportional to the squared vibration: it is \a biasOfVibration of the gain [1] at
    * \a referenceVibration [pixels^2]. Measured by the robustness cases of measure-cases. */
   double strongVibration{ 0.4 };

@@ -69,9 +69,9 @@ BetterLine(const StaticVariance & variance)
 }
 
 bool
-MovesLittle(const FrameComparison & by)
+MovesLittle(const InitialNoiseModel & model)
 {
-  return std::max(by.scene.model.vibrationXPixels2, by.scene.model.vibrationYPixels2) <
+  return std::max(model.vibrationXPixels2, model.vibrationYPixels2) <
          InRefined.strongVibration * InRefined.strongVibration;
 }
 
@@ -132,8 +132,8 @@ CompareFrames(const StaticVariance &   variance,
   const bool       isLocal = by.isIlluminationLocal && !isTemporal;
   const double     leastUnlike = isLocal ? InRefined.leastUnlikeUnderLocalIllumination : InRefined.leastUnlikeNoise;
   const Thresholds thresholds{ std::max(1.0, VarianceInflation(correlation.space)),
-                               MovesLittle(by) ? leastUnlike
-                                               : std::max(InRefined.leastUnlikeUnderMotion, leastUnlike) };
+                               MovesLittle(by.scene.model) ? leastUnlike
+                                                           : std::max(InRefined.leastUnlikeUnderMotion, leastUnlike) };
   const std::vector<std::uint8_t> flat = MaskOfFlatClasses(by.squares, MaskOfUsed(variance.pixelUse), parallelFor);
   const std::vector<SlopeOfLine>  lines = LinesByError(variance);
   Eigen::VectorXd                 remaining = Eigen::VectorXd::Ones(by.residuals.GetBasis().rows());

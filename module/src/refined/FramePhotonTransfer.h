@@ -168,7 +168,7 @@ BetterLine(const StaticVariance & variance);
 
 /** Returns whether the scene moves so little that no motion remains in the residuals. */
 bool
-MovesLittle(const FrameComparison & by);
+MovesLittle(const InitialNoiseModel & model);
 
 /** Finds the frames whose noise differs from the noise of the others. If frames of two gains have two levels, the line
  * of the frames fits them all; the line of the pixels then contradicts it. */

@@ -56,6 +56,13 @@ TextOfFailure(const RefinedResults & found, const TestedGain & tested)
              Rounded(InRefined.largestCorrection) +
              "), but changes of the illumination that are left correlate neighbours, too. Record more frames, or "
              "choose an evenly lit part at rest: --roi";
+    case GainVerdict::MotionIsLeft:
+      return "the noise that frames share changes the gain by a factor of " +
+             RoundedApart(CorrectionByCorrelation(found, gain), 1.0 + InRefined.leastUnlikeNoise) +
+             " (expected at most " + Rounded(1.0 + InRefined.leastUnlikeNoise) +
+             "), but the scene moves by more than " + Rounded(InRefined.strongVibration) +
+             " pixels rms, and frames share the motion, too. Switch noise reduction and interpolation in time off, or "
+             "keep camera and scene still";
     case GainVerdict::NotAffine:
       return "the variance deviates from its line by " +
              PercentApart(gain.nonlinearity, InRefined.largestNonlinearity) + " of itself (expected less than " +
@@ -249,6 +256,7 @@ WarnOfGain(Report & report, const RefinedResults & found, const TestedGain & tes
       return;
     case GainVerdict::FramesDiffer:
     case GainVerdict::IlluminationIsLeft:
+    case GainVerdict::MotionIsLeft:
     case GainVerdict::NotAffine:
     case GainVerdict::GainDependsOnOffset:
     case GainVerdict::NotRising:

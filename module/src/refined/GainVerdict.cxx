@@ -4,6 +4,7 @@
 
 #include "base/Constants.h"
 #include "pixels/Constants.h"
+#include "refined/FramePhotonTransfer.h"
 #include "refined/Constants.h"
 
 #include <algorithm>
@@ -28,6 +29,12 @@ FindContradiction(const RefinedResults & found, const GainEstimate & gain)
   if (found.lines.remainingVariance > 0.0 && CorrectionByCorrelation(found, gain) > InRefined.largestCorrection)
   {
     return GainVerdict::IlluminationIsLeft;
+  }
+  // Under strong vibration frames cannot be compared, so that their mixing may differ.
+  if (found.correlation.kind == NoiseKind::Temporal && !MovesLittle(found.scene.model) &&
+      CorrectionByCorrelation(found, gain) > 1.0 + InRefined.leastUnlikeNoise)
+  {
+    return GainVerdict::MotionIsLeft;
   }
   if (gain.nonlinearity > InRefined.largestNonlinearity)
   {
@@ -82,6 +89,7 @@ StatusBy(GainVerdict verdict)
       return EstimateStatus::NotIdentifiable;
     case GainVerdict::FramesDiffer:
     case GainVerdict::IlluminationIsLeft:
+    case GainVerdict::MotionIsLeft:
     case GainVerdict::NotAffine:
     case GainVerdict::GainDependsOnOffset:
     case GainVerdict::NotRising:

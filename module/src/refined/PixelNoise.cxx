@@ -248,7 +248,7 @@ MeasureFrames(PixelNoise &            noise,
   const double shared = std::max(1.0, VarianceInflation(noise.correlation.space));
   noise.variance.fromFrames = LineOfFrames(noise.variance, by, parallelFor);
   noise.frames = CompareFrames(noise.variance, by, noise.correlation, parallelFor);
-  if (!noise.frames.HasSeveralGroups() && !by.isIlluminationLocal && MovesLittle(by))
+  if (!noise.frames.HasSeveralGroups() && !by.isIlluminationLocal && MovesLittle(by.scene.model))
   {
     const FrameEnergies energies(by.residuals, MaskOfUsed(noise.variance.pixelUse), parallelFor);
     noise.variance.parts.frames =
@@ -346,7 +346,7 @@ MeasurePixelNoise(ResidualSquares                          squares,
   {
     noise.lines.left = EstimateLineIlluminationChange(residuals, allowed.lines.axis, parallelFor);
   }
-  FindOtherCauses(noise.correlation, residuals, repeated, MovesLittle(comparison), parallelFor);
+  FindOtherCauses(noise.correlation, residuals, repeated, MovesLittle(comparison.scene.model), parallelFor);
   noise.correctedVariance = std::move(projected).TakeVarianceAt(noise.variance.correctingGain);
   return noise;
 }

@@ -247,7 +247,8 @@ WarnOfEstimate(Report & report, const RefinedResults & found, const RefinedEstim
     report.Warn(WarningCode::StrongVibration,
                 "the scene may move by " + RoundedApart(*estimate.strongVibrationPixels, InRefined.strongVibration) +
                   " pixels rms (expected at most " + Rounded(InRefined.strongVibration) +
-                  "), so that rough areas are left out. Register the frames to whole pixels first");
+                  "), so that rough areas are left out. Choose a smooth part of the scene (--roi), or keep camera and "
+                  "scene still");
   }
   WarnOfGain(report, found, estimate.ofSensor, estimate.effectOfLines);
   if (estimate.ofSensor.IsIdentified())
