@@ -45,7 +45,7 @@ TextOfFailure(const RefinedResults & found, const TestedGain & tested)
     case GainVerdict::FramesDiffer:
       return "the noise variance of the frames does not follow their levels, " +
              (found.frameNoise.scatter > 0.0
-                ? "for half of them by more than " + PercentApart(found.frameNoise.scatter, InRefined.leastUnlikeNoise)
+                ? "by " + PercentApart(found.frameNoise.scatter, InRefined.leastUnlikeNoise) + " rms"
                 : "in groups (" + found.frameNoise.Text(gain.line.gain) + "; the first frame is 0)") +
              " (expected at most " + Percent(InRefined.leastUnlikeNoise) +
              "): they have several gains or were processed differently. Measure the frames of each kind by themselves: "
@@ -57,11 +57,11 @@ TextOfFailure(const RefinedResults & found, const TestedGain & tested)
              "), but changes of the illumination that are left correlate neighbours, too. Record more frames, or "
              "choose an evenly lit part at rest: --roi";
     case GainVerdict::MotionIsLeft:
-      return "the noise that frames share changes the gain by a factor of " +
+      return "the noise correlation between frames changes the gain by a factor of " +
              RoundedApart(CorrectionByCorrelation(found, gain), 1.0 + InRefined.leastUnlikeNoise) +
              " (expected at most " + Rounded(1.0 + InRefined.leastUnlikeNoise) +
              "), but the scene moves by more than " + Rounded(InRefined.strongVibration) +
-             " pixels rms, and frames share the motion, too. Switch noise reduction and interpolation in time off, or "
+             " pixels rms, and motion correlates frames, too. Switch noise reduction and interpolation in time off, or "
              "keep camera and scene still";
     case GainVerdict::NotAffine:
       return "the variance deviates from its line by " +
