@@ -78,15 +78,21 @@ FractionOfNoise(const InitialNoiseModel & model, const FrameLevels & levels)
   return std::min(1.0, noiseDn2 / model.NoiseVariance(model.centreDn));
 }
 
-/** Returns the range of the illumination in levels, about the largest possible offset: no mean of a frame is below the
- * offset. */
+/** Returns the largest possible offset [DN]: no mean of a frame is below the offset. */
+double
+HighestOffset(const InitialNoiseModel & model, const FrameLevels & levels)
+{
+  return std::min(model.darkestDn, levels.average + levels.lowest);
+}
+
+/** Returns the range of the illumination, about the largest possible offset. The illumination may change differently
+ * from place to place, and leave the means of the frames as they are. */
 IlluminationRange
 RangeOfIllumination(const InitialNoiseModel & model, const FrameLevels & levels)
 {
-  const double offsetDn = std::min(model.darkestDn, levels.average + levels.lowest);
-  // The illumination may change differently from place to place, and leave the means of the frames as they are.
   const double typical =
     InScene.typicalFlickerSds * std::sqrt(model.flickerVariance) * (model.centreDn - model.darkestDn);
+  const double offsetDn = HighestOffset(model, levels);
   return { std::min(levels.lowest, -typical),       std::max(levels.highest, typical), offsetDn, offsetDn,
            std::numeric_limits<double>::infinity(), FractionOfNoise(model, levels) };
 }
@@ -96,14 +102,9 @@ RangeOfIllumination(const InitialNoiseModel & model, const FrameLevels & levels)
 IlluminationRange
 RangeOfStrongChange(const InitialNoiseModel & model, const FrameLevels & levels, double darkestNoiseDn2)
 {
-  IlluminationRange range = RangeOfIllumination(model, levels);
-  range.lowestDn = levels.lowest;
-  range.highestDn = levels.highest;
-  range.lowestOffsetDn = std::min(range.highestOffsetDn, model.darkestDn - model.interceptDn2 / model.slopeDn);
-  range.lowestNoiseDn2 = darkestNoiseDn2;
-  range.fractionOfNoise = 1.0;
-  range.scalesMotion = true;
-  return range;
+  const double highestDn = HighestOffset(model, levels);
+  const double lowestDn = std::min(highestDn, model.darkestDn - model.interceptDn2 / model.slopeDn);
+  return { levels.lowest, levels.highest, lowestDn, highestDn, darkestNoiseDn2, 1.0, true };
 }
 } // namespace
 
@@ -177,40 +178,51 @@ RequireFineQuantization(const UsablePixels & pixels, double stepDn)
 
 namespace
 {
-/** Clip levels and their guard: levels that the noise must not reach [DN], relative brightness of the brightest and the
- * darkest frame [1], and distance in standard deviations [1]. */
-struct GuardedLevels
+/** Clip levels, and the extremes of the frames about an offset that are compared with them. */
+struct Guard
 {
-  double lowDn;
-  double highDn;
-  double brightest;
-  double darkest;
-  double sds;
+  double offsetDn;        ///< about which the signal scales [DN]
+  double lowDn;           ///< level that the noise must not reach [DN]
+  double highDn;          ///< level that the noise must not reach [DN]
+  double darkest;         ///< brightness of the darkest frame, relative to the mean frame, less 1 [1]
+  double brightest;       ///< brightness of the brightest frame, relative to the mean frame, less 1 [1]
+  double motionInDarkest; ///< variance by motion in the darkest frame, relative to the mean frame [1]
+  double motionInBrightest;
+  double lowestNoiseDn2;  ///< as in IlluminationRange
+  double fractionOfNoise; ///< as in IlluminationRange
+  double sds;             ///< distance in standard deviations [1]
 };
 
-GuardedLevels
-LevelsOf(const CodeRange & codes, double brightest, double darkest, double sds)
+Guard
+GuardAbout(double offsetDn, const IlluminationRange & range, double centreDn, const CodeRange & codes, double sds)
 {
   constexpr double never = std::numeric_limits<double>::infinity();
-  return { codes.clipLowDn ? *codes.clipLowDn + 0.5 * codes.StepAt(*codes.clipLowDn) : -never,
+  const double     signal = std::max(1e-3, centreDn - offsetDn);
+  const double     darkest = std::max(-1.0, range.lowestDn / signal);
+  const double     brightest = range.highestDn / signal;
+  const auto motionIn = [&range](double change) { return range.scalesMotion ? (1.0 + change) * (1.0 + change) : 1.0; };
+  return { offsetDn,
+           codes.clipLowDn ? *codes.clipLowDn + 0.5 * codes.StepAt(*codes.clipLowDn) : -never,
            codes.clipHighDn ? *codes.clipHighDn - 0.5 * codes.StepAt(*codes.clipHighDn) : never,
-           brightest,
            darkest,
+           brightest,
+           motionIn(darkest),
+           motionIn(brightest),
+           range.lowestNoiseDn2,
+           range.fractionOfNoise,
            sds };
 }
 
-/** Marks the usable pixels of [begin, end) that reach a clip level, if the signal scales about \a offsetDn. The noise
- * is evaluated at the levels that are reached, so that in a dark frame it is small. Small arguments are passed by
- * value: by reference they could alias the output, which prevents vectorization. */
+/** Marks the usable pixels of [begin, end) that reach a clip level. The noise is evaluated at the levels that are
+ * reached, so that in a dark frame it is small. Small arguments are passed by value: by reference they could alias the
+ * output, which prevents vectorization. */
 void
-MarkGuardedAbout(double                 offsetDn,
-                 IlluminationRange      range,
-                 const ReferenceFrame & frame,
-                 InitialNoiseModel      model,
-                 GuardedLevels          guard,
-                 std::size_t            begin,
-                 std::size_t            end,
-                 std::uint8_t *         guarded)
+MarkGuarded(const ReferenceFrame & frame,
+            InitialNoiseModel      model,
+            Guard                  guard,
+            std::size_t            begin,
+            std::size_t            end,
+            std::uint8_t *         guarded)
 {
   const double * const       mean = frame.mean.data();
   const double * const       neighbourMean = frame.neighbourMean.data();
@@ -220,17 +232,15 @@ MarkGuardedAbout(double                 offsetDn,
   {
     const auto [gx, gy] = ApplyGradient(mean, width, p);
     const double level = neighbourMean[p];
-    const double signal = std::max(0.0, level - offsetDn);
-    const double highest = range.scalesMotion ? 1.0 + guard.brightest : 1.0;
-    const double lowest = range.scalesMotion ? 1.0 + guard.darkest : 1.0;
+    const double signal = std::max(0.0, level - guard.offsetDn);
     const double motion = model.MotionVariance(gx, gy);
     const double highDn = level + guard.brightest * signal;
     const double lowDn = level + guard.darkest * signal;
-    const double highNoise = range.fractionOfNoise * model.NoiseVariance(highDn);
-    const double high = highDn + guard.sds * std::sqrt(highNoise + highest * highest * motion);
-    const double lowNoise = std::min(range.lowestNoiseDn2, model.NoiseVariance(lowDn));
-    const double low = lowDn - guard.sds * std::sqrt(lowNoise + lowest * lowest * motion);
-    const bool   isReached = (high >= guard.highDn) | (low <= guard.lowDn);
+    const double highNoise = guard.fractionOfNoise * model.NoiseVariance(highDn);
+    const double lowNoise = std::min(guard.lowestNoiseDn2, model.NoiseVariance(lowDn));
+    const double high = highDn + guard.sds * std::sqrt(highNoise + guard.motionInBrightest * motion);
+    const double low = lowDn - guard.sds * std::sqrt(lowNoise + guard.motionInDarkest * motion);
+    const bool   isReached = (high >= guard.highDn) | (low <= guard.lowDn); // no short-circuit, to avoid a branch
     guarded[p] = usable[p] != 0 && isReached ? 1 : guarded[p];
   }
 }
@@ -250,10 +260,9 @@ FindGuardBand(const ReferenceFrame &    frame,
     return guarded;
   }
   const auto markAbout = [&](double offsetDn) {
-    const double        signal = std::max(1e-3, model.centreDn - offsetDn);
-    const GuardedLevels guard = LevelsOf(codes, range.highestDn / signal, std::max(-1.0, range.lowestDn / signal), sds);
+    const Guard guard = GuardAbout(offsetDn, range, model.centreDn, codes, sds);
     ForInnerBlocks(frame.geometry, parallelFor, [&](std::size_t begin, std::size_t end) {
-      MarkGuardedAbout(offsetDn, range, frame, model, guard, begin, end, guarded.data());
+      MarkGuarded(frame, model, guard, begin, end, guarded.data());
     });
   };
   markAbout(range.highestOffsetDn);
