@@ -53,15 +53,16 @@ SetCoefficients(InitialNoiseModel & model, const VarianceSample::Coefficients & 
 std::optional<double>
 FindUniformVariance(const VarianceSample & sample, double largestRatio)
 {
+  VarianceSample::Coefficients median = VarianceSample::Coefficients::Zero();
+  median(0) = QuantileOf(sample.raw, 0.5);
   VariancePrediction uniform;
-  uniform.variance.assign(sample.Size(), QuantileOf(sample.raw, 0.5));
+  Predict(sample, median, largestRatio, uniform);
   double count = 0.0;
   double mean = 0.0;
-  for (const double raw : sample.raw)
+  for (std::size_t i = 0; i < sample.Size(); ++i)
   {
-    uniform.keep.push_back(raw < largestRatio * uniform.variance.front() ? 1 : 0);
-    count += uniform.keep.back();
-    mean += uniform.keep.back() * (raw - mean) / std::max(1.0, count);
+    count += uniform.keep[i];
+    mean += uniform.keep[i] * (sample.raw[i] - mean) / std::max(1.0, count);
   }
   const VarianceSample::Coefficients theta = SolveKept(sample, uniform);
   double                             explained = 0.0;
