@@ -165,15 +165,15 @@ LevelOfDarkestFrame(OffsetLine line, double offset)
   return -offset * darkest;
 }
 
-/** Returns the line of \a sums without the squares of the shifts, if these explain the flicker of \a line; they are
- * filed in \a found. Else returns \a line. */
+/** Returns the line of \a sums, whose \a equations are of all classes, without the squares of the shifts, if these
+ * explain the flicker of \a line; they are filed in \a found. Else returns \a line. */
 OffsetLine
 WithoutSquaresOfShifts(const FrameSums &      sums,
                        const RegressorNoise & noise,
+                       const FrameEquations & equations,
                        const OffsetLine &     line,
                        SceneSeries &          found)
 {
-  const FrameEquations equations = MakeFrameEquations(sums, noise, GradientClasses - 1);
   found.squaresOfShifts = SquaresThatExplain(line.gamma, SolveMotion(equations, line.gamma, line.offset));
   return found.squaresOfShifts.cols() > 0 ? FitOffsetLine(sums, noise, {}, found.squaresOfShifts).value_or(line) : line;
 }
@@ -253,8 +253,9 @@ FindSceneSeries(const FrameSums &                           sums,
           "very different signals. Record a static scene between the clip levels, correct --mask, --roi or "
           "--clip, or give each colour channel by itself");
   }
-  SceneSeries found;
-  found.line = changesStrongly ? *line : WithoutSquaresOfShifts(sums, noise, *line, found);
+  SceneSeries    found;
+  FrameEquations equations = MakeFrameEquations(sums, noise, GradientClasses - 1);
+  found.line = changesStrongly ? *line : WithoutSquaresOfShifts(sums, noise, equations, *line, found);
   const InitialNoiseModel & model = sums.GetRegressors().GetModel();
   if (!changesStrongly) // the deviations of a non-linear response from the line are larger then
   {
@@ -263,7 +264,6 @@ FindSceneSeries(const FrameSums &                           sums,
                        { std::min(blackDn, model.darkestDn) - model.centreDn, model.darkestDn - model.centreDn, 2 },
                        InSeries.leastOffsetStep * std::sqrt(model.NoiseVariance(model.darkestDn)));
   }
-  FrameEquations equations = MakeFrameEquations(sums, noise, GradientClasses - 1);
   // Fixed-pattern noise of a flat field has contrast, too.
   const bool isPrecise =
     found.line.standardError < InCommon.largestRelativeError * std::max(0.0, -found.line.offset) || !changesStrongly;
