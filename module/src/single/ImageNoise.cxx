@@ -172,30 +172,19 @@ MakeGrid(const StartingGroups & groups,
   return grid;
 }
 
-LevelSums
+/** Returns the sums over the tiles of a sample: LevelSums or DetailCorrelation. */
+template <typename TSums>
+TSums
 SumSample(const std::vector<BandTile> & sample, const LevelGrid & grid, const ParallelFor & parallelFor)
 {
-  std::vector<LevelSums> parts(sample.size());
+  std::vector<TSums> parts(sample.size());
   parallelFor(sample.size(), [&](std::size_t k) { parts[k].Add(sample[k], grid); });
-  LevelSums sums;
-  for (const LevelSums & part : parts)
+  TSums sums;
+  for (const TSums & part : parts)
   {
     sums.Add(part);
   }
   return sums;
-}
-
-DetailCorrelation
-CorrelateSample(const std::vector<BandTile> & sample, const LevelGrid & grid, const ParallelFor & parallelFor)
-{
-  std::vector<DetailCorrelation> parts(sample.size());
-  parallelFor(sample.size(), [&](std::size_t k) { parts[k].Add(sample[k], grid); });
-  DetailCorrelation correlation;
-  for (const DetailCorrelation & part : parts)
-  {
-    correlation.Add(part);
-  }
-  return correlation;
 }
 
 template <typename TPixel>
@@ -282,7 +271,7 @@ MeasureFrame(const PlaneOfFrame<TPixel> & plane, const LevelLimits & limits, con
   LevelGrid grid = gridOf(InSingle.leastStartingVariance * medianDn2);
   for (int i = 0; i < InSingle.repetitions; ++i)
   {
-    const LevelSums sums = SumSample(sample, grid, parallelFor);
+    const LevelSums sums = SumSample<LevelSums>(sample, grid, parallelFor);
     const NoiseLine fit = FitNoiseLine(setsOf(sums, grid, DetailBand::Diagonal), limits.clip, leastDn2, line);
     if (!fit.isDetermined)
     {
@@ -293,7 +282,7 @@ MeasureFrame(const PlaneOfFrame<TPixel> & plane, const LevelLimits & limits, con
   }
   const LevelSums sums = SumFrame(frame, tiles, grid, parallelFor);
   ImageNoise      noise;
-  noise.correlation = CorrelateSample(sample, grid, parallelFor);
+  noise.correlation = SumSample<DetailCorrelation>(sample, grid, parallelFor);
   noise.diagonal = setsOf(sums, grid, DetailBand::Diagonal);
   noise.sides = setsOf(sums, grid, DetailBand::Sides);
   noise.line = FitNoiseLine(noise.diagonal, limits.clip, leastDn2, line);
