@@ -169,6 +169,13 @@ FiniteNumber(const std::string & text)
   return number;
 }
 
+std::optional<double>
+FortranNumber(std::string text)
+{
+  std::replace(text.begin(), text.end(), 'D', 'E');
+  return FiniteNumber(text);
+}
+
 namespace
 {
 /** A string, and the string that replaces it. */

@@ -70,6 +70,17 @@ GeneralText(double number, int digits);
 SensorNoise_EXPORT std::optional<double>
 FiniteNumber(const std::string & text);
 
+/** Returns a number of things, as "1 frame" or "20 frames". */
+inline std::string
+CountText(std::size_t count, const std::string & noun)
+{
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+/** Returns FiniteNumber() of a text in which D may stand for E, as Fortran and FITS write exponents. */
+SensorNoise_EXPORT std::optional<double>
+FortranNumber(std::string text);
+
 /** Returns \a text with its ASCII letters in lower case, in every locale. */
 inline std::string
 LowerCase(std::string text)

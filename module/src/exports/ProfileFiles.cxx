@@ -208,13 +208,11 @@ FitsNumber(const std::vector<std::string> & cards, const std::string & keyword)
   {
     throw ExportError("the FITS header has no card " + keyword + "; expected EGAIN [e-/ADU] and RDNOISE [e-]");
   }
-  std::string value = WithoutBlanks(card->substr(start.size(), card->find('/', start.size()) - start.size()));
-  const auto  shown = value;
-  std::replace(value.begin(), value.end(), 'D', 'E'); // exponents may be written either way
-  const auto number = FiniteNumber(value);
+  const std::string value = WithoutBlanks(card->substr(start.size(), card->find('/', start.size()) - start.size()));
+  const auto        number = FortranNumber(value);
   if (!number)
   {
-    throw ExportError("the FITS header has " + keyword + " = " + shown + "; expected a number");
+    throw ExportError("the FITS header has " + keyword + " = " + value + "; expected a number");
   }
   return *number;
 }

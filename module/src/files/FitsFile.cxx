@@ -270,9 +270,7 @@ ScaleOfFits(const FitsHeader & header)
 double
 ExposureIn(const FitsHeader & header, const std::string & key)
 {
-  std::string text = header.Text(key);
-  std::replace(text.begin(), text.end(), 'D', 'E'); // the exponent in Fortran
-  const double seconds = FiniteNumber(text).value_or(-1.0);
+  const double seconds = FortranNumber(header.Text(key)).value_or(-1.0);
   return seconds >= 0.0 ? seconds : std::numeric_limits<double>::quiet_NaN();
 }
 

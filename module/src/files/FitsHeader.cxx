@@ -150,16 +150,14 @@ FitsHeader::Text(const std::string & key) const
 std::optional<double>
 FitsHeader::Number(const std::string & key) const
 {
-  std::string text = this->Text(key);
   if (values.count(key) == 0)
   {
     return std::nullopt;
   }
-  std::replace(text.begin(), text.end(), 'D', 'E'); // the exponent in Fortran
-  const std::optional<double> number = FiniteNumber(text);
+  const std::optional<double> number = FortranNumber(this->Text(key));
   if (!number)
   {
-    throw FileError(name, "damaged: its keyword " + key + " is \"" + text + "\"; expected a number");
+    throw FileError(name, "damaged: its keyword " + key + " is \"" + this->Text(key) + "\"; expected a number");
   }
   return number;
 }

@@ -4,6 +4,7 @@
 
 #include "sensornoise/FrameGeometry.h"
 #include "base/BinaryStream.h"
+#include "base/Text.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -22,8 +23,8 @@ RequireStack(const FrameGeometry & geometry, std::size_t frames, std::size_t mas
 {
   if (frames < MinimumFrames)
   {
-    throw std::invalid_argument("the stack has " + std::to_string(frames) + (frames == 1 ? " frame" : " frames") +
-                                "; expected at least " + std::to_string(MinimumFrames) +
+    throw std::invalid_argument("the stack has " + CountText(frames, "frame") + "; expected at least " +
+                                std::to_string(MinimumFrames) +
                                 ". Give all frames of the burst, as a list, a folder or a stack, or measure each frame "
                                 "by itself with --method single-image");
   }

@@ -255,8 +255,8 @@ StackText(const ComparedReport & row)
   {
     add(Text(camera.exposureSeconds) + " s");
   }
-  add(std::to_string(report.frames) + (report.frames == 1 ? " frame of " : " frames of ") +
-      std::to_string(report.width) + " \u00D7 " + std::to_string(report.height) + " pixels");
+  add(CountText(report.frames, "frame") + " of " + std::to_string(report.width) + " \u00D7 " +
+      std::to_string(report.height) + " pixels");
   if (report.bitDepth)
   {
     add(std::to_string(*report.bitDepth) + " bits");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page/Figures.h"
 
+#include "base/Text.h"
 #include "page/SvgPanel.h"
 
 #include <algorithm>
@@ -189,7 +190,7 @@ AxisOfFrames(const FigureData & data)
 std::string
 NameOfLag(const NoiseCorrelationRecord::Lag & lag)
 {
-  return lag.frames > 0 ? std::to_string(lag.frames) + (lag.frames == 1 ? " frame" : " frames")
+  return lag.frames > 0 ? CountText(static_cast<std::size_t>(lag.frames), "frame")
                         : "x " + std::string(lag.x < 0 ? "\u2212" : "") + std::to_string(std::abs(lag.x)) + ", y " +
                             std::to_string(lag.y);
 }

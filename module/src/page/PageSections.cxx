@@ -171,8 +171,8 @@ FrameWords(const Report & report)
   std::string            text = camera.camera.empty() ? "" : camera.camera + Separator;
   text += std::isfinite(camera.isoSpeed) ? "ISO " + Text(camera.isoSpeed) + Separator : "";
   text += std::isfinite(camera.exposureSeconds) ? Text(camera.exposureSeconds) + " s" + Separator : "";
-  text += std::to_string(report.frames) + (report.frames == 1 ? " frame" : " frames") + TextOfCounted(report) + " of " +
-          std::to_string(report.width) + " \u00D7 " + std::to_string(report.height) + " pixels";
+  text += CountText(report.frames, "frame") + TextOfCounted(report) + " of " + std::to_string(report.width) +
+          " \u00D7 " + std::to_string(report.height) + " pixels";
   return report.bitDepth ? text + Separator + std::to_string(*report.bitDepth) + " bits" : text;
 }
 

@@ -150,10 +150,10 @@ std::string
 MakeTable(const ChannelReports & reports)
 {
   const Report & first = reports.channels.front();
-  std::string    table = std::to_string(first.frames) + (first.frames == 1 ? " frame" : " frames") + ", planes of " +
-                      std::to_string(first.width) + " x " + std::to_string(first.height) + " pixels of a " +
-                      NameOf(reports.pattern) + " mosaic (" + NameOf(reports.source) + ")\nmethod: " + first.method +
-                      "\n" + DescribeInput(reports.input) + "\n";
+  std::string    table = CountText(first.frames, "frame") + ", planes of " + std::to_string(first.width) + " x " +
+                      std::to_string(first.height) + " pixels of a " + NameOf(reports.pattern) + " mosaic (" +
+                      NameOf(reports.source) + ")\nmethod: " + first.method + "\n" + DescribeInput(reports.input) +
+                      "\n";
   std::vector<std::vector<std::string>> rows{ { "channel" }, { "" } };
   for (const Column & column : Columns())
   {

@@ -275,7 +275,7 @@ TextOfCounted(const Report & report)
 std::string
 MakeTable(const Report & report)
 {
-  std::string table = Format(report.frames == 1 ? "%zu frame" : "%zu frames", report.frames);
+  std::string table = CountText(report.frames, "frame");
   table += TextOfCounted(report);
   table += Format(" of %zu x %zu pixels", report.width, report.height);
   table += DescribeCodes(report) + "\n";
