@@ -76,13 +76,6 @@ EntryOf(const Json & record, const std::string & file)
   return entry;
 }
 
-bool
-HasTrue(const Json & record, const char * name)
-{
-  const auto found = record.find(name);
-  return found != record.end() && found->is_boolean() && found->get<bool>();
-}
-
 /** Returns the settings that leave the line of the gains, with their deviations. */
 std::map<double, double>
 OffLineIn(const Json & record)
@@ -93,7 +86,7 @@ OffLineIn(const Json & record)
   {
     const auto setting = each.is_object() ? NumberIn(each, "setting") : std::nullopt;
     const auto deviation = each.is_object() ? NumberIn(each, "deviation") : std::nullopt;
-    if (setting && deviation && HasTrue(each, "leaves_line"))
+    if (setting && deviation && each.value("leaves_line", Json()) == true)
     {
       offLine[*setting] = *deviation;
     }
