@@ -5,7 +5,7 @@
 from typing import NamedTuple
 
 import numpy as np
-from situations import FLICKER, Burst, digitise, expose, scaled, smooth
+from situations import FLICKER, Burst, digitise, read_out, scaled, smooth
 
 SHAPE = (240, 320)  # rows and columns [pixels]
 BITS = 16
@@ -106,9 +106,8 @@ def exposed(random, camera, rates=None, **changed):
     read_noise of this burst, each a number or an array that broadcasts with the frames."""
     values = {"gain": camera.gain, "offset": camera.offset, "read_noise": camera.read_noise} | changed
     if rates is None:
-        return expose(random, camera.electrons, factors_of(random, camera), **values)
-    charge = random.poisson(np.maximum(rates, 0.0))
-    return values["gain"] * charge + values["offset"] + values["read_noise"] * random.normal(size=charge.shape)
+        rates = factors_of(random, camera)[:, None, None] * camera.electrons
+    return read_out(random, random.poisson(np.maximum(rates, 0.0)), **values)
 
 
 def burst(camera, frames, **truth):

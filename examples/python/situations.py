@@ -109,8 +109,12 @@ def expose(random, electrons, factors, gain=GAIN, offset=OFFSET[12], read_noise=
     electrons: expected electrons (y, x); factors: illumination factor of each frame; gain, offset and read_noise may be
     images (y, x)."""
     factors = np.asarray(factors, float)
-    collected = random.poisson(factors[:, None, None] * electrons[None])
-    return gain * collected + offset + read_noise * random.normal(size=collected.shape)
+    return read_out(random, random.poisson(factors[:, None, None] * electrons[None]), gain, offset, read_noise)
+
+
+def read_out(random, charge, gain, offset, read_noise):
+    """Returns frames (t, y, x) in DN before rounding, of the charge of each pixel in each frame [e-]."""
+    return gain * charge + offset + read_noise * random.normal(size=charge.shape)
 
 
 def digitise(frames, bits=12, dtype=np.uint16):

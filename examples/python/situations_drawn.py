@@ -9,8 +9,9 @@ differ from burst to burst, as they do between users.
 import numpy as np
 from acceptance_lines import MAY_REFUSE, MEASURED, MUST_REFUSE
 from drawn_cameras import SHAPE, burst, draw, exposed, factors_of, logarithmic
-from situations import Situation, smooth
+from situations import Situation
 from situations_good import shifted
+from situations_shared import AROUND, gaussian, interpolated, mixed_in_time, neighbours
 
 Y, X = np.indices(SHAPE)
 
@@ -47,11 +48,10 @@ def gain_changes(random, camera):
     ratio = 1 + random.choice([0.1, 0.5, 1.0])
     share = random.choice([random.uniform(0.2, 0.4), random.uniform(0.6, 0.8)])
     later = np.arange(camera.frames) >= int(camera.frames * share)
-    later_is_larger = later.sum() > camera.frames / 2
-    relative = np.where(later == later_is_larger, 1.0, ratio if not later_is_larger else 1 / ratio)[:, None, None]
+    unlike = later if later.sum() < camera.frames / 2 else ~later
+    relative = np.where(unlike, ratio if unlike[-1] else 1 / ratio, 1.0)[:, None, None]
     frames = exposed(random, camera, camera.electrons / relative, gain=camera.gain * relative)
-    unlike = tuple(np.flatnonzero(later != later_is_larger))
-    return burst(camera, frames, offset=None, read_noise=None)._replace(unlike_frames=unlike)
+    return burst(camera, frames, offset=None, read_noise=None)._replace(unlike_frames=tuple(np.flatnonzero(unlike)))
 
 
 def unlit(random, camera):
@@ -62,37 +62,32 @@ def unlit(random, camera):
     return burst(camera, exposed(random, camera, factors[:, None, None] * camera.electrons))
 
 
-def interpolated(random, camera):
+def other_frame_rate(random, camera):
     """Returns frames of another frame rate, each interpolated between two recorded frames."""
     places = random.choice([0.5, 0.8, 5 / 6, 0.9, 0.96]) * np.arange(camera.frames)
-    before = places.astype(int)
-    rates = factors_of(random, camera, before[-1] + 2)[:, None, None] * camera.electrons
-    frames = exposed(random, camera, rates)
-    weight = (places - before)[:, None, None]
-    return burst(camera, (1 - weight) * frames[before] + weight * frames[before + 1])
+    rates = factors_of(random, camera, int(places[-1]) + 2)[:, None, None] * camera.electrons
+    return burst(camera, interpolated(exposed(random, camera, rates), places))
 
 
 def blurred(random, camera):
     """Returns frames that a Gaussian of 0.35 to 1.3 pixels smooths after the read-out."""
     radius = random.uniform(0.35, 1.3)
-    frames = exposed(random, camera)
-    return burst(camera, np.stack([smooth(frame, radius) for frame in frames]))
+    return burst(camera, gaussian(exposed(random, camera), radius))
 
 
 def crosstalk(random, camera):
     """Returns frames of a sensor where 2 to 8 % of the charge reaches the four neighbours before the read noise."""
     part = random.choice([0.02, 0.08])
     charge = exposed(random, camera, offset=0.0, read_noise=0.0)
-    around = sum(np.roll(charge, shift, axis=(1, 2)) for shift in ((1, 0), (-1, 0), (0, 1), (0, -1))) / 4
-    frames = (1 - part) * charge + part * around
+    frames = (1 - part) * charge + part * neighbours(charge, [(1, 0), (-1, 0), (0, 1), (0, -1)])
     return burst(camera, frames + camera.offset + camera.read_noise * random.normal(size=frames.shape))
 
 
 def median_filtered(random, camera):
     """Returns frames after a median filter of 3 x 3 pixels."""
     frames = exposed(random, camera)
-    shifts = [(y, x) for y in (-1, 0, 1) for x in (-1, 0, 1)]
-    return burst(camera, np.median([np.roll(frames, shift, axis=(1, 2)) for shift in shifts], axis=0))
+    shifted_frames = [np.roll(frames, shift, axis=(1, 2)) for shift in ((0, 0), *AROUND)]
+    return burst(camera, np.median(shifted_frames, axis=0))
 
 
 def averaged_in_time(random, camera):
@@ -100,9 +95,7 @@ def averaged_in_time(random, camera):
     kept, settling = random.choice([0.05, 0.1, 0.2, 0.4]), 30
     factors = factors_of(random, camera, camera.frames + settling)
     frames = exposed(random, camera, factors[:, None, None] * camera.electrons)
-    for t in range(1, len(frames)):
-        frames[t] = (1 - kept) * frames[t] + kept * frames[t - 1]
-    return burst(camera, frames[settling:])
+    return burst(camera, mixed_in_time(frames, 1 - kept)[settling:])
 
 
 def waves(random, camera):
@@ -222,7 +215,7 @@ KINDS = {
         other_dark_frames,
     ),
     MAY_REFUSE: (blurred, averaged_in_time, gain_changes, transients, two_ranges),
-    MUST_REFUSE: (interpolated, median_filtered),
+    MUST_REFUSE: (other_frame_rate, median_filtered),
 }
 
 SITUATIONS = tuple(

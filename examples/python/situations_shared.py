@@ -148,14 +148,19 @@ def lagging(random, electrons, weight):
     return Burst(digitise(frames, BITS), offset=OFFSET[BITS], read_noise=READ_NOISE)
 
 
+def interpolated(frames, places):
+    """Returns frames at these places between the given ones: numbers of frames, which need not be whole."""
+    before = places.astype(int)
+    weight = (places - before)[:, None, None]
+    return (1 - weight) * frames[before] + weight * frames[before + 1]
+
+
 def converted(random, electrons, ratio):
     """Returns frames of another frame rate, each interpolated between two recorded frames. `ratio` is the number of
     recorded frames per returned frame."""
     places = ratio * np.arange(FRAMES)
-    before = places.astype(int)
-    frames = expose(random, electrons, illumination(random, frames=before[-1] + 2), offset=OFFSET[BITS])
-    weight = (places - before)[:, None, None]
-    return Burst(digitise((1 - weight) * frames[before] + weight * frames[before + 1], BITS))
+    frames = expose(random, electrons, illumination(random, frames=int(places[-1]) + 2), offset=OFFSET[BITS])
+    return Burst(digitise(interpolated(frames, places), BITS))
 
 
 def deinterlaced(random, electrons):
