@@ -39,6 +39,18 @@ protected:
   RunCommand(const std::string & command);
   int
   Run(const std::string & arguments);
+  /** Runs export-noise-model, as RunCommand(). */
+  int
+  Export(const std::string & arguments)
+  {
+    return RunCommand("\"" + ToolFolder() + "/export-noise-model\" " + arguments);
+  }
+  /** Returns whether the last command said this on standard output or standard error. */
+  bool
+  Says(const std::string & part) const
+  {
+    return (m_Output + m_Message).find(part) != std::string::npos;
+  }
 
   /** The JSON text of a run that must end with \a exitCode. */
   std::string

@@ -24,11 +24,9 @@ protected:
     return "burst.mha";
   }
   std::string
-  Export(const std::string & format)
+  ProfileIn(const std::string & format)
   {
-    EXPECT_EQ(RunCommand("\"" + ToolFolder() + "/export-noise-model\" report.json --black 100 --white 4095 --output " +
-                         format + ".profile --format " + format),
-              0)
+    EXPECT_EQ(Export("report.json --black 100 --white 4095 --output " + format + ".profile --format " + format), 0)
       << m_Message;
     return format + ".profile";
   }
@@ -36,7 +34,7 @@ protected:
   std::string
   Changed(const std::string & format, const std::string & key, double number)
   {
-    std::string       text = ReadText(Path(Export(format)));
+    std::string       text = ReadText(Path(ProfileIn(format)));
     const std::size_t begin = text.find(key) + key.size();
     text.replace(begin, text.find_first_of(",]}<\n ", begin + 1) - begin, ' ' + std::to_string(number));
     return WriteText("changed.profile", text);
@@ -75,7 +73,7 @@ TEST_F(EstimateProfileTool, EveryExportThatDeterminesTheVarianceAgreesWithItsBur
                                "emva1288",
                                "libcamera" })
   {
-    const auto check = Check(Export(format));
+    const auto check = Check(ProfileIn(format));
     EXPECT_EQ(check["schema"], "itk-sensornoise-check/1") << format;
     EXPECT_EQ(check["verdict"], "fits") << format << ": " << check;
   }
@@ -116,7 +114,7 @@ TEST_F(EstimateProfileTool, ChannelsOfAMosaicAreCheckedOneByOne)
             0)
     << m_Message;
   EXPECT_EQ(Run("burst.mha --bayer RGGB --json report.json --quiet"), 0) << m_Message;
-  const auto report = ReportOf("burst.mha --bayer RGGB --check-profile " + Export("ndsafir"));
+  const auto report = ReportOf("burst.mha --bayer RGGB --check-profile " + ProfileIn("ndsafir"));
   ASSERT_EQ(report["profile_checks"].size(), 4U);
   std::string channels;
   for (const auto & check : report["profile_checks"])
@@ -147,10 +145,7 @@ TEST_F(EstimateProfileTool, LevelsOfADngFileAreTakenWhereNothingElseGivesThem)
   sensornoise::test::DngOf photo = sensornoise::test::DngOf::Sound();
   photo.tags = { { 50714, { 4, { 100 } } }, { 50717, { 4, { 4095 } } } };
   WriteText("photo.dng", photo.Bytes());
-  EXPECT_EQ(RunCommand("\"" + ToolFolder() +
-                       "/export-noise-model\" report.json --black 100 --white 4095 --format dng " +
-                       "--into photo.dng --output copy.dng"),
-            0)
+  EXPECT_EQ(Export("report.json --black 100 --white 4095 --format dng --into photo.dng --output copy.dng"), 0)
     << m_Message;
   EXPECT_EQ(Check("copy.dng", "--dark dark.mha")["verdict"], "fits");
   EXPECT_EQ(Check("copy.dng", "--dark dark.mha --white 8190")["verdict"], "does-not-fit");

@@ -30,17 +30,12 @@ protected:
     WriteText("report.json", m_Report.dump());
   }
 
-  int
-  ExportModel(const std::string & arguments)
-  {
-    return RunCommand("\"" + ToolFolder() + "/export-noise-model\" " + arguments);
-  }
   void
   IsRefusedBy(const std::string & arguments, const std::vector<std::string> & parts, int exitCode)
   {
     SCOPED_TRACE(arguments);
     const std::set<std::string> before = FilesLeft();
-    EXPECT_EQ(ExportModel(arguments), exitCode) << m_Message;
+    EXPECT_EQ(Export(arguments), exitCode) << m_Message;
     SaysInOneSentence(parts);
     EXPECT_EQ(m_Output, "");
     EXPECT_EQ(FilesLeft(), before);
@@ -51,7 +46,7 @@ protected:
 
 TEST_F(ExportToolTest, WritesTextToStandardOutputOrAFile)
 {
-  ASSERT_EQ(ExportModel("report.json --format dng --white 1088"), 0) << m_Message;
+  ASSERT_EQ(Export("report.json --format dng --white 1088"), 0) << m_Message;
   std::istringstream numbers(m_Output);
   double             scale = 0.0;
   double             offset = 0.0;
@@ -61,20 +56,20 @@ TEST_F(ExportToolTest, WritesTextToStandardOutputOrAFile)
   EXPECT_DOUBLE_EQ(offset, 2.0 / (1024.0 * 1024.0));
   EXPECT_EQ(m_Message, "");
   const std::string text = m_Output;
-  ASSERT_EQ(ExportModel("report.json --format dng --white 1088 --output profile.txt"), 0) << m_Message;
+  ASSERT_EQ(Export("report.json --format dng --white 1088 --output profile.txt"), 0) << m_Message;
   EXPECT_EQ(m_Output, "");
   EXPECT_EQ(ReadText(Path("profile.txt")), text);
 }
 
 TEST_F(ExportToolTest, ListsAllFormatsAndPrintsNotes)
 {
-  ASSERT_EQ(ExportModel("--list"), 0) << m_Message;
+  ASSERT_EQ(Export("--list"), 0) << m_Message;
   for (const auto & format : sensornoise::ExportFormats())
   {
     EXPECT_NE(m_Output.find(std::string(format.name) + ' '), std::string::npos) << format.name;
     EXPECT_NE(m_Output.find(format.fields), std::string::npos) << format.name;
   }
-  ASSERT_EQ(ExportModel("report.json --format anscombe-transform"), 0);
+  ASSERT_EQ(Export("report.json --format anscombe-transform"), 0);
   EXPECT_EQ(m_Message.find("note: The zero level is rounded from 60 DN"), 0U) << m_Message;
 }
 
@@ -82,7 +77,7 @@ TEST_F(ExportToolTest, WritesTheTagIntoACopyOfADngFile)
 {
   const std::string dng("II*\0\x08\0\0\0\0\0\0\0\0\0", 14); // a directory without tags
   WriteText("photo.dng", dng);
-  ASSERT_EQ(ExportModel("report.json --format dng --white 1088 --into photo.dng --output copy.dng"), 0) << m_Message;
+  ASSERT_EQ(Export("report.json --format dng --white 1088 --into photo.dng --output copy.dng"), 0) << m_Message;
   EXPECT_EQ(ReadText(Path("photo.dng")), dng);
   EXPECT_EQ(ReadText(Path("copy.dng")),
             sensornoise::WithNoiseProfile(dng, { { 0.5 / 1024.0, 2.0 / (1024.0 * 1024.0) } }));
@@ -102,7 +97,7 @@ TEST_F(ExportToolTest, WritesTheMapsOfAFolderIntoAFolder)
   Write<MapType>("maps/pixel_read_noise.mha", Make<MapType>({ { 3, 2 } }, 1.5));
   IsRefusedBy("report.json --format maps --output out", { "no maps", "--maps" }, 3);
   IsRefusedBy("report.json --format maps --maps maps --output none", { "none", "folder that exists" }, 2);
-  ASSERT_EQ(ExportModel("report.json --format maps --maps maps --output out"), 0) << m_Message;
+  ASSERT_EQ(Export("report.json --format maps --maps maps --output out"), 0) << m_Message;
   EXPECT_EQ(Read<MapType>(Path("out/offset.tif"))->GetPixel({ { 2, 1 } }), 64.0);
   EXPECT_EQ(Read<MapType>(Path("out/variance.tif"))->GetPixel({ { 2, 1 } }), 2.25);
   EXPECT_EQ(Read<MapType>(Path("out/variance_electrons.tif"))->GetPixel({ { 2, 1 } }), 9.0);
