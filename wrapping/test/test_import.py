@@ -60,7 +60,7 @@ def test_import_loads_neither_our_library_nor_what_draws(fresh):
 
 
 def test_import_costs_a_small_part_of_that_of_itk(fresh):
-    """What the package adds to `import itk` takes less than a quarter of its time in the same process, found: 8 %."""
+    """The package adds less than a quarter to the time of `import itk` in the same process. Found: 8 %."""
     code = (
         "import sys, time\n"
         "start = time.perf_counter()\n"

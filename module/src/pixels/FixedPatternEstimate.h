@@ -90,8 +90,8 @@ EstimateFixedPattern(const ReferenceFrame & frame,
  * Only the signal is common to x and z. Gains, efficiencies and offsets that differ from pixel to pixel, row to row or
  * column to column do not bias this gain (see FixedPatternEstimate), and neither does the noise of the means. Detail as
  * fine as a pixel does not contribute, which costs precision. Weights and trimmed pixels are taken from \a fit. The
- * pivot is the weighted mean of x, the covariance is the sandwich estimate. The line is not determined if
- * the instrument is weak, as where the signal of pixels differs no more than the noise of their means. */
+ * pivot is the weighted mean of x, the covariance is the sandwich estimate. The line is not determined if the
+ * instrument is weak, as where the signal of pixels differs no more than the noise of their means. */
 SensorNoise_EXPORT VarianceLine
 FitInstrumental(const VarianceFit & fit, const VarianceData & data, const ReferenceFrame & frame);
 

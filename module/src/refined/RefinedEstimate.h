@@ -70,7 +70,7 @@ enum class GainVerdict : std::uint8_t
   // The data contradict a sensor of one gain.
   FramesDiffer,        ///< the noise variance of the frames does not follow their levels
   IlluminationIsLeft,  ///< the noise correlation, which changes the gain much, may be due to the illumination
-  MotionIsLeft,        ///< the noise that frames share, which changes the gain, may be due to motion
+  MotionIsLeft,        ///< the noise correlation between frames, which changes the gain, may be due to motion
   NotAffine,           ///< the variance deviates from its line
   GainDependsOnOffset, ///< the variance is a curve of the mean, and the gain depends on the assumed read noise
   NotRising,           ///< the variance does not rise with the mean

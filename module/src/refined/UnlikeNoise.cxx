@@ -30,8 +30,8 @@ MedianOf(std::vector<double> values)
 }
 
 /** Returns for each frame whether \a line predicts its noise variance in half of the tiles: the variance is above
- * LeastVarianceDn2(). The line knows little about the small variance of frames without light,
- * and these have no gain. */
+ * LeastVarianceDn2(). The line knows little about the small variance of frames without light, and these have no gain.
+ */
 std::vector<bool>
 ArePredicted(const FrameEnergies & energies, const TileLevels & levels, const VarianceLine & line)
 {
@@ -50,7 +50,7 @@ ArePredicted(const FrameEnergies & energies, const TileLevels & levels, const Va
 
 /** Returns the squares of every frame over their expectation by \a line at its levels, as the median over the tiles.
  * \a noise is the known noise of the frames: the projection leaves some of the noise of each in the others. NaN for
- * frames that are not \a compared, and for frames of which the projection leaves too little. */
+ * frames that are not \a compared, and for frames that the projection leaves hardly anything of. */
 Eigen::VectorXd
 RatiosOfFrames(const FrameEnergies &     energies,
                const TileLevels &        levels,

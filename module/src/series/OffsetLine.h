@@ -81,9 +81,8 @@ FitOffsetLine(const FrameEquations & equations);
 
 /** Fits the line to the gradient classes 0 ... c for every c, and returns the line with the smallest standard error,
  * widened by the dispersion, and its difference to the lines of fewer classes. If there is none, because the scene is a
- * ramp or has one level, the flicker alone is
- * estimated, about the darkest level. Null if this fails, too. The orthonormal series \a without, frames x n, are
- * removed from the changes of the frames. */
+ * ramp or has one level, the flicker alone is estimated, about the darkest level. Null if this fails, too. The
+ * orthonormal series \a without, frames x n, are removed from the changes of the frames. */
 SensorNoise_EXPORT std::optional<OffsetLine>
 FitOffsetLine(const FrameSums &           sums,
               const RegressorNoise &      noise,
