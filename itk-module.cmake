@@ -15,6 +15,7 @@ itk_module(SensorNoise
     ITKGoogleTest
     ITKImageFilterBase
     ITKImageStatistics
+    ITKIOTIFF
   FACTORY_NAMES
     ImageIO::SensorNoise
   DESCRIPTION "${DOCUMENTATION}"

@@ -24,14 +24,23 @@ if(SensorNoise_BUILD_EXAMPLES OR BUILD_TESTING)
   list(APPEND _modules ITKImageIO ITKImageFeature ITKImageFilterBase ITKImageGrid ITKImageStatistics ITKTestKernel)
 endif()
 find_package(ITK 5.2.1 REQUIRED COMPONENTS ${_modules})
-include(${ITK_USE_FILE})
-include(cmake/ClangHeaders.cmake)
-find_package(ZLIB REQUIRED) # the same as ITK's: the module ITKZLIB of an installed ITK may stand for the system's
+if(TARGET ITK::ITKCommonModule)
+  # The targets of ITK 6 have its header folders. A program that links ITK::ITKImageIO registers the formats.
+  set(ITK_LIBRARIES ${ITK_INTERFACE_LIBRARIES})
+  if("ImageIO" IN_LIST ITK_FACTORY_LIST)
+    itk_generate_factory_registration(ImageIO)
+    list(APPEND ITK_LIBRARIES ITK::ITKImageIO)
+  endif()
+else()
+  include(${ITK_USE_FILE})
+  include(cmake/ClangHeaders.cmake)
+  find_package(ZLIB REQUIRED) # the same as ITK's: the module ITKZLIB of an installed ITK may stand for the system's
+endif()
 
 add_subdirectory(module)
 # Ways 1 and 2 compile the files one by one, which shows whether each includes what it uses.
-include(cmake/UnityByRoom.cmake)
-sensornoise_unity_by_room(SensorNoise)
+include(cmake/UnityByComponent.cmake)
+sensornoise_unity_by_component(SensorNoise)
 
 install(EXPORT SensorNoiseTargets NAMESPACE SensorNoise:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/SensorNoise)
 configure_package_config_file(cmake/SensorNoiseConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/SensorNoiseConfig.cmake

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-# sensornoise_unity_by_room(TARGET): the files of a room are compiled together, six at a time to spare memory. Half of the
-# time to compile them one by one goes into reading Eigen and ITK and into what they instantiate alike. CMake before 3.18,
-# which cannot ask for the properties of another folder's sources, compiles them one by one.
+# sensornoise_unity_by_component(TARGET): the files of a component are compiled together, six at a time to spare memory. Half
+# of the time to compile them one by one goes into reading Eigen and ITK and into what they instantiate alike. CMake before
+# 3.18, which cannot ask for the properties of another folder's sources, compiles them one by one.
 #
 # CMake's own UNITY_BUILD writes where the checkout is into its files. Here they include by relative paths, so that a
 # compiler cache knows them again in another checkout.
-function(sensornoise_unity_by_room target)
+function(sensornoise_unity_by_component target)
   if(NOT SensorNoise_UNITY_BUILD OR CMAKE_VERSION VERSION_LESS 3.18)
     return()
   endif()
@@ -25,14 +25,14 @@ function(sensornoise_unity_by_room target)
       list(APPEND _alone ${_path})
       continue()
     endif()
-    get_filename_component(_room ${_path} DIRECTORY)
-    get_filename_component(_room ${_room} NAME)
-    math(EXPR _number "${_files_of_${_room}} + 0")
-    math(EXPR _files_of_${_room} "${_number} + 1")
+    get_filename_component(_component ${_path} DIRECTORY)
+    get_filename_component(_component ${_component} NAME)
+    math(EXPR _number "${_files_of_${_component}} + 0")
+    math(EXPR _files_of_${_component} "${_number} + 1")
     math(EXPR _group "${_number} / 6")
     file(RELATIVE_PATH _relative ${_unity_folder} ${_path})
-    list(APPEND _groups ${_room}${_group})
-    string(APPEND _text_of_${_room}${_group} "#include \"${_relative}\"\n")
+    list(APPEND _groups ${_component}${_group})
+    string(APPEND _text_of_${_component}${_group} "#include \"${_relative}\"\n")
   endforeach()
   list(REMOVE_DUPLICATES _groups)
   set(_together)

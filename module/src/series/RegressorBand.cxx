@@ -27,14 +27,15 @@ namespace
 __attribute__((target("avx2"))) void
 MultiplyGroupAvx2(const GroupFactors & of, GroupSums & sums)
 {
-  using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
+  // The attributes stand behind the name: Clang drops the alignment where they stand behind the type.
+  using Four [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
   constexpr std::size_t part = 2; // vectors of columns: with four series their sums take half of the registers
   for (std::size_t first = 0; first < sums[0].size(); first += 4 * part)
   {
     Four sum[FramesTogether][part] = {};
     for (std::size_t i = of.begin; i < of.end; ++i)
     {
-      const auto * const   columns = reinterpret_cast<const Four *>(of.columns[i].data() + first);
+      const Four * const   columns = reinterpret_cast<const Four *>(of.columns[i].data() + first);
       const double * const values = of.series + of.order[i];
       for (std::size_t k = 0; k < FramesTogether; ++k)
       {
@@ -46,7 +47,12 @@ MultiplyGroupAvx2(const GroupFactors & of, GroupSums & sums)
     }
     for (std::size_t k = 0; k < FramesTogether; ++k)
     {
-      std::copy_n(sum[k], part, reinterpret_cast<Four *>(sums[k].data() + first));
+      // Not std::copy_n(): the arguments of a template have no such alignment.
+      Four * const places = reinterpret_cast<Four *>(sums[k].data() + first);
+      for (std::size_t j = 0; j < part; ++j)
+      {
+        places[j] = sum[k][j];
+      }
     }
   }
 }

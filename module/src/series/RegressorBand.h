@@ -26,7 +26,7 @@ struct GroupFactors
   const double *                           series;  ///< FramesTogether series
   std::size_t                              pixels;  ///< distance from one series to the next
   std::size_t                              begin;   ///< first pixel of the group
-  std::size_t                              end;     ///< pixel behind the last one
+  std::size_t                              end;     ///< pixel after the last pixel
 };
 
 /** Computes the sums over the pixels of a group of their columns times the values of the series, with the SIMD
