@@ -4,12 +4,16 @@
 
 import json
 import pickle
+import sys
 from pathlib import Path
 
 import itk
 import itk_sensornoise as sn
 import numpy as np
 import pytest
+
+sys.path.append(str(Path(__file__).resolve().parents[2] / "examples" / "python"))
+from frame_stacks import RATIONAL, SHORT, write_dng
 
 ISO_SPEEDS = (100.0, 200.0, 400.0)
 SCHEMA = Path(__file__).resolve().parents[2] / "documentation" / "passport.schema.json"
@@ -102,7 +106,16 @@ def test_a_folder_gives_the_record_of_the_tool(camera, tool, tmp_path):
         "--quiet",
     )
     expected = sn.Passport.from_json(tmp_path / "t.json")
-    for name in ("setting", "camera", "gain_line", "conversion_gain_switch", "common_gain", "android", "findings"):
+    for name in (
+        "setting",
+        "camera",
+        "gain_line",
+        "conversion_gain_switch",
+        "common_gain",
+        "android",
+        "darktable",
+        "findings",
+    ):
         assert found[name] == expected[name], name
     for entry, other in zip(found["settings"], expected["settings"], strict=True):
         assert entry["channels"] == other["channels"]
@@ -213,7 +226,8 @@ def test_names_hold_the_settings(bursts, tmp_path):
     np.save(tmp_path / "10ms" / "a.npy", bursts[100.0])
     np.save(tmp_path / "exposure0.02s" / "a.npy", simulated(0.5, 9))
     found = sn.estimate_sweep(tmp_path, bayer="none")
-    assert (found["setting"], [entry["setting"] for entry in found["settings"]]) == ("exposure", [0.01, 0.02])
+    assert found["setting"] == "exposure"
+    assert [entry["setting"] for entry in found["settings"]] == [0.01, 0.02]
     (tmp_path / "iso100").mkdir()
     with pytest.raises(ValueError, match=r"10ms \(exposure\), iso100 \(iso\); expected settings of one kind"):
         sn.estimate_sweep(tmp_path)
@@ -248,3 +262,157 @@ def test_wrong_use_is_refused(sources, options, said, tmp_path, monkeypatch):
     (tmp_path / "other.json").write_text("{}")
     with pytest.raises(ValueError, match=r"other\.json is no passport"):
         sn.estimate_sweep({1: "a.mha"}, output="other.json")
+
+
+@pytest.fixture
+def recorded(tmp_path):
+    """Writes DNG files that record their ISO speed and exposure, with names that do not say them."""
+    pytest.importorskip("rawpy")
+
+    def write(frames, iso, exposure, name="frames"):
+        folder = tmp_path / name
+        folder.mkdir(parents=True, exist_ok=True)
+        exif = [(33434, RATIONAL, list(exposure)), (34855, SHORT, [iso])]
+        for frame in frames:
+            write_dng(folder / f"frame_{len(list(folder.iterdir()))}.dng", frame, 100, 4095, exif=exif)
+        return folder
+
+    return write
+
+
+def test_a_table_gives_the_record_of_the_tool(camera, tool, tmp_path):
+    table = tmp_path / "camera" / "list.csv"
+    rows = [f"{iso:g};iso{iso:g}/light.mha;iso{iso:g}/dark/*.mha" for iso in ISO_SPEEDS[:2]]
+    table.write_text(
+        "\n".join(["\ufeff# light and dark", "ISO;frames;dark", *rows, "", "400;iso400;"]), encoding="utf-8"
+    )
+    found = sn.estimate_sweep(table, bayer="none")
+    tool(
+        "estimate-sensor-noise", "--sweep", str(table), "--bayer", "none", "--json", str(tmp_path / "t.json"), "--quiet"
+    )
+    expected = sn.Passport.from_json(tmp_path / "t.json")
+    for name in ("setting", "gain_line", "findings"):
+        assert found[name] == expected[name], name
+    for entry, other in zip(found["settings"], expected["settings"], strict=True):
+        assert (entry["setting"], entry["channels"]) == (other["setting"], other["channels"])
+
+
+@pytest.mark.parametrize(
+    ("header", "cell", "kind", "setting"),
+    [("gain_db", "6", "gain", 10**0.3), ("exposure_ms", "20", "exposure", 0.02), ("gain", "2.5", "gain", 2.5)],
+)
+def test_a_table_has_settings_in_several_units(bursts, header, cell, kind, setting, tmp_path):
+    np.save(tmp_path / "a.npy", bursts[100.0])
+    (tmp_path / "a.csv").write_text(f"frames,{header}\na.npy,{cell}\na.npy,{cell}\n")
+    found = sn.estimate_sweep(tmp_path / "a.csv", bayer="none")
+    assert found["setting"] == kind and found["settings"][0]["setting"] == pytest.approx(setting, rel=1e-12)
+    assert "a.npy has the same setting and is measured" in found["settings"][1]["reason"]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("iso,dark\n1,a\n", r"line 1 of .*a\.csv has no column frames; expected a header"),
+        ("speed,frames\n1,a\n", "has no column iso or gain or gain_db or exposure or exposure_ms"),
+        ("iso,frames\n1,a,b\n", "line 2 of .* has 3 columns; expected 2, as the header"),
+        ("iso,frames\n0,a\n", "line 2 of .* has the setting '0'; expected a finite number above 0"),
+        ("iso,frames\nx,a\n", "has the setting 'x'; expected a finite number"),
+        ("iso,frames\n1,\n", "line 2 of .* has no frames"),
+        ("iso,frames\n", "has no line with a setting"),
+        (None, "the table .* cannot be read"),
+    ],
+)
+def test_a_wrong_table_is_refused(text, said, tmp_path):
+    if text is not None:
+        (tmp_path / "a.csv").write_text(text)
+    with pytest.raises(ValueError, match=said):
+        sn.estimate_sweep(tmp_path / "a.csv")
+    (tmp_path / "b.csv").write_text("iso,frames\n1,a\n")
+    with pytest.raises(ValueError, match="has the settings iso; expected gain"):
+        sn.estimate_sweep(tmp_path / "b.csv", kind="gain")
+
+
+def test_frames_are_grouped_by_the_iso_speed_that_they_record(recorded, bursts):
+    for iso in (200, 100):
+        folder = recorded(bursts[float(iso)], iso, (1, 100))
+    found = sn.estimate_sweep(folder, bayer="none")
+    assert (found["setting"], [entry["name"] for entry in found["settings"]]) == ("iso", ["ISO 100", "ISO 200"])
+    assert [entry["reason"] for entry in found["settings"]] == [None, None]
+    assert found.report(100).gain.value == pytest.approx(0.5, rel=0.1)
+    names = sorted(folder.iterdir(), key=lambda name: int(name.stem.split("_")[-1]))  # frame_2 before frame_10
+    for sources in (names, str(folder / "*.dng")):
+        again = sn.estimate_sweep(sources, bayer="none")
+        assert [entry["channels"] for entry in again["settings"]] == [entry["channels"] for entry in found["settings"]]
+    with pytest.raises(ValueError, match=r"frame_0\.dng records no gain; expected frames that do"):
+        sn.estimate_sweep(names, kind="gain")
+
+
+def test_frames_of_one_iso_speed_are_grouped_by_their_exposure(recorded, bursts):
+    recorded(bursts[100.0], 100, (1, 50))
+    folder = recorded(simulated(0.5, 7), 100, (1, 100))
+    found = sn.estimate_sweep(folder, bayer="none")
+    assert found["setting"] == "exposure"
+    assert [entry["setting"] for entry in found["settings"]] == [0.01, 0.02]
+    assert found["common_gain"][0]["is_same"]
+
+
+def test_exposures_at_another_iso_speed_are_not_measured(recorded, measured, tmp_path):
+    for iso, milliseconds, seed in ((100, 10, 7), (100, 20, 8), (200, 40, 9)):
+        recorded(simulated(0.005 * iso, seed), iso, (milliseconds, 1000), f"camera/{milliseconds}ms")
+    names = {1e-3 * milliseconds: tmp_path / f"camera/{milliseconds}ms" for milliseconds in (10, 20, 40)}
+    (tmp_path / "list.csv").write_text("exposure_ms,frames\n10,camera/10ms\n20,camera/20ms\n40,camera/40ms\n")
+    for sources, first in ((tmp_path / "camera", "10ms"), (tmp_path / "list.csv", "10ms"), (names, "0.01")):
+        measured.clear()
+        found = sn.estimate_sweep(sources, kind="exposure", bayer="none")
+        assert len(measured) == 2 and found["common_gain"][0]["settings"] == 2
+        assert [entry["reason"] for entry in found["settings"]] == [
+            None,
+            None,
+            f"its files record ISO 200, and the files of {first} ISO 100; expected exposures at one ISO speed",
+        ]
+
+
+def test_what_files_record_counts_before_names(recorded, measured, tmp_path):
+    frames = simulated(0.5, 7)
+    recorded(frames, 100, (1, 100), "camera/iso100.5")
+    recorded(frames, 400, (1, 100), "camera/iso200")
+    recorded(frames[:12], 800, (1, 100), "camera/iso800")
+    mixed = recorded(frames[12:], 1600, (1, 100), "camera/iso800")
+    (tmp_path / "camera" / "night").mkdir()
+    np.save(tmp_path / "camera" / "night" / "a.npy", frames)
+    (tmp_path / "camera" / "nothing").mkdir()
+    found = sn.estimate_sweep(tmp_path / "camera", bayer="none")
+    assert len(measured) == 1
+    assert [(entry["name"], entry["setting"]) for entry in found["settings"]] == [
+        ("iso100.5", 100.0),
+        ("iso200", 400.0),
+        ("iso800", 800.0),
+        ("night", None),
+        ("nothing", None),
+    ]
+    reasons = [entry["reason"] for entry in found["settings"]]
+    assert reasons[0] is None
+    assert reasons[1] == (
+        "its files record ISO 400, but ISO 200 was given; expected the same. Correct the name or the table"
+    )
+    assert reasons[2] == (
+        f"the frames record different ISO speeds, 800 ({mixed / 'frame_0.dng'}) and 1600 ({mixed / 'frame_12.dng'}); "
+        "expected one setting"
+    )
+    assert reasons[3].startswith("its setting is not known: neither the files record an ISO speed, nor does the name")
+    assert "nothing: is a folder without files" in reasons[4]
+
+
+def test_files_without_a_header_are_stacks_of_a_layout(bursts, tmp_path):
+    for iso in ISO_SPEEDS[:2]:
+        bursts[iso].astype("<u2").tofile(tmp_path / f"iso{iso:g}.raw")
+    found = sn.estimate_sweep(tmp_path, raw="64x64:uint16le", bayer="none")
+    assert [entry["reason"] for entry in found["settings"]] == [None, None]
+    assert found.report(200).gain.value == pytest.approx(1.0, rel=0.1)
+
+
+def test_frames_without_an_iso_speed_are_refused(bursts, tmp_path):
+    for number, frame in enumerate(bursts[100.0][:2]):
+        np.save(tmp_path / f"{number}.npy", frame)
+    with pytest.raises(ValueError, match=r"0\.npy records no ISO speed, so that its burst is not known"):
+        sn.estimate_sweep(tmp_path)

@@ -4,17 +4,16 @@
 
 import inspect
 import json
-import math
 import os
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from . import _options
 from ._errors import InvalidTypeError
 from ._estimate import estimate_sensor_noise
-from ._names import is_name, natural_key
+from ._names import is_name
 from ._passport import Passport, passport_of
+from ._sweep_sources import EXPECTED, SweepBurst, bursts_of, bursts_of_files, with_recorded_setting
 from ._types import FileName, Frames
 from ._version import version_of_package
 
@@ -22,8 +21,6 @@ if TYPE_CHECKING:
     import distributed
 
 KINDS = ("iso", "gain", "exposure")
-_EXPECTED = "a mapping of settings to frames, or a folder with a folder for each setting, for instance iso800"
-_SAME = 0.01  # relative; settings are a quarter apart or more
 # Where a report has the setting that its files record.
 _RECORDED = {"iso": "iso_speed", "exposure": "exposure_seconds"}
 _NOT_OF_SWEEP = ("frames", "dark", "maps", "progress", "method", "exposures")
@@ -32,7 +29,7 @@ _WAITING = "it is not measured yet"
 
 
 def estimate_sweep(
-    sources: Mapping[float, Frames] | FileName,
+    sources: Mapping[float, Frames] | FileName | Sequence[FileName],
     client: "distributed.Client | None" = None,
     *,
     kind: Literal["iso", "gain", "exposure"] | None = None,
@@ -44,16 +41,21 @@ def estimate_sweep(
 
     Parameters
     ----------
-    sources : mapping of float to frames, str or os.PathLike
+    sources : mapping of float to frames, str, os.PathLike, or list of these names
         The frames of each setting, as `frames` of estimate_sensor_noise(), or a function without arguments that returns
         them. Or a folder with a folder or a stack for each setting, whose names hold it: iso800, gain2.5, gain6dB, or
-        10ms at one gain. Dark frames are in the folder `dark` of a setting's folder.
+        10ms at one gain. Dark frames are in the folder `dark` of a setting's folder. Or a table (.csv) with the column
+        iso, gain, gain_db, exposure [s] or exposure_ms, the column frames and, if there are some, dark; names are
+        relative to its folder. Or single frames that record their ISO speed, in a folder, a list or a pattern: each ISO
+        speed is a burst, or each exposure if all have one ISO speed. The record of the first file of a burst counts
+        before its name, the table or the mapping. A burst is not measured, and has a `reason`, if the two differ by
+        more than 1 %, if its files record different ISO speeds, or if it is an exposure at another ISO speed.
     client : dask.distributed.Client, optional
         Each setting is a task of its workers, as in distributed.estimate_many(). Default: one setting after the other
         in this process.
     kind : {"iso", "gain", "exposure"}, optional
-        What the settings are: ISO speeds, gains as factors, or exposure times [s] at one gain. Default: as the names in
-        the folder say; "iso" for a mapping.
+        Kind of the settings: ISO speeds, gains as factors, or exposure times [s] at one gain. Default: as the names in
+        the folder, the table or the frames say; "iso" for a mapping.
     dark : mapping of float to frames, optional
         Dark frames of each setting, of the settings that have some. Only with a mapping.
     output : str or os.PathLike, optional
@@ -69,7 +71,7 @@ def estimate_sweep(
     Returns
     -------
     Passport
-        The same record as `estimate-sensor-noise --sweep --json` writes, which has all exports. A burst that cannot be
+        The record that `estimate-sensor-noise --sweep --json` writes, with all exports. A burst that cannot be
         measured is an entry with its `reason`. The gains of exposures are tested for equality, and pooled.
 
     Raises
@@ -96,20 +98,22 @@ def estimate_sweep(
     require_client(client)
     if kind is not None:
         _options.one_of("kind", kind, KINDS)
-    if is_name(sources):
-        if dark is not None:
-            raise InvalidTypeError("dark was given with a folder, whose dark frames are in its folders; expected none")
-        meaning, bursts = _bursts_in(Path(os.fsdecode(sources)), kind)
-    elif isinstance(sources, Mapping):
+    raw = settings.get("raw")
+    if isinstance(sources, Mapping):
         if not sources:
-            raise ValueError(f"sources is an empty mapping; expected {_EXPECTED}")
-        meaning, bursts = kind or "iso", _bursts_of(sources, dark or {})
+            raise ValueError(f"sources is an empty mapping; expected {EXPECTED}")
+        meaning: str = kind or "iso"
+        bursts = bursts_of(sources, dark or {}, meaning, raw)
+    elif is_name(sources) or (isinstance(sources, (list, tuple)) and sources and all(map(is_name, sources))):
+        if dark is not None:
+            raise InvalidTypeError("dark was given with files; expected a folder dark, or a column dark of a table")
+        meaning, bursts = bursts_of_files(sources, kind, raw)
     else:
-        raise InvalidTypeError(f"sources is of type {type(sources).__name__}; expected {_EXPECTED}")
+        raise InvalidTypeError(f"sources is of type {type(sources).__name__}; expected {EXPECTED}")
     _options.true_or_false("hash", settings.get("hash", True))
     options = _options_text(settings)
     stored = {} if is_name(settings.get("mask")) else _stored(output, meaning, options, bursts)
-    entries = {burst.name: burst.entry(options) for burst in bursts}
+    entries = {burst.name: burst.entry(options, _WAITING) for burst in bursts}
     named = {burst.name: burst for burst in bursts if burst.reason is None}
     for name in named.keys() & stored.keys():
         entries[name] = stored[name]  # so that an interrupted run keeps it in the output
@@ -129,107 +133,14 @@ def _passport_so_far(kind: str, entries: Mapping[str, dict[str, Any]]) -> Passpo
     return passport_of(kind, [entry for entry in entries.values() if entry["reason"] != _WAITING])
 
 
-class _Burst:
-    """The burst of one setting."""
-
-    def __init__(self, name: str, setting: float | None, frames: Any, dark: Any, reason: str | None = None) -> None:
-        self.name, self.setting, self.reason = name, setting, reason
-        self._frames, self._dark = frames, dark
-
-    def source(self, stored: dict[str, Any] | None) -> Any:
-        """Returns the burst as a task measures it, unless a stored report is of these frames."""
-        from .distributed._sources import Burst
-
-        return Burst(self._frames, self._dark, stored)
-
-    def entry(self, options: str) -> dict[str, Any]:
-        """Returns the entry of the passport, without a report."""
-        reason = _WAITING if self.reason is None else self.reason
-        return {"name": self.name, "setting": self.setting, "reason": reason, "options": options, "report": None}
-
-
-def _bursts_of(sources: Mapping[float, Frames], dark: Mapping[float, Frames]) -> list[_Burst]:
-    bursts = []
-    for given, frames in sources.items():
-        setting = _options.number("a setting", given, "a number above 0", above=0.0)
-        bursts.append(_Burst(f"{setting:g}", setting, frames, dark.get(given)))
-    unknown = [setting for setting in dark if setting not in sources]
-    if unknown:
-        raise ValueError(f"dark has the setting {unknown[0]!r}, which sources has not; expected the same settings")
-    names = {burst.name for burst in bursts}
-    if len(names) < len(bursts):
-        raise ValueError("two settings are the same to six digits; expected settings that differ")
-    return bursts
-
-
-def _bursts_in(folder: Path, kind: str | None) -> tuple[str, list[_Burst]]:
-    """Returns what the settings are, and the bursts of a folder, whose names hold their settings."""
-    import itk
-
-    if not folder.is_dir():
-        raise ValueError(f"{folder} is no folder; expected {_EXPECTED}")
-    paths = [path for path in folder.iterdir() if not path.name.startswith(".") and path.name != "dark"]
-    folders = [path for path in paths if path.is_dir()]
-    found: dict[str, set[str]] = {}
-    bursts = []
-    for path in sorted(folders or paths, key=natural_key):
-        name = path.name if path.is_dir() else path.stem
-        named = json.loads(itk.SensorNoiseSweep.GetSettingInNameAsJson(name))
-        if named is not None:
-            found.setdefault(named["kind"], set()).add(path.name)
-        bursts.append(_burst_at(path, None if named is None else named["value"]))
-    if not bursts:
-        raise ValueError(f"there is no burst in {folder}; expected {_EXPECTED}")
-    if len(found) > 1 or (kind and found and kind not in found):
-        kinds = ", ".join(f"{sorted(names)[0]} ({name})" for name, names in sorted(found.items()))
-        raise ValueError(f"{folder} has the settings {kinds}; expected {kind or 'settings of one kind'}")
-    return kind or next(iter(found), "iso"), _without_repetition(bursts)
-
-
-def _burst_at(path: Path, setting: float | None) -> _Burst:
-    if not path.is_dir():
-        return _Burst(path.name, setting, os.fspath(path), None)
-    dark = path / "dark"
-    return _Burst(path.name, setting, _frames_in(path), _frames_in(dark) if dark.is_dir() else None)
-
-
-def _frames_in(folder: Path) -> str:
-    """Returns the name of the only file of a folder, a stack, or of the folder."""
-    files = [file for file in folder.iterdir() if file.is_file() and not file.name.startswith(".")]
-    return os.fspath(files[0] if len(files) == 1 else folder)
-
-
-def _without_repetition(bursts: list[_Burst]) -> list[_Burst]:
-    """Sets the reason of bursts whose setting was already measured."""
-    known: dict[float, str] = {}
-    for burst in bursts:
-        if burst.setting in known:
-            burst.reason = (
-                f"{known[burst.setting]} has the same setting and is measured; expected one burst for each setting"
-            )
-        elif burst.setting is not None:
-            known[burst.setting] = burst.name
-    return bursts
-
-
-def _entry_of(burst: _Burst, kind: str, outcome: Any, options: str) -> dict[str, Any]:
+def _entry_of(burst: SweepBurst, kind: str, outcome: Any, options: str) -> dict[str, Any]:
     """Returns the entry of a burst that was measured, or could not be."""
-    entry = burst.entry(options)
+    entry = burst.entry(options, _WAITING)
     report = None if outcome.report is None else json.loads(outcome.report)
     entry["reason"] = outcome.reason if report is None else _reason_of(report)
     camera = None if report is None else report.get("channels", [report])[0].get("camera")
-    recorded = (camera or {}).get(_RECORDED.get(kind, ""))
-    if recorded is not None and burst.setting is None:
-        entry["setting"] = float(recorded)
-    elif recorded is not None and not math.isclose(recorded, burst.setting or 0.0, rel_tol=_SAME):
-        entry["reason"] = entry["reason"] or (
-            f"its files record {recorded:g}, but {burst.setting:g} was given; expected the same setting"
-        )
-    elif burst.setting is None:
-        entry["reason"] = entry["reason"] or (
-            "its setting is not known: neither its files nor its name have one. Name it for instance iso800, gain2.5 "
-            "or 10ms, or give a mapping"
-        )
+    entry["setting"], reason = with_recorded_setting(burst, kind, (camera or {}).get(_RECORDED.get(kind, "")))
+    entry["reason"] = entry["reason"] or reason
     entry["report"] = report if entry["reason"] is None else None
     return entry
 
@@ -252,7 +163,9 @@ def _options_text(settings: dict[str, Any]) -> str:
     return json.dumps(settings_record(given, defaults), sort_keys=True)
 
 
-def _stored(output: FileName | None, kind: str, options: str, bursts: Sequence[_Burst]) -> dict[str, dict[str, Any]]:
+def _stored(
+    output: FileName | None, kind: str, options: str, bursts: Sequence[SweepBurst]
+) -> dict[str, dict[str, Any]]:
     """Returns the entries of an existing passport that were measured with these options, by the names of the bursts."""
     if output is None:
         return {}
@@ -267,8 +180,5 @@ def _stored(output: FileName | None, kind: str, options: str, bursts: Sequence[_
     known = [entry for entry in passport["settings"] if entry["reason"] is None and entry["options"] in same]
     by_setting = {entry["setting"]: entry for entry in known}
     by_name = {entry["name"]: entry for entry in known}
-    found = {
-        burst.name: by_name.get(burst.name) if burst.setting is None else by_setting.get(burst.setting)
-        for burst in bursts
-    }
+    found = {burst.name: by_setting.get(burst.setting, by_name.get(burst.name)) for burst in bursts}
     return {name: entry for name, entry in found.items() if entry is not None}
