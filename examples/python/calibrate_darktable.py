@@ -14,7 +14,7 @@ does, and prints the factor for each channel: at several levels, for two gains, 
 The colour changes the noise of the channels relative to each other. Flat files suffice, because darktable's tool asks
 for an image out of focus. The last lines are the means and standard deviations of the cases with grey light and of
 all cases, and the standard error of the latter. The standard deviation is the error of a profile. The constants in
-module/src/exports/Darktable.h are these numbers.
+module/src/exports/NoiseProfile.h are these numbers.
 
 The median is taken of all details of an image, which have one level. Method: tools/noise/noiseprofile.c of darktable.
 """
@@ -31,7 +31,7 @@ import numpy as np
 from frame_stacks import write_dng
 
 BLACK, WHITE = 512, 16383  # [DN]
-LEVELS = (0.03, 0.1, 0.3)  # of green, from black to white
+LEVELS = (0.03, 0.1, 0.3)  # levels of green, from black to white
 SCALES = (3e-5, 6e-4)  # S of a camera with 33000 electrons at base ISO, and at 20 times this ISO
 OFFSETS = (4e-8, 2e-6)  # O of the same: a read noise of 7 electrons, and of 2
 ILLUMINANTS = {"grey": (1.0, 1.0, 1.0), "daylight": (0.5, 1.0, 0.65), "tungsten": (0.8, 1.0, 0.35)}  # R, G, B over G
@@ -86,18 +86,18 @@ def simulate(rng: np.random.Generator, side: int, illuminant: tuple, level: floa
         np.array([[illuminant[0], illuminant[1]], [illuminant[1], illuminant[2]]]) * level, (side // 2, side // 2)
     )
     values = scale * rng.poisson(means / scale) + np.sqrt(offset) * rng.standard_normal(means.shape)
-    codes = np.rint(BLACK + values * (WHITE - BLACK))
-    if codes.min() < 0 or codes.max() > WHITE:
+    grey_values = np.rint(BLACK + values * (WHITE - BLACK))
+    if grey_values.min() < 0 or grey_values.max() > WHITE:
         raise SystemExit("a simulated pixel is outside of the range of the file; choose other levels")
     variances = scale * level * np.array(illuminant) + offset + 1 / 12 / (WHITE - BLACK) ** 2
-    return codes, variances
+    return grey_values, variances
 
 
-def export(cli: str, folder: Path, codes: np.ndarray, method: str) -> np.ndarray:
+def export(cli: str, folder: Path, grey_values: np.ndarray, method: str) -> np.ndarray:
     """Returns what darktable makes of a mosaic, on [0, 1]."""
     raw, xmp, pfm = (folder / name for name in ("flat.dng", "flat.xmp", "flat.pfm"))
     pfm.unlink(missing_ok=True)
-    write_dng(raw, codes, BLACK, WHITE, neutral=[1, 1, 1, 1, 1, 1])
+    write_dng(raw, grey_values, BLACK, WHITE, neutral=[1, 1, 1, 1, 1, 1])
     xmp.write_text(history(method))
     command = [cli, raw, xmp, pfm, "--icc-type", "LIN_REC709", "--apply-custom-presets", "false", "--core"]
     command += ["--configdir", folder / "config", "--cachedir", folder / "cache", "--library", ":memory:"]
@@ -108,10 +108,10 @@ def export(cli: str, folder: Path, codes: np.ndarray, method: str) -> np.ndarray
     return read_pfm(pfm)
 
 
-def factors(image: np.ndarray, codes: np.ndarray, variances: np.ndarray) -> np.ndarray:
+def factors(image: np.ndarray, grey_values: np.ndarray, variances: np.ndarray) -> np.ndarray:
     """Returns the variance by darktable's tool over the variance of the mosaic, for R, G and B."""
     margin = 16  # pixels at the border, where demosaicing has no neighbours
-    means = np.array([plane.mean() for plane in planes((codes - BLACK) / (WHITE - BLACK))])
+    means = np.array([plane.mean() for plane in planes((grey_values - BLACK) / (WHITE - BLACK))])
     inner = image[margin:-margin, margin:-margin]
     found = inner.mean(axis=(0, 1))
     # the demosaicing moves means by a fraction of the noise; another colour space would change them by percents
@@ -142,8 +142,10 @@ def main() -> None:
         ):
             found = []
             for _ in range(given.images):
-                codes, variances = simulate(rng, given.side, colour, level, scale, offset)
-                found.append(factors(export(given.darktable_cli, Path(name), codes, given.method), codes, variances))
+                grey_values, variances = simulate(rng, given.side, colour, level, scale, offset)
+                found.append(
+                    factors(export(given.darktable_cli, Path(name), grey_values, given.method), grey_values, variances)
+                )
             mean, error = np.mean(found, axis=0), np.std(found, axis=0, ddof=1) / np.sqrt(given.images)
             cases.append(mean)
             numbers = "  ".join(f"{m:.4f} ± {e:.4f}" for m, e in zip(mean, error, strict=True))

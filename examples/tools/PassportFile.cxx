@@ -23,7 +23,7 @@ JsonOrNull(const std::optional<T> & value)
   return value ? Json(*value) : Json();
 }
 
-/** Returns the text without what Unicode does not know, as the names of files may hold it. */
+/** Returns the text without bytes that are no Unicode, which names of files may have. */
 std::string
 AsUtf8(const std::string & text)
 {
@@ -185,7 +185,6 @@ std::string
 ToJson(const Passport & passport, const SweepSummary & summary)
 {
   Json        found = Json::parse(sensornoise::ToJson(summary));
-  Json &      model = found["android"]["model"];
   std::size_t measured = 0;
   Json        settings = Json::array();
   for (const PassportEntry & entry : passport.entries)
@@ -200,7 +199,11 @@ ToJson(const Passport & passport, const SweepSummary & summary)
                          { "report", entry.report } });
     measured += isMeasured ? 1 : 0;
   }
-  model = model.is_string() ? Json::parse(model.get<std::string>()) : Json();
+  for (const char * const program : { "android", "darktable" })
+  {
+    Json & model = found[program]["model"];
+    model = model.is_string() ? Json::parse(model.get<std::string>()) : Json();
+  }
   const Json record{ { "schema", PassportSchema },
                      { "version", GetModuleVersion() },
                      { "setting", NameOf(passport.kind) },
@@ -210,6 +213,7 @@ ToJson(const Passport & passport, const SweepSummary & summary)
                      { "conversion_gain_switch", found["conversion_gain_switch"] },
                      { "common_gain", found["common_gain"] },
                      { "android", found["android"] },
+                     { "darktable", found["darktable"] },
                      { "findings", found["findings"] } };
   return record.dump(1) + '\n';
 }

@@ -24,7 +24,7 @@ struct PassportEntry
 {
   std::string           name; ///< name of the burst: its folder or its file
   std::optional<double> setting;
-  std::string           reason;  ///< why it could not be measured; "": it was measured
+  std::string           reason;  ///< reason why it was not measured; "": it was measured
   std::string           options; ///< the options that change numbers, as they were given
   nlohmann::json        report;  ///< the record of the report; null: it could not be measured
 };

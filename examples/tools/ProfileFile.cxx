@@ -3,8 +3,9 @@
 #include "tools/ProfileFile.h"
 
 #include "sensornoise/ReportText.h"
-#include "exports/ProfileCheck.h"
+#include "exports/NoiseProfile.h"
 #include "tools/StoredReportFile.h"
+#include "tools/TerminalText.h"
 #include "itkSensorNoiseProfileFile.h"
 
 #include <exception>
@@ -64,11 +65,11 @@ CheckProfile(const NoiseProfile & profile, const MeasuredStack & measured, const
 {
   const std::string  text = std::visit([](const auto & reports) { return sensornoise::ToJson(reports); }, measured);
   const StoredReport frames = ValuesOfJson("of these frames", nlohmann::json::parse(text));
-  const auto         tell = [&profile](const std::string & reason) {
-    std::cerr << "error: the profile " << profile.file << " cannot be checked: " << reason << '\n';
+  const auto         reportReason = [&profile](const std::string & reason) {
+    std::cerr << "error: the profile " << profile.file << " cannot be checked: " << ForStandardError(reason) << '\n';
   };
   ModelChecks           checks;
-  std::set<std::string> told; // channels often lack the same
+  std::set<std::string> reported; // channels often lack the same
   try
   {
     CameraNoise noise = ReadCameraNoise(frames, settings);
@@ -76,15 +77,15 @@ CheckProfile(const NoiseProfile & profile, const MeasuredStack & measured, const
     for (const ChannelProfileCheck & channel : CheckStoredFrames(profile, frames, noise))
     {
       checks.push_back(channel.check);
-      if (!channel.check && told.insert(channel.reason).second)
+      if (!channel.check && reported.insert(channel.reason).second)
       {
-        tell(channel.reason);
+        reportReason(channel.reason);
       }
     }
   }
   catch (const std::exception & error) // the report is written all the same
   {
-    tell(error.what());
+    reportReason(error.what());
     checks.assign(ReportsOf(measured).size(), std::nullopt);
   }
   return checks;

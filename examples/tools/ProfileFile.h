@@ -17,8 +17,8 @@ NoiseProfile
 ReadProfileFile(const std::string & file);
 
 /** Compares the variance of the measured frames with a profile, channel by channel. \a settings replaces the black and
- * the white level of the frames' files. A DNG file with a profile gives them if neither does. What a channel lacks is
- * reported on standard error. */
+ * the white level of the frames' files. A DNG file with a profile gives them if neither does. The reason why a
+ * channel is not compared is reported on standard error. */
 ModelChecks
 CheckProfile(const NoiseProfile & profile, const MeasuredStack & measured, const ExportSettings & settings);
 

@@ -21,7 +21,7 @@ protected:
     EXPECT_NE(archive.substr(member, values - member).find("'shape': (" + shape + ")"), std::string::npos) << name;
     EXPECT_EQ((values - member - name.size() - 4) % 64, 0U) << name << ": NumPy aligns its values to 64 bytes";
     std::vector<double> numbers(count);
-    std::memcpy(numbers.data(), archive.data() + values, count * sizeof(double)); // of a machine of little endian
+    std::memcpy(numbers.data(), archive.data() + values, count * sizeof(double)); // on a little-endian machine
     return numbers;
   }
 };
@@ -49,7 +49,7 @@ TEST_F(CareamicsExport, GaussianIsTheLine)
 TEST_F(CareamicsExport, ADarkestLevelWithoutNoiseIsRefused)
 {
   this->SetQuantity("/total_intercept", -slope * 101.0);
-  IsRefused("careamics", { "variance of -0.5 DN^2", "darkest level 100 DN", "above 0" });
+  IsRefused("careamics", { "variance of -0.5 DN\u00B2", "darkest level 100 DN", "above 0" });
   m_Report.numbers.erase("/scatter/mean/0");
   m_Report.numbers.erase("/scatter/mean/1");
   IsRefused("careamics", { "no measured levels" });

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "exports/Darktable.h"
 #include "exports/NoiseProfile.h"
 #include "helpers/ProfileTestHelper.h"
 
@@ -138,7 +137,7 @@ TEST_F(DarktableExport, PresetsOfAnotherCameraOrSpeedAreRefused)
 {
   StoredReport values = PresetsAround(0.25);
   m_Report.texts["/camera/name"] = "Another";
-  IsTrue(ReadNoiseProfile(values)); // of one camera: its name may differ
+  IsTrue(ReadNoiseProfile(values)); // the file has one camera, whose name may differ
   values.texts["/noiseprofiles/0/models/1/model"] = "Camera 6";
   for (const char * number : { "/iso", "/a/1", "/b/1" })
   {

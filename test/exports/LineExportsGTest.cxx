@@ -102,7 +102,7 @@ TEST_F(LineExports, ANegativeVarianceAtTheBlackLevelHasItsError)
   m_Report.numbers["/read_noise/standard_error"] = 0.5;
   m_Report.numbers["/offset/standard_error"] = 2.0;
   m_Report.numbers["/camera/black_level"] = offset - 20.0;
-  IsRefused("dng", { "a variance of -7.7 +- 1.8 DN^2 at the black level 44.5 DN", "--black", "--dark" });
+  IsRefused("dng", { "a variance of -7.7 \u00B1 1.8 DN\u00B2 at the black level 44.5 DN", "--black", "--dark" });
   m_Report.numbers.erase("/offset/standard_error");
   IsRefused("dng", { "a variance of -7.6" });
 }

@@ -5,11 +5,15 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <itkImage.h>
 #include <itkImageFileReader.h>
+#include <map>
 #include <string>
+#include <vector>
 
 using namespace sensornoise;
 
@@ -52,16 +56,24 @@ protected:
   }
 };
 
-TEST_F(MapExport, FilesAreTheMapsInTheirUnits)
+// navigate reads <serial>_off.tiff and <serial>_var.tiff [DN, DN^2], PYME dark_<ms>ms.tif [DN] and variance_<ms>ms.tif
+// [e-^2], with the exposure rounded to milliseconds.
+TEST_F(MapExport, FilesAreTheMapsOfTheirProgramsInTheirUnits)
 {
-  const NoiseExport made = ExportNoise("maps", { NoiseWithMaps() });
-  ASSERT_EQ(made.files.size(), 3U);
-  EXPECT_EQ(made.files[0].name, "offset.tif");
-  EXPECT_EQ(made.files[1].name, "variance.tif");
-  EXPECT_EQ(made.files[2].name, "variance_electrons.tif");
+  m_Report.numbers["/camera/exposure_seconds"] = 0.0104;
+  const NoiseExport        made = ExportNoise("maps", { NoiseWithMaps() });
+  std::vector<std::string> names;
+  for (const ExportedFile & file : made.files)
+  {
+    names.push_back(file.name);
+  }
+  ASSERT_EQ(names,
+            (std::vector<std::string>{
+              "SERIAL_off.tiff", "SERIAL_var.tiff", "dark_10ms.tif", "variance_10ms.tif", "smap_camera.mat" }));
   const auto offsets = ImageOf(made.files[0]);
   const auto variances = ImageOf(made.files[1]);
-  const auto electrons = ImageOf(made.files[2]);
+  const auto electrons = ImageOf(made.files[3]);
+  EXPECT_EQ(made.files[2].bytes, made.files[0].bytes);
   for (int y = 0; y < 2; ++y)
   {
     for (int x = 0; x < 3; ++x)
@@ -75,10 +87,50 @@ TEST_F(MapExport, FilesAreTheMapsInTheirUnits)
   }
 }
 
+// SMAP's makegainoffsetCMOS loads offsetmap, varmap and gainmap from a MAT file. Photoelectrons are (x - offsetmap)
+// gainmap, and their variance is varmap gainmap^2.
+TEST_F(MapExport, SmapHasMatricesOfItsNames)
+{
+  const std::string bytes = ExportNoise("maps", { NoiseWithMaps() }).files[4].bytes;
+  const auto        number = [&bytes](std::size_t at) {
+    std::uint32_t found = 0;
+    std::memcpy(&found, bytes.data() + at, sizeof found);
+    return found;
+  };
+  std::map<std::string, std::vector<float>> matrices;
+  for (std::size_t at = 0; at < bytes.size();)
+  {
+    EXPECT_EQ(number(at), 10U);     // single precision, little endian
+    EXPECT_EQ(number(at + 4), 2U);  // rows
+    EXPECT_EQ(number(at + 8), 3U);  // columns
+    EXPECT_EQ(number(at + 12), 0U); // real
+    const std::string  name = bytes.substr(at + 20, number(at + 16) - 1);
+    std::vector<float> values(6);
+    std::memcpy(values.data(), bytes.data() + at + 20 + name.size() + 1, 24);
+    matrices[name] = values;
+    at += 20 + name.size() + 1 + 24;
+  }
+  ASSERT_EQ(matrices.size(), 3U);
+  EXPECT_EQ(matrices["offsetmap"], (std::vector<float>{ 0, 1, 100, 101, 200, 201 })); // column by column
+  const float electronsPerDn = matrices["gainmap"].front();
+  EXPECT_FLOAT_EQ(electronsPerDn, 2.0F);
+  EXPECT_EQ(matrices["gainmap"], std::vector<float>(6, electronsPerDn));
+  EXPECT_FLOAT_EQ(matrices["varmap"][5] * electronsPerDn * electronsPerDn, std::pow(1.21F * 2.0F, 2.0F));
+}
+
+TEST_F(MapExport, TheNameLacksAnExposureThatIsNotKnown)
+{
+  const NoiseExport made = ExportNoise("maps", { NoiseWithMaps() });
+  EXPECT_EQ(made.files[2].name, "dark_ms.tif");
+  EXPECT_NE(made.note.find("the exposure is not known"), std::string::npos) << made.note;
+}
+
 TEST_F(MapExport, ElectronsNeedAGain)
 {
   this->RemoveQuantity("/gain", "failed");
-  EXPECT_EQ(ExportNoise("maps", { NoiseWithMaps() }).files.size(), 2U);
+  const NoiseExport made = ExportNoise("maps", { NoiseWithMaps() });
+  EXPECT_EQ(made.files.size(), 2U);
+  EXPECT_NE(made.note.find("no files for PYME and SMAP"), std::string::npos) << made.note;
 }
 
 TEST_F(MapExport, AReportWithoutMapsIsRefused)

@@ -159,7 +159,7 @@ TEST_F(NoiseProfiles, TruncatedArchivesAreRefused)
   std::string changed = whole;
   changed[whole.find('\n') + 20] ^= 1; // in the weights
   IsDamaged(changed, { "checksum" });
-  std::string       many = whole; // the directory claims 20,000 arrays, which may all be the same bytes
+  std::string       many = whole; // the directory states 20,000 arrays, which may all be the same bytes
   const std::size_t count = many.rfind("PK\x05\x06") + 10;
   many[count] = '\x20';
   many[count + 1] = '\x4e';

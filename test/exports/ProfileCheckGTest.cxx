@@ -88,7 +88,7 @@ TEST_F(ProfileMistakes, BlackLevel)
   Names(SensorProfile(1.0 / otherGain, 10.0, 0.0), lostBlack);
   Names(LineProfile(otherGain, dark), lostBlack);
   ExportSettings settings;
-  settings.blackLevelDn = 300.0; // of the reader, not of the frames
+  settings.blackLevelDn = 300.0; // black level that the reader gives; the frames have another one
   Names(NormalisedProfile(otherGain / (white - 300.0), dark / ((white - 300.0) * (white - 300.0))),
         "the black level is 300 DN in the profile and 64 DN in the frames",
         settings);
@@ -157,7 +157,7 @@ TEST_F(ProfileCheck, TooFewPixelsAreNotTested)
     count = 1; // a band's relative error is about 0.06
   }
   const auto check = CheckNoiseProfile(LineProfile(1.1 * slope, 1.1 * intercept), frames, ReadCameraNoise(m_Report));
-  EXPECT_EQ(check.verdict, NoiseModelCheck::Verdict::NotTold) << check.sentence;
+  EXPECT_EQ(check.verdict, NoiseModelCheck::Verdict::NotDetermined) << check.sentence;
 }
 
 TEST_F(ProfileCheck, ProfileWithoutVarianceSaysWhere)

@@ -146,7 +146,7 @@ TEST_F(SensorExports, AMosaicIsExportedByChannel)
 // No record of a sensor holds the excess noise of multiplied electrons: its program would take it for no noise.
 TEST_F(SensorExports, MultipliedElectronsAreRefused)
 {
-  const std::string line = TextOf("ndsafir"); // of the variance of the frames, which has the excess noise
+  const std::string line = TextOf("ndsafir"); // the variance of the frames, which contains the excess noise
   for (const char * const at : { "/settings", "/channels/0/settings" })
   {
     m_Report.numbers[std::string(at) + "/excess_noise_factor"] = 2.0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "exports/ProfileCheck.h"
+#include "exports/NoiseProfile.h"
 
 #include "helpers/ProfileTestHelper.h"
 
@@ -87,6 +87,6 @@ TEST_F(StoredFrames, SayWhyTheirVarianceIsNotMeasured)
   m_Report.numbers.erase("/scatter/corrected_variance/3"); // it is null
   m_Report.texts["/warnings/0/message"] = "the frames are all alike";
   const auto checks = this->CheckStored(LineProfile(slope, intercept));
-  EXPECT_EQ(checks[0].check->verdict, sensornoise::NoiseModelCheck::Verdict::NotTold);
+  EXPECT_EQ(checks[0].check->verdict, sensornoise::NoiseModelCheck::Verdict::NotDetermined);
   EXPECT_NE(checks[0].check->sentence.find("the frames are all alike"), std::string::npos);
 }

@@ -164,14 +164,20 @@ def test_maps_are_those_of_dark_frames(report, tmp_path):
     dark, _ = sn.simulate_sensor_noise(frames=20, dark=True, **options)
     with_maps = sn.estimate_sensor_noise(stack, bayer="none", dark=dark, maps=True)
     made = with_maps.export("maps", output=tmp_path)
-    assert set(made.files) >= {"offset.tif", "variance.tif"}
+    gain = with_maps.gain.value
     for name, expected in (
-        ("offset.tif", with_maps.maps["pixel_offset"]),
-        ("variance.tif", with_maps.maps["pixel_read_noise"] ** 2),
+        ("SERIAL_off.tiff", with_maps.maps["pixel_offset"]),
+        ("SERIAL_var.tiff", with_maps.maps["pixel_read_noise"] ** 2),
+        ("dark_ms.tif", with_maps.maps["pixel_offset"]),
+        ("variance_ms.tif", (with_maps.maps["pixel_read_noise"] / gain) ** 2),
     ):
         found = itk.array_from_image(itk.imread(tmp_path / name))
         np.testing.assert_allclose(found, expected, rtol=1e-6)
-    with pytest.raises(ValueError, match="3 files"):
+    matrices = pytest.importorskip("scipy.io").loadmat(tmp_path / "smap_camera.mat")
+    np.testing.assert_allclose(matrices["offsetmap"], with_maps.maps["pixel_offset"], rtol=1e-6)
+    np.testing.assert_allclose(matrices["varmap"], with_maps.maps["pixel_read_noise"] ** 2, rtol=1e-6)
+    np.testing.assert_allclose(matrices["gainmap"], np.full((64, 96), 1 / gain), rtol=1e-6)
+    with pytest.raises(ValueError, match="5 files"):
         str(made)
     with pytest.raises(ValueError, match="no maps"):
         report.export("maps")

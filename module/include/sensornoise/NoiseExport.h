@@ -21,7 +21,7 @@
 namespace sensornoise
 {
 
-/** Why a noise model cannot be exported: what was found, what was expected, and what to do. */
+/** Error: a noise model cannot be exported. The message says what was found, what was expected, and what to do. */
 class SensorNoise_EXPORT ExportError : public std::runtime_error
 {
 public:
@@ -40,7 +40,7 @@ struct StoredReport
 /** Values that a report lacks, and values that replace its camera settings. */
 struct ExportSettings
 {
-  std::optional<double> blackLevelDn;        ///< black level [DN]; default: the camera's
+  std::optional<double> blackLevelDn;        ///< black level [DN]; default: the black level of the camera
   std::optional<double> whiteLevelDn;        ///< white level [DN]; default: the camera's
   std::string           channel;             ///< the only channel to be exported: "R", "G1", "G2" or "B"; empty: all
   double                analogueGain{ 1.0 }; ///< analogue gain of the measurement [1], above 0; only for libcamera
@@ -88,7 +88,8 @@ struct CameraNoise
   std::optional<double>       blackLevelDn;
   std::optional<double>       whiteLevelDn;
   std::optional<double>       isoSpeed;
-  std::optional<unsigned int> bitDepth; ///< bit depth of the digital numbers [bit]
+  std::optional<double>       exposureSeconds; ///< exposure time [s]
+  std::optional<unsigned int> bitDepth;        ///< bit depth of the digital numbers [bit]
   double                      analogueGain{ 1.0 };
   std::optional<double>       maxAnalogueIso;
   double                      excessNoiseFactor{ 1.0 }; ///< F [1]: the slope of the sensor's variance is F times g
@@ -108,7 +109,7 @@ enum class ExportTakes : std::uint8_t
   Maps    ///< offset and read noise of each pixel
 };
 
-/** How exactly the file holds the model. */
+/** Accuracy with which the file represents the model. */
 enum class ExportExactness : std::uint8_t
 {
   Exact,     ///< to the rounding of its numbers
@@ -131,14 +132,14 @@ struct NoiseExport
   std::string               note; ///< a sentence about the misfit or the use; may be empty
 };
 
-/** One format: a row of the table that help, documentation and tests are made of. */
+/** One format: a row of the table from which help, documentation and tests are made. */
 struct ExportFormat
 {
   const char *    name{ nullptr };
   const char *    consumer{ nullptr };
   ExportTakes     takes{ ExportTakes::Line };
   ExportExactness exactness{ ExportExactness::Exact };
-  const char *    fields{ nullptr }; ///< what is written
+  const char *    fields{ nullptr }; ///< content of the files
   bool            isText{ true };
   std::size_t     leastReports{ 1 };     ///< settings of the camera that it needs
   bool            takesSeveral{ false }; ///< whether it takes more settings than it needs; false: exactly one
@@ -173,9 +174,11 @@ ExportNoise(const std::string & format, const std::vector<CameraNoise> & setting
 SensorNoise_EXPORT std::vector<std::pair<double, double>>
 NoiseProfileOf(const CameraNoise & noise);
 
-/** Returns a copy of a DNG file, or another TIFF file, with the tag NoiseProfile in its first directory. A tag that is
- * there is replaced. The pixels and all other tags are the same. Throws ExportError unless \a file is a classic TIFF
- * whose first directory is whole. */
+/** Returns a copy of a DNG file, or another TIFF file, with the tag NoiseProfile in its first directory, where Adobe's
+ * DNG SDK reads it. Where the first directory is a preview, the tag is also in the raw directory of its SubIFDs (tag
+ * 330). Tags that are there are replaced. The pixels and all other tags are the same. Throws ExportError unless \a file
+ * is a classic TIFF whose first directory is whole, and so is each directory of a preview's SubIFDs up to the raw one.
+ */
 SensorNoise_EXPORT std::string
 WithNoiseProfile(const std::string & file, const std::vector<std::pair<double, double>> & profile);
 

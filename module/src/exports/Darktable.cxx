@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "exports/Darktable.h"
 
 #include "base/Text.h"
 #include "exports/ExportFormats.h"

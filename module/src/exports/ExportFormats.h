@@ -89,8 +89,9 @@ ExportAnscombeTransform(const CameraNoise & noise);
 NoiseExport
 ExportDeepinv(const CameraNoise & noise);
 
-/** Returns the pairs (scale, offset) of the tag NoiseProfile in the first directory of a DNG file. Throws ExportError
- * unless \a file is a classic TIFF whose first directory is whole and has the tag, of pairs of doubles. */
+/** Returns the pairs (scale, offset) of the tag NoiseProfile in the first directory of a DNG file, else in the raw
+ * directory of its SubIFDs. Throws ExportError unless \a file is a classic TIFF whose directories are whole, and one of
+ * both has the tag, of pairs of doubles. */
 std::vector<std::pair<double, double>>
 NoiseProfileIn(const std::string & file);
 
@@ -141,9 +142,15 @@ ExportEmva1288(const CameraNoise & noise);
 NoiseExport
 ExportCareamics(const CameraNoise & noise);
 
-/** Maps of the pixels as TIFF files of 32-bit floating-point numbers, a row of the file for a row of the sensor:
- * offset.tif [DN] and variance.tif, the square of the read noise [DN^2]. Of a sensor without a mosaic with a gain, also
- * variance_electrons.tif [e-^2]. Throws ExportError if the report has no maps. */
+/** Maps of the pixels by the names and in the units of their programs, each row of the frames a row of the file. TIFF
+ * files have 32-bit floating-point numbers.
+ * - navigate: SERIAL_off.tiff [DN] and SERIAL_var.tiff, the square of the read noise [DN^2];
+ * - PYME: dark_<ms>ms.tif [DN] and variance_<ms>ms.tif [e-^2], with the exposure, or without the number if it is not
+ *   known;
+ * - SMAP: smap_camera.mat with offsetmap [DN], varmap [DN^2] and gainmap [e-/DN], equal for all pixels.
+ *
+ * The files for PYME and SMAP need a gain, and a sensor without a mosaic. Throws ExportError if the report has no maps.
+ */
 NoiseExport
 ExportMaps(const CameraNoise & noise);
 

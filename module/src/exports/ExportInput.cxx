@@ -82,6 +82,7 @@ ReadCameraSettings(const StoredReport & report, CameraNoise & noise)
     either(noise.blackLevelDn, "black_level");
     either(noise.whiteLevelDn, "white_level");
     either(noise.isoSpeed, "iso_speed");
+    either(noise.exposureSeconds, "exposure_seconds");
     noise.excessNoiseFactor =
       NumberAt(report, std::string(at) + "/settings/excess_noise_factor").value_or(noise.excessNoiseFactor);
     noise.camera = noise.camera.empty() ? TextAt(report, camera + "name") : noise.camera;
@@ -262,8 +263,8 @@ NormalisedLineOf(const CameraNoise & noise, const ChannelNoise & channel)
     const bool hasOffset = channel.offset.value.has_value();
     const auto error = DarkVarianceError(channel, model.varianceSlopeDn);
     throw ExportError(ReportWords(noise, channel) + " has a variance of " +
-                      (error ? Measured(darkVariance, *error) : Rounded(darkVariance)) + " DN^2 at the black level " +
-                      Text(black) + " DN; expected 0 or more. The line is 0 at " +
+                      WithSigns((error ? Measured(darkVariance, *error) : Rounded(darkVariance)) + " DN^2") +
+                      " at the black level " + Text(black) + " DN; expected 0 or more. The line is 0 at " +
                       Text(-model.totalInterceptDn2 / model.varianceSlopeDn) + " DN" +
                       (hasOffset ? ", and the measured offset is " + Text(*channel.offset.value) + " DN" : "") +
                       ". Give the level of the camera's dark frames as the black level (--black), or measure with "

@@ -210,7 +210,7 @@ ScaleVariance(const CameraNoise & noise)
   return { mean.scale * scaledRange, mean.offset * scaledRange * scaledRange, std::sqrt(scaledRange) };
 }
 
-/** Least squares of the relative error; with a constant of 0 where it would be negative. */
+/** Fits the line by least squares of the relative error. A constant that would be negative is set to 0. */
 RootLine
 FitRootLine(const ScaledVariance & variance)
 {

@@ -3,7 +3,7 @@
 #include "sensornoise/NoiseExport.h"
 
 #include "base/Text.h"
-#include "exports/Darktable.h"
+#include "exports/NoiseProfile.h"
 #include "exports/ExportFormats.h"
 #include "report/JsonWriter.h"
 
@@ -182,7 +182,7 @@ constexpr std::array<ExportFormat, 18> Formats{ {
     "PYME, SMAP, navigate: correction of each pixel",
     ExportTakes::Maps,
     ExportExactness::Exact,
-    "TIFF: offset [DN], variance [DN^2], variance [e-^2]",
+    "TIFF: offset [DN], variance [DN^2] or [e-^2]; MAT: both and the gain [e-/DN]",
     false,
     1,
     false,

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "exports/ProfileCheck.h"
+#include "exports/NoiseProfile.h"
 
 #include "base/Text.h"
-#include "exports/Darktable.h"
 #include "exports/ExportFormats.h"
 #include "stabilise/NoiseModelCheck.h"
 
@@ -49,8 +48,7 @@ AddInverses(const ProfileVariance & profile, std::vector<ProfileMistake> & mista
   const double       inverse = 1.0 / profile.slope;
   ProfileVariance    corrected = profile;
   corrected.slope = inverse;
-  // The read noise is in DN in the profile; or in electrons, and the wrong gain has made DN of it, as the right one
-  // does.
+  // The read noise of the profile is in DN, or it is in electrons and was converted by the wrong gain.
   for (const double dark : { profile.darkDn2, profile.darkDn2 * Squared(Squared(inverse)) })
   {
     corrected.darkDn2 = profile.hasReadNoise ? dark : profile.darkDn2;
@@ -328,7 +326,7 @@ WorstMisfit(const NoiseModelCheck & check)
 {
   constexpr double errors = 4.0; // as bands are tested, in standard errors
   const Band *     worst = nullptr;
-  double           largest = 0.0; // of the logarithm
+  double           largest = 0.0; // largest logarithm of a ratio, as an absolute value
   for (const Band & band : check.bands)
   {
     const bool deviates = band.fits && band.ratio && *band.ratio > 0.0 &&

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "exports/Darktable.h"
 #include "exports/ExportFormats.h"
 #include "exports/NoiseProfile.h"
 
@@ -256,7 +255,7 @@ struct RecordFormat
 {
   const char * name{ nullptr };
   const char * member{ nullptr };
-  const char * otherMember{ nullptr }; ///< the same, where one member is not enough
+  const char * otherMember{ nullptr }; ///< second member that is needed; null: none
   NoiseProfile (*read)(const ProfileValues &){ nullptr };
 };
 

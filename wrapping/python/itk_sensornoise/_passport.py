@@ -144,7 +144,7 @@ class Passport(Record):
         write_file(Path(os.fsdecode(output)), self.to_json().encode())
 
     def to_html(self, path: FileName | None = None, *, title: str | None = None) -> str | None:
-        """Makes the page of the sweep: the findings, gain and read noise against the setting, and the table.
+        """Makes the page of the sweep: the findings, each number against the setting, and the table.
 
         Parameters
         ----------
@@ -177,8 +177,9 @@ def passport_of(kind: str, entries: Sequence[Mapping[str, Any]]) -> Passport:
         sweep.Summarise()
     found = json.loads(sweep.GetSummaryAsJson())
     channels = iter(found.pop("channels"))
-    if found["android"]["model"] is not None:
-        found["android"]["model"] = json.loads(found["android"]["model"])
+    for program in ("android", "darktable"):
+        if found[program]["model"] is not None:
+            found[program]["model"] = json.loads(found[program]["model"])
     settings = [
         {
             "name": entry["name"],
