@@ -4,10 +4,10 @@
 
 #include "browser/BurstChunks.h"
 #include "browser/BurstMemory.h"
-#include "files/FrameSizes.h"
-#include "moments/MosaicLevels.h"
-#include "mosaic/DarkFrameSums.h"
-#include "report/StackSettings.h"
+#include "files/FrameReader.h"
+#include "moments/StackMaps.h"
+#include "mosaic/MosaicGeometry.h"
+#include "report/StackReport.h"
 #include "sensornoise/MosaicMethod.h"
 #include "sensornoise/StackMethod.h"
 #include "sensornoise/Settings.h"
@@ -26,15 +26,15 @@ namespace sensornoise::browser
 namespace
 {
 /** Returns what is known of the digital numbers, from the options or from the files. */
-CodeSettings
-CodesOf(const Burst & burst, const BurstOptions & options)
+DnSettings
+DnSettingsOf(const Burst & burst, const BurstOptions & options)
 {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   if (options.method == "single-image")
   {
-    return MakeCodeSettings(options.bitDepth, unknown, unknown, 0.0);
+    return MakeDnSettings(options.bitDepth, unknown, unknown, 0.0);
   }
-  return MakeCodeSettings(
+  return MakeDnSettings(
     options.bitDepth > 0 ? options.bitDepth : burst.camera.bitDepth, unknown, burst.camera.whiteLevelDn, 0.0);
 }
 
@@ -87,7 +87,7 @@ FindOffsets(const Burst &                 burst,
     ForChunks<TPixel>(*dark, 0, progress, [&sums](const TPixel * frames, std::size_t count) {
       sums.AddFrames(frames, count, SerialFor);
     });
-    const auto measured = sums.Measure(CodesOf(burst, options), SerialFor);
+    const auto measured = sums.Measure(DnSettingsOf(burst, options), SerialFor);
     std::copy(measured.begin(), measured.end(), offsets.begin());
   }
   else if (std::isfinite(burst.camera.opticalBlackDn + burst.camera.opticalBlackErrorDn))
@@ -170,7 +170,7 @@ RunSingleImages(const Burst &                 burst,
                 const BurstProgress &         progress)
 {
   SingleImageSettings settings;
-  settings.codes = CodesOf(burst, options);
+  settings.codes = DnSettingsOf(burst, options);
   if (mosaic)
   {
     settings.bayerPattern = mosaic->pattern;
@@ -200,13 +200,13 @@ Estimate(const Burst & burst, const Burst * dark, const BurstOptions & options, 
   if (options.method == "published")
   {
     PublishedSettings settings;
-    settings.codes = CodesOf(burst, options);
+    settings.codes = DnSettingsOf(burst, options);
     return RunMethod<TPixel, PublishedMethod<TPixel>>(
       burst, mosaic, [&settings](std::size_t) { return settings; }, progress);
   }
   const auto      offsets = FindOffsets<TPixel>(burst, dark, options, mosaic, progress);
   RefinedSettings settings;
-  settings.codes = CodesOf(burst, options);
+  settings.codes = DnSettingsOf(burst, options);
   settings.memoryLimitBytes = MemoryLimitOf(burst, options) / static_cast<double>(offsets.size());
   const auto settingsOf = [&](std::size_t part) {
     RefinedSettings ofPart = settings;

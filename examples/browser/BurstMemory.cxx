@@ -4,7 +4,7 @@
 
 #include "base/FreeMemory.h"
 #include "base/Simd.h"
-#include "refined/MemoryNeed.h"
+#include "refined/PixelProjections.h"
 
 #include <algorithm>
 #include <limits>
@@ -22,11 +22,12 @@ constexpr std::size_t MostComponents = 20;
 /** Memory of the program, the reports, and the sums of the second pass [bytes]; chosen empirically, twice its peak. */
 constexpr double ProgramBytes = 64e6;
 
+/** Returns the memory beside the method [bytes]: the program, the frames of a chunk, and one frame that is decoded. */
 double
 BytesBesideMethod(const Burst & burst)
 {
   const double frameBytes = static_cast<double>(burst.geometry.Pixels()) * static_cast<double>(SizeOf(burst.pixel));
-  return ProgramBytes + frameBytes * static_cast<double>(FramesPerChunk(burst));
+  return ProgramBytes + frameBytes * static_cast<double>(FramesPerChunk(burst) + 1);
 }
 
 /** Memory of a method without the frames [bytes]: the least with which it works, and the most that it uses. */

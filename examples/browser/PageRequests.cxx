@@ -3,6 +3,7 @@
 // The functions of the library that the page calls. Each request and each answer is a JSON record; see Answers().
 
 #include "base/FreeMemory.h"
+#include "base/Text.h"
 #include "browser/BurstEstimate.h"
 #include "browser/BurstMemory.h"
 #include "browser/GainPlan.h"
@@ -16,6 +17,7 @@
 #include "tools/ErrorSentence.h"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <fstream>
 #include <memory>
@@ -121,6 +123,24 @@ TitleIn(const json & request)
   return { request.value("title", std::string()), request.value("date", std::string()) };
 }
 
+/** Returns what the files say of the camera, for example "Maker Model 5, GBRG, 14 bits, black level 100 DN"; "":
+ * nothing. */
+std::string
+DescribeCamera(const CameraSettings & camera)
+{
+  std::string text;
+  const auto  add = [&text](const std::string & part) { text += (text.empty() || part.empty() ? "" : ", ") + part; };
+  const auto  addLevel = [&add](const std::string & name, double levelDn) {
+    add(std::isfinite(levelDn) ? name + " level " + ShortestText(levelDn) + " DN" : "");
+  };
+  add(camera.camera);
+  add(camera.bayerPattern);
+  add(camera.bitDepth > 0 ? std::to_string(camera.bitDepth) + " bits" : "");
+  addLevel("black", camera.blackLevelDn);
+  addLevel("white", camera.whiteLevelDn);
+  return text;
+}
+
 json
 Inspect(const json & request)
 {
@@ -130,7 +150,7 @@ Inspect(const json & request)
   json            answer{ { "frames", list.frames },
                           { "frame", DescribeFrame(list) },
                           { "size", TextOfBytes(static_cast<double>(list.bytes)) },
-                          { "camera", list.camera.camera },
+                          { "camera", DescribeCamera(list.camera) },
                           { "warning", WarningOf(list) },
                           { "memory", TextOfBytes(need) },
                           { "memory_bytes", need } };

@@ -8,24 +8,31 @@ Frames come through its file pickers and by dropping them. Numbers and sentences
 
 import array
 import functools
+import gzip
 import http.server
 import json
 import math
 import os
+import shutil
+import struct
 import subprocess
 import sys
 import threading
 import time
+import zlib
 from pathlib import Path
 from random import Random
 
+import numpy as np
 import pytest
 from test_browser import CHECKS, complaints
 
 ROOT = Path(__file__).resolve().parents[2]
 SITE = ROOT / "build" / "browser" / "site"
-sys.path.append(str(ROOT / "test" / "fuzz"))
-from frame_files import all_cases  # noqa: E402 - of the tests of the native tool
+sys.path += [str(ROOT / "test" / "fuzz"), str(ROOT / "examples" / "python")]
+import frame_parts  # noqa: E402 - of the tests of the native tool
+from frame_files import all_cases, png_chunk  # noqa: E402
+from frame_stacks import RATIONAL, SHORT, read_frames, write_dng, write_stack  # noqa: E402
 from mutations import mutate  # noqa: E402
 
 pytestmark = pytest.mark.skipif(
@@ -119,7 +126,8 @@ def numbers(record, path: str = "") -> dict:
 
 
 def require_same(found: dict, expected: dict, tolerance: float = 1e-9) -> None:
-    """Numbers are equal to a relative tolerance, those of the noise correlation to 1e-6, all else exactly."""
+    """Requires that numbers are equal to a relative tolerance, which is 1e-6 for the noise correlation, and all else
+    exactly."""
     found, expected = numbers(found), numbers(expected)
     assert found.keys() == expected.keys()
     for name, value in expected.items():
@@ -164,6 +172,54 @@ def test_page_is_whole_and_shows_an_example(chrome, address, width, scheme, scre
     assert chrome.run("document.documentElement.scrollWidth <= innerWidth")
     if screenshots:
         chrome.picture(screenshots / f"browser-page-{width}-{scheme}.png")
+
+
+def press(browser, key: str, code: int) -> None:
+    """Presses a key with the character "\r" for Enter, and none for others."""
+    text = {"text": "\r"} if key == "Enter" else {}
+    for kind in ("keyDown", "keyUp"):
+        typed = text if kind == "keyDown" else {}
+        browser.send("Input.dispatchKeyEvent", type=kind, key=key, code=key, windowsVirtualKeyCode=code, **typed)
+
+
+def test_keyboard_reaches_all_controls_and_measures(page, chrome):
+    chrome.run("document.getElementById('options').open = true")
+    controls = chrome.run(
+        "[...document.querySelectorAll('input, select, button, summary')].filter((one) => !one.disabled &&"
+        " one.getClientRects().length > 0).map((one) => one.id || one.tagName)"
+    )
+    reached = []
+    for _ in range(3 * len(controls)):
+        press(chrome, "Tab", 9)
+        name = chrome.run("document.activeElement.id || document.activeElement.tagName")
+        if reached and name == reached[0]:
+            break
+        reached.append(name)
+        outlines = chrome.run(
+            "[document.activeElement, ...(document.activeElement.labels || [])]"
+            ".map((one) => getComputedStyle(one).outlineStyle)"
+        )
+        assert "solid" in outlines or name == "BODY", name
+    assert set(controls) <= set(reached) and len(controls) > 15
+    while chrome.run("document.activeElement.id") != "example":
+        press(chrome, "Tab", 9)
+    press(chrome, "Enter", 13)
+    page.wait("part('stop').hidden && part('measure').disabled && !part('result').hidden")
+    assert chrome.run("document.activeElement.id") == "result-title"
+
+
+def test_every_control_has_a_name_for_screen_readers(page, chrome):
+    chrome.run("document.getElementById('options').open = true")
+    page.measure("example")
+    nodes = chrome.send("Accessibility.getFullAXTree")["nodes"]
+    roles = {"button", "combobox", "textbox", "spinbutton", "slider", "Iframe", "region", "form", "DisclosureTriangle"}
+    controls = [
+        (node["role"]["value"], node.get("name", {}).get("value", ""))
+        for node in nodes
+        if not node["ignored"] and node["role"]["value"] in roles
+    ]
+    assert len(controls) > 20
+    assert [one for one in controls if not one[1].strip()] == []
 
 
 def test_picture_of_the_documentation(chrome, address, tmp_path, screenshots):
@@ -216,13 +272,95 @@ def test_dark_frames_are_those_of_the_tool(page, tool, tmp_path):
     require_same(page.measure(), by_tool(tool, tmp_path / "burst.mha", "--dark", tmp_path / "dark.mha"))
 
 
+# The stacks of test/reports: options of the simulator ("": flat), type of pixels, options of the page and of the tool,
+# and whether the stack is the stack of the report. Stacks of float have fractions there, and the page takes no error of
+# an offset.
+STORED_SIZE = "--size 96x80 --frames 30 --seed 7"
+BYTES = f"{STORED_SIZE} --reference texture --camera C --gain 0.01875 --offset 2.5 --read-noise 0.1875 --bit-depth 8"
+STORED = {
+    "RefinedTarget": (f"{STORED_SIZE} --camera B --condition 3", "uint16", {}, "", True),
+    "RefinedTextureOfBytes": (f"{BYTES} --condition 1", "uint8", {}, "", True),
+    "RefinedKnownOffset": (
+        f"{STORED_SIZE} --reference texture --camera C --condition 2",
+        "int16",
+        {"offset": "40"},
+        "--offset 40",
+        False,
+    ),
+    "RefinedDarkFrames": (f"{STORED_SIZE} --camera A --condition 1", "float32", {}, "", False),
+    "RefinedRollingShutter": (f"{STORED_SIZE} --condition 3 --rolling-shutter 40", "uint16", {}, "", True),
+    "RefinedFlat": ("", "int16", {}, "", True),
+    "PublishedTarget": (f"{STORED_SIZE} --condition 1", "uint16", {"method": "published"}, "--method published", True),
+    "PublishedTextureOfBytes": (
+        f"{BYTES} --condition 3",
+        "uint8",
+        {"method": "published"},
+        "--method published",
+        True,
+    ),
+    "PublishedRollingShutter": (
+        f"{STORED_SIZE} --reference bars --camera A --condition 1 --rolling-shutter 40",
+        "float32",
+        {"method": "published"},
+        "--method published",
+        False,
+    ),
+    "PublishedFlat": ("", "uint8", {"method": "published"}, "--method published", True),
+}
+
+
+def test_all_stored_reports_are_looked_at():
+    assert {file.stem for file in (ROOT / "test" / "reports").glob("*.json")} == set(STORED)
+
+
+def stored_part(record: dict) -> dict:
+    """Returns what test/reports has of a record: see StoredReportTestHelper.h."""
+    kept = {name: value for name, value in record.items() if name not in ("version", "input", "camera")}
+    kept["scatter"] = {name: values and values[::16] for name, values in record["scatter"].items()}
+    kept["flicker_rows"] = record["flicker_rows"] and [frame and frame[::16] for frame in record["flicker_rows"]]
+    return kept
+
+
+@pytest.mark.parametrize("name", STORED)
+def test_stored_reports_are_found(page, tool, tmp_path, name):
+    flags, pixel, options, arguments, is_stored = STORED[name]
+    stack = tmp_path / "stack.mha"
+    if flags:
+        tool("simulate-sensor-noise", "--output", stack, *flags.split())
+        frames = read_frames(stack)[0]
+    else:
+        frames = np.full((30, 80, 96), -3 if pixel == "int16" else 255)
+    write_stack(stack, frames.astype(pixel))
+    dark = tmp_path / "dark.mha"
+    if "Dark" in name:
+        tool("simulate-sensor-noise", "--output", dark, *flags.replace("30", "12").split(), "--dark")
+        write_stack(dark, read_frames(dark)[0].astype(pixel))
+    page.set(**options)
+    assert page.choose([stack]) == ""
+    assert not dark.exists() or page.choose([dark], "dark") == ""
+    found = page.measure()
+    require_same(found, by_tool(tool, stack, *arguments.split(), *(("--dark", dark) if dark.exists() else ())))
+    if is_stored:
+        require_same(stored_part(found), json.loads((ROOT / "test" / "reports" / f"{name}.json").read_text()))
+
+
+def cases_of(tool, folder: Path, size: tuple[int, int], frames: int, *flags: str) -> list:
+    """Returns undamaged files of all formats with the frames of a simulated burst."""
+    stack = folder / "frames.mha"
+    tool("simulate-sensor-noise", "--output", stack, "--size", "x".join(map(str, size)), "--frames", frames, *flags)
+    pixels = [frame.tobytes() for frame in read_frames(stack)[0]]
+    before = frame_parts.WIDTH, frame_parts.HEIGHT
+    frame_parts.WIDTH, frame_parts.HEIGHT = size
+    try:
+        return all_cases(pixels)
+    finally:
+        frame_parts.WIDTH, frame_parts.HEIGHT = before
+
+
 @pytest.fixture(scope="module")
 def cases(tool, tmp_path_factory):
-    """Returns undamaged files of all formats."""
-    stack = tmp_path_factory.mktemp("frames") / "frames.mha"
-    tool("simulate-sensor-noise", "--output", stack, "--size", "48x32", "--frames", "8")
-    data = stack.read_bytes()[-8 * 48 * 32 * 2 :]
-    return all_cases([data[k * 48 * 32 * 2 : (k + 1) * 48 * 32 * 2] for k in range(8)])
+    """Returns undamaged small files of all formats."""
+    return cases_of(tool, tmp_path_factory.mktemp("frames"), (48, 32), 8)
 
 
 def written(case, folder: Path) -> list[Path]:
@@ -232,20 +370,51 @@ def written(case, folder: Path) -> list[Path]:
     return [folder / file.name for file in case.files]
 
 
-def test_every_format_is_read_as_by_the_tool(page, tool, cases, tmp_path):
-    for number, case in enumerate(cases):
+def test_every_format_is_read_as_by_the_tool(page, tool, tmp_path):
+    """The frames are the frames of the stored report RefinedTarget, in every format that fits them."""
+    gains = []
+    for number, case in enumerate(cases_of(tool, tmp_path, (96, 80), 30, "--seed", "7")):
         files = written(case, tmp_path / str(number))
         page.set(raw=case.raw)
         error = page.choose(files)
         options = ("--raw", case.raw) if case.raw else ()
         expected = by_tool(tool, *(tmp_path / str(number) / name for name in case.frames), *options)
-        if any(name.endswith(".dng") for name in case.frames):
-            assert "LibRaw" in error, (case.name, error)  # a page has no decoder of raw files of cameras
-            continue
         found = page.measure() if error == "" else None
         assert (found is None) == isinstance(expected, str), (case.name, error, expected)
         if found is not None:
             require_same(found, expected)
+            gains.append((case.name.split()[0], found.get("gain", {}).get("value")))
+    stored = json.loads((ROOT / "test" / "reports" / "RefinedTarget.json").read_text())["gain"]["value"]
+    whole = {name for name, gain in gains if gain is not None and math.isclose(gain, stored, rel_tol=1e-9)}
+    assert whole >= {"mha", "mhd", "nrrd", "nhdr", "tiff", "bigtiff", "png"}
+    assert whole >= {"ser", "fits", "npy", "pgm", "mraw", "raw", "dng"}
+
+
+@pytest.mark.parametrize("cfa", [(0, 1, 1, 2), (1, 2, 0, 1)])
+def test_settings_of_a_raw_file_reach_the_estimate(page, tool, tmp_path, cfa):
+    """A mosaic as DNG: pattern, black and white level, ISO speed and exposure are those that the tool reads."""
+    flags = "--size 192x128 --frames 20 --bayer RGGB"
+    tool("simulate-sensor-noise", "--output", tmp_path / "b.mha", *flags.split())
+    frames, _ = read_frames(tmp_path / "b.mha")
+    files = [tmp_path / f"IMG_{number}.dng" for number in range(len(frames))]
+    for name, grey_values in zip(files, frames, strict=True):
+        exif = [(33434, RATIONAL, [1, 50]), (34855, SHORT, [400])]
+        write_dng(name, grey_values, black=100, white=3500, cfa=cfa, model=b"Model 5", exif=exif)
+    assert page.choose(files) == ""
+    pattern = "".join("RGB"[colour] for colour in cfa)
+    assert "20 frames of 192 x 128" in page.text("chosen")
+    assert f"Maker Model 5, {pattern}, 12 bits, black level 100 DN, white level 3500 DN." in page.text("chosen")
+    found = page.measure()
+    require_same(found, by_tool(tool, *files))
+    assert found["bayer"] == {"pattern": pattern, "source": "file"}
+    page.set(bayer="none")
+    assert page.choose(files) == ""
+    require_same(page.measure(), by_tool(tool, *files, "--bayer", "none"))
+
+
+def test_program_is_small():
+    files = [SITE / name for name in ("sensor-noise.wasm", "sensor-noise.js")]
+    assert sum(len(gzip.compress(file.read_bytes(), 9)) for file in files) <= 1.5e6
 
 
 def as_on_the_page(error: str, folder: Path) -> str:
@@ -258,7 +427,6 @@ def test_damaged_files_end_in_the_sentence_of_the_tool(page, tool, cases, tmp_pa
     """Files behind a page are of another kind, and its numbers of bytes have 32 bits: few sentences differ."""
     random = Random(45)
     differ = []
-    cases = [case for case in cases if not case.frames[0].endswith(".dng")]
     for number in range(100):
         case = random.choice(cases)
         files = written(case, tmp_path / str(number))
@@ -308,6 +476,40 @@ def test_dropped_files_are_measured_and_saved(page, chrome, tool, tmp_path):
     assert exported.read_text() == tool("export-noise-model", saved / "report.json", "--format", "fits")
 
 
+def test_noise_models_are_those_of_the_tool(page, tool, tmp_path):
+    """Every format that the page offers has the bytes of the tool, or its error."""
+    tool("simulate-sensor-noise", "--output", tmp_path / "burst.mha", *SMALL.split())
+    for number, grey_values in enumerate(read_frames(tmp_path / "burst.mha")[0]):
+        write_dng(tmp_path / f"f_{number:02}.dng", grey_values, black=100, white=4095)
+    page.set(bayer="none")
+    assert page.choose(sorted(tmp_path.glob("f_*.dng"))) == ""
+    record = page.measure()
+    (tmp_path / "report.json").write_text(page.browser.run("result.json"))
+    formats = page.browser.run("[...part('format').options].map((one) => one.value)")
+    assert len(formats) > 12
+    made = 0
+    for name in formats:
+        ask = f"library.ask({{what: 'export', report: result.json, format: {json.dumps(name)}}})"
+        files = "(answer.files || []).map((file) => [file.name, [...file.bytes]])"
+        answer = page.browser.run(f"{ask}.then((answer) => ({{error: answer.error || '', files: {files}}}))")
+        try:
+            tool("export-noise-model", tmp_path / "report.json", "--format", name, "--output", tmp_path / "out.bin")
+        except subprocess.CalledProcessError as error:
+            assert answer["error"], (name, error.stderr)
+            assert as_on_the_page(error.stderr, tmp_path)[:-1].lower() in answer["error"].lower() + ".", name
+            continue
+        assert answer["error"] == "", name
+        out = tmp_path / "out.bin"
+        expected = {file.name: file.read_bytes() for file in ([out] if out.is_file() else out.iterdir())}
+        found = {file_name: bytes(content) for file_name, content in answer["files"]}
+        assert list(found.values()) == list(expected.values()) if out.is_file() else found == expected, name
+        shutil.rmtree(out, ignore_errors=True)
+        out.unlink(missing_ok=True)
+        made += 1
+    assert made > 8
+    assert record["camera"]["white_level"] == 4095
+
+
 def test_folder_is_one_burst(page, tool, tmp_path):
     """Frames are in the order of the numbers in their names, and other files are left out."""
     tool("simulate-sensor-noise", "--output", tmp_path / "burst.mha", *SMALL.split())
@@ -345,6 +547,27 @@ def test_measurement_can_be_stopped(page, chrome, tool, tmp_path):
     page.click("stop")
     assert page.text("error") == "The measurement was stopped."
     assert chrome.run("part('result').hidden && part('stop').hidden && !part('measure').disabled")
+    assert page.measure("example") is not None
+
+
+def test_check_of_files_can_be_stopped(page, chrome, tool, tmp_path):
+    """A compressed stack is inflated for the check, which takes a while."""
+    size = 1024
+    header = struct.pack(">IIBBBBB", size, size, 16, 0, 0, 0, 0)
+    data = zlib.compress(bytes(size * (1 + 2 * size)), 1)
+    chunks = [(b"IHDR", header), (b"IDAT", data), (b"IEND", b"")]
+    content = b"\x89PNG\r\n\x1a\n" + b"".join(png_chunk(*chunk) for chunk in chunks)
+    files = [tmp_path / f"frame_{number}.png" for number in range(300)]
+    for file in files:
+        file.write_bytes(content)
+    root = chrome.send("DOM.getDocument")["root"]["nodeId"]
+    node = chrome.send("DOM.querySelector", nodeId=root, selector="#files")["nodeId"]
+    chrome.send("DOM.setFileInputFiles", nodeId=node, files=[str(file) for file in files])
+    page.wait("!part('stop').hidden")
+    page.click("stop")
+    assert page.text("error") == "The check of the files was stopped. Choose the files again."
+    assert chrome.run("part('stop').hidden && part('measure').disabled")
+    assert page.choose(files[:20]) == ""
     assert page.measure("example") is not None
 
 

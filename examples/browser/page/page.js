@@ -147,6 +147,12 @@ function showError(text) {
 }
 
 let state = 0; // number of the last choice of files and options; older answers are not shown
+let measuring = false;
+let inspections = 0; // that run or wait
+
+function showStop() {
+  part("stop").hidden = !measuring && inspections === 0;
+}
 
 async function inspect() {
   const now = ++state;
@@ -159,7 +165,11 @@ async function inspect() {
   }
   const count = (list) => list.length + (list.length === 1 ? " file" : " files");
   part("chosen").textContent = count(frameNames(frames)) + (dark.length > 0 ? ", dark frames: " + count(dark) : "") + " …";
+  inspections += 1;
+  showStop();
   const answer = await library.ask(request("inspect"), [...frames, ...dark]);
+  inspections -= 1;
+  showStop();
   if (now !== state) {
     return;
   }
@@ -181,7 +191,9 @@ function showProgress(pass, fraction) {
 }
 
 function setWorking(isWorking) {
-  part("progress").hidden = part("stop").hidden = !isWorking;
+  measuring = isWorking;
+  showStop();
+  part("progress").hidden = !isWorking;
   part("measure").disabled = isWorking || frames.length === 0;
   part("example").disabled = isWorking;
   part("bar").value = 0;
@@ -281,7 +293,11 @@ function take(files) {
 }
 
 for (const id of ["files", "folder"]) {
-  part(id).addEventListener("change", () => { take(part(id).files); part(id).blur(); });
+  part(id).addEventListener("change", () => {
+    take(part(id).files);
+    part(id).value = ""; // a browser announces the same files again only if none are chosen
+    part(id).blur();
+  });
 }
 part("dark").addEventListener("change", () => { dark = named(part("dark").files, "dark/"); inspect(); });
 for (const id of ["method", "bayer", "bit-depth", "offset", "raw"]) {
@@ -298,7 +314,9 @@ document.addEventListener("drop", async (event) => {
 });
 part("form").addEventListener("submit", (event) => { event.preventDefault(); measure("estimate", [...frames, ...dark]); });
 part("example").addEventListener("click", () => measure("example", []));
-part("stop").addEventListener("click", () => library.end("the measurement was stopped"));
+part("stop").addEventListener("click", () => library.end(measuring
+  ? "the measurement was stopped"
+  : "the check of the files was stopped. Choose the files again"));
 part("save-page").addEventListener("click", () => save("report.html", result.html, "text/html"));
 part("save-json").addEventListener("click", () => save("report.json", result.json, "application/json"));
 part("save-export").addEventListener("click", saveExport);
