@@ -537,8 +537,8 @@ private:
    * otherwise. */
   sensornoise::CameraSettings
   GetCamera() const;
-  sensornoise::CodeSettings
-  MakeCodeSettings() const;
+  sensornoise::DnSettings
+  MakeDnSettings() const;
   sensornoise::RefinedSettings
   MakeRefinedSettings() const;
   void

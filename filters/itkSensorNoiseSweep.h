@@ -101,7 +101,7 @@ public:
   itkSetMacro(Channel, std::string);
   itkGetConstReferenceMacro(Channel, std::string);
 
-  /** ISO speed above which the gain is digital, for the format android. Default: NaN, none is. */
+  /** ISO speed above which the gain is digital, for the format android. Default: NaN, no gain is digital. */
   itkSetMacro(MaxAnalogueIso, double);
   itkGetConstMacro(MaxAnalogueIso, double);
 
@@ -151,7 +151,7 @@ private:
   {
     std::string               name;
     double                    setting;
-    std::string               reason; ///< why it was not measured; "": the report is there
+    std::string               reason; ///< reason why it was not measured; "": it has a report
     sensornoise::StoredReport report;
   };
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-# Checks that a room of the module includes only rooms that stand above it in the table of module/README.md. A public
-# header belongs to the room that has the source of the same name; every room may include one without such a source.
-# Public headers, and those of the filters, include no private ones; module/README.md lists all public headers. Prints the
-# includes from room to room, and how many of the module's headers a header pulls in. No two headers define types of one
-# name: the linker would keep the inline functions of one of them, such as the destructor, for both.
+# Checks that a component of the module includes only components that stand above it in the table of module/README.md. A
+# public header belongs to the component that has the source of the same name; every component may include one without such a
+# source. Public headers, and the headers of the filters, include no private ones; module/README.md lists all public headers.
+# Prints the includes from component to component, and how many of the module's headers a header pulls in. No two headers
+# define types of one name: the linker would keep the inline functions of one of them, such as the destructor, for both.
 set -euo pipefail
 cd "$(dirname "$0")/../module/src"
 python3 - <<'PY'
@@ -22,14 +22,14 @@ includes |= {f"sensornoise/{p.name}": re.findall(pattern, p.read_text()) for p i
 arrows = collections.Counter(
     (room_of[name], room_of[other]) for name, others in includes.items() for other in others
     if room_of[name] and room_of[other])
-rooms = {}
+components = {}
 for (a, b), count in sorted(arrows.items()):
     if a != b:
-        rooms.setdefault(a, {})[b] = count
+        components.setdefault(a, {})[b] = count
 order = re.findall(r"^\| `(\w+)` \|", pathlib.Path("../README.md").read_text(), re.M)
-for room in sorted({p.parts[0] for p in private}, key=order.index):
-    used = ", ".join(f"{other} {count}" for other, count in rooms.get(room, {}).items())
-    print(f"{room:11} -> {used or 'nothing'}")
+for component in sorted({p.parts[0] for p in private}, key=order.index):
+    used = ", ".join(f"{other} {count}" for other, count in components.get(component, {}).items())
+    print(f"{component:11} -> {used or 'nothing'}")
 
 
 def pulled(name, seen):
@@ -60,7 +60,7 @@ for p in [p for p in private if p.suffix == ".h"] + public:
 wrong += [f"{' and '.join(sorted(headers))} define {name}" for name, headers in types.items() if len(headers) > 1]
 if wrong:
     sys.exit("\n".join(wrong))
-back = [f"{a} -> {b}" for a, others in rooms.items() for b in others if order.index(b) >= order.index(a)]
+back = [f"{a} -> {b}" for a, others in components.items() for b in others if order.index(b) >= order.index(a)]
 if back:
     sys.exit("arrows run back: " + ", ".join(back))
 PY

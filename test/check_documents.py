@@ -14,6 +14,10 @@ The examples of a document run in an empty folder, in their order. These blocks 
   --python, an interpreter that has the package itk_sensornoise; without it they are not run.
 - A comment `<!-- $ command -->` or `<!-- >>> statement -->` is an example that readers do not see. The block without a
   language below a hidden command shows some lines of its output, in their order.
+- A comment `<!-- > file -->` above a block puts the block into this file, for the commands below it.
+- A comment `<!-- not run: reason -->` above a block of `none`, `bash`, `py` or `matlab` says why it is no example. The
+  syntax of `bash` and `py` is checked. Any other block is an error, as one of `text`, whose output nothing compares.
+- `cpp` and `cmake` are compiled by consumer/run.sh, which reads the documents COMPILED.
 
 A command that fails, by any exit code but 0 and 3 (no gain), fails the test. documents/not_run.py lists the commands
 that are not run, with a reason each. Links to files and headings of the repository have to exist. --write puts the
@@ -24,6 +28,7 @@ output differs.
 import argparse
 import pathlib
 import re
+import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -32,6 +37,9 @@ from documents.comparison import GAP, differences, rewritten
 from documents.links import broken_links
 from documents.not_run import NOT_RUN, OPTIONAL
 from documents.scratch import SOURCE, Scratch
+
+COMPILED = ("README.md", "documentation/guides/pipeline.md")
+NO_EXAMPLES = ("none", "bash", "py", "matlab")
 
 
 def all_documents() -> list[pathlib.Path]:
@@ -61,6 +69,19 @@ def console_runs(lines: list[str]) -> list[tuple[list[str], list[str]]]:
     return runs
 
 
+def mistake_of_syntax(language: str, text: str) -> str:
+    """Returns the first mistake in the syntax of a block of `bash` or `py`; "" without one, or for other languages."""
+    if language == "py":
+        try:
+            compile(text, "block", "exec")
+        except SyntaxError as error:
+            return str(error)
+    if language == "bash":
+        found = subprocess.run(["bash", "-n", "-c", text], capture_output=True, text=True, check=False)
+        return found.stderr.strip()
+    return ""
+
+
 class Document:
     """Goes through a document, block by block."""
 
@@ -71,6 +92,7 @@ class Document:
         self.failures: list[str] = []
         self.compared = 0
         self.blocks = 0
+        self.without_examples = 0
         self._hidden: tuple[str, list[str]] | None = None  # the last hidden command, and what it printed
         self._printed: tuple[str, list[str]] | None = None  # the last Python block, and what it printed
 
@@ -78,6 +100,7 @@ class Document:
         """Runs the examples and returns the text with the outputs of the programs."""
         result: list[str] = []
         lines = iter(self.path.read_text(encoding="utf-8").splitlines())
+        above = ""
         for line in lines:
             result.append(line)
             if comment := re.fullmatch(r"<!-- (\$|>>>) (.*) -->", line):
@@ -86,19 +109,25 @@ class Document:
                 else:
                     self.scratch.run_python(comment[2])
             elif line.startswith("```"):
-                result += [*self._block(line[3:], lines), "```"]
+                result += [*self._block(line[3:], lines, above), "```"]
+            above = line
         return "\n".join(result) + "\n"
 
-    def _block(self, language: str, lines: Iterator[str]) -> list[str]:
+    def _block(self, language: str, lines: Iterator[str], above: str) -> list[str]:
         block = []
         for line in lines:
             if line == "```":
                 break
             block.append(line)
-        if language == "console":
+        if file := re.fullmatch(r"<!-- > (\S+) -->", above):
+            self.scratch.write(file[1], "\n".join(block) + "\n")
+            self.blocks += 1
+        elif mistake := self._mistake_of(language, block, above):
+            self.failures.append(f"{self.path.relative_to(SOURCE)}: a block of {language or 'no language'}: {mistake}")
+        elif language == "console":
             self.blocks += 1
             return self._console(block)
-        if language == "sh":
+        elif language == "sh":
             self.blocks += 1
             self._shell(block)
         elif language == "python":
@@ -113,6 +142,28 @@ class Document:
             block = [part for part in self._compare(*self._hidden, shown) if part != GAP]
             self._hidden = None
         return block
+
+    def _mistake_of(self, language: str, block: list[str], above: str) -> str:
+        """Returns what is wrong with a block that no program runs, compares or compiles; "" if nothing is."""
+        if language in NO_EXAMPLES:
+            self.without_examples += 1
+            if not re.fullmatch(r"<!-- not run: .{10,} -->", above):
+                return "the line above it does not say why it is not run; expected <!-- not run: reason -->"
+            return mistake_of_syntax(language, "\n".join(block))
+        if language in ("cpp", "cmake"):
+            is_compiled = str(self.path.relative_to(SOURCE)) in COMPILED
+            return (
+                "" if is_compiled else "test/consumer/run.sh does not compile this document; expected one of COMPILED"
+            )
+        if language == "output":
+            # Without an interpreter the Python block above has not run.
+            return "" if self._printed or not self.scratch.has_python else "no Python block is above it"
+        if language == "":
+            return "" if self._hidden else "no hidden command is above it"
+        is_known = language in ("console", "sh", "python") or language.startswith("{")
+        return (
+            "" if is_known else f"expected console, sh, python, output, cpp, cmake, or one of {', '.join(NO_EXAMPLES)}"
+        )
 
     def _compare(self, command: str, printed: list[str], shown: list[str]) -> list[str]:
         self.compared += 1
@@ -176,7 +227,8 @@ def main() -> int:
             failed = True
     print(
         f"{len(found)} documents: {blocks} blocks with {sum(each.scratch.runs for each in found)} examples were run, "
-        f"{sum(each.compared for each in found)} outputs compared, {len(not_run)} commands not run"
+        f"{sum(each.compared for each in found)} outputs compared, {len(not_run)} commands not run, "
+        f"{sum(each.without_examples for each in found)} blocks are no examples"
     )
     return 1 if failed else 0
 

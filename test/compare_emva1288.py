@@ -4,13 +4,18 @@
 """Compares `estimate-sensor-noise --method emva1288` with the Python package emva1288 on the same frames.
 
     python3 -m venv VENV && VENV/bin/pip install emva1288==1.0.2 'numpy<2'
-    VENV/bin/python test/compare_emva1288.py --bin build/bin
+    VENV/bin/python test/compare_emva1288.py --bin build/bin [--descriptor FILE]
 
 The package needs NumPy 1. It is the reference implementation of Release 4.0, with parts of Release 3.1. The script
 simulates frames of a linear camera, writes them with a descriptor file, evaluates them by both programs, and prints
 each number with its relative difference. Numbers whose arithmetic the standard prescribes must agree to 1e-6, and the
 package must read the XML of the tool. The exit code is 1 if not. The last part of the table has the numbers in which
 the programs differ on purpose, with reasons: they are not tested.
+
+--descriptor FILE compares recorded frames instead. https://github.com/EMVA1288/datasets has three sets with their
+descriptors: a CCD camera, a CMOS camera and a simulated one. The package takes the photon transfer curve from the pairs
+of frames, so the script gives the tool a second descriptor with the pairs alone. The package takes the point of
+saturation of the tool, because the programs search for it by different rules.
 """
 
 import argparse
@@ -27,12 +32,12 @@ import numpy as np
 from PIL import Image
 
 TOLERANCE = 1e-6  # largest relative difference [1]
-WIDTH, HEIGHT = 120, 90  # of the frames [pixel]
+WIDTH, HEIGHT = 120, 90  # size of the frames [pixel]
 BITS = 12
 GAIN, OFFSET, READ_NOISE, EFFICIENCY = 0.4, 60.0, 7.0, 0.55  # [DN/e-], [DN], [e-], [1]
 DARK_CURRENT = 300.0  # [e-/s]
 EXPOSURES = 20
-LONG_FRAMES = 12  # of the series for the non-uniformity
+LONG_FRAMES = 12  # frames of the series for the non-uniformity
 
 
 class Camera:
@@ -79,19 +84,40 @@ def write_frames(folder):
     return folder / "descriptor.txt"
 
 
-def evaluate_by_package(descriptor):
-    """Returns the results of the package."""
+def evaluate_by_package(descriptor, saturation=None):
+    """Returns the results of the package. saturation: number of the point of saturation (default: found by itself)."""
     from emva1288 import process
 
     parsed = process.ParseEmvaDescriptorFile(str(descriptor), loglevel=logging.ERROR)
     loaded = process.LoadImageData(parsed.images, loglevel=logging.ERROR)
     data = process.Data1288(loaded.data, loglevel=logging.ERROR)
-    return process.Results1288(data.data, loglevel=logging.ERROR)
+    return process.Results1288(data.data, index_u_ysat=saturation, loglevel=logging.ERROR)
 
 
-def evaluate_by_tool(binaries, descriptor):
+def series_of(descriptor):
+    """Lists the lines of a descriptor, each with the names of the frames that follow it."""
+    series = []
+    for line in descriptor.read_text(encoding="utf-8", errors="replace").splitlines():
+        if line.startswith("i ") and series:
+            series[-1][1].append(descriptor.parent / line[2:].strip().replace("\\", "/"))
+        elif line.strip() and not line.startswith("#"):
+            series.append((line, []))
+    return series
+
+
+def write_pairs(descriptor, folder):
+    """Writes a descriptor with the series of two frames alone, and returns its name."""
+    lines = []
+    for head, files in series_of(descriptor):
+        if len(files) in {0, 2}:
+            lines += [head, *(f"i {file}" for file in files)]
+    (folder / "pairs.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return folder / "pairs.txt"
+
+
+def evaluate_by_tool(binaries, descriptor, folder):
     """Returns the JSON record of the tool, and the name of its XML."""
-    report, xml = descriptor.with_suffix(".json"), descriptor.with_suffix(".xml")
+    report, xml = folder / f"{descriptor.stem}.json", folder / f"{descriptor.stem}.xml"
     command = [binaries / "estimate-sensor-noise", descriptor, "--method", "emva1288", "--quiet"]
     subprocess.run([*command, "--json", report, "--xml", xml], check=True)
     return json.loads(report.read_text(encoding="utf-8")), xml
@@ -122,7 +148,9 @@ def temporal_pairs(record, package):
         (s for s in record["series"] if s["kind"] == "dark" and s["frames"] == 2), key=lambda s: s["exposure"]
     )
     temporal = package.temporal
-    return [
+    if len(dark) == 1:  # the package repeats a single dark series for each point
+        dark *= len(temporal["u_ydark"])
+    pairs = [
         ("mean of every exposure, u_y (16)", [p["mean"] for p in points], temporal["u_y"]),
         ("temporal variance, s2_y (18)", [p["variance"] for p in points], temporal["s2_y"]),
         ("mean of the dark frames, u_ydark", [s["mean"] for s in dark], temporal["u_ydark"]),
@@ -133,13 +161,18 @@ def temporal_pairs(record, package):
         ("dark noise in DN, sigma_y_dark", value(record, "sensitivity", "dark_noise_dn"), package.sigma_y_dark),
         ("saturation, u_p_sat", value(record, "sensitivity", "saturation_photons"), package.u_p_sat),
     ]
+    return [pair for pair in pairs if pair[1] is not None]  # quantization may hide the dark noise
+
+
+def has_dark_current(record):
+    """Returns whether the dark frames have enough exposure times for a dark current."""
+    return value(record, "dark_current", "dark_current_dn") is not None
 
 
 def line_pairs(record, package):
-    """Lists the numbers of linearity and dark current: (name, tool, package)."""
+    """Lists the numbers of the linearity: (name, tool, package)."""
     linearity = package.linearity()
     ours = record["linearity"]
-    gain = value(record, "sensitivity", "gain")
     deviations = [p["deviation_percent"] for p in record["points"]]
     inside = [i for i, deviation in enumerate(deviations) if deviation is not None]
     return [
@@ -152,6 +185,13 @@ def line_pairs(record, package):
         ),
         ("lowest deviation, LE_min", ours["lowest_deviation"]["value"], package.LE_min),
         ("highest deviation, LE_max", ours["highest_deviation"]["value"], package.LE_max),
+    ]
+
+
+def dark_current_pairs(record, package):
+    """Lists the numbers of the dark current: (name, tool, package)."""
+    gain = value(record, "sensitivity", "gain")
+    return [
         ("dark current in DN, u_I_mean_DN", value(record, "dark_current", "dark_current_dn"), package.u_I_mean_DN),
         (
             "slope of the dark variance",
@@ -165,8 +205,9 @@ def spatial_pairs(record, package):
     """Lists the spatial variances without the highpass filter, which the package does not apply here. The package
     divides the measured variance by the number of pixels less 1, and the standard by the number of pixels (35)."""
     pairs = []
-    pixels = WIDTH * HEIGHT
-    rest = pixels - WIDTH - HEIGHT
+    width, height = record["width"], record["height"]
+    pixels = width * height
+    rest = pixels - width - height
     for number, end in ((record["bright_series"], ""), (record["dark_series"], "_dark")):
         ours = record["series"][number]["spatial_variance"]
         measured = ours["measured"] * pixels / (pixels - 1)
@@ -179,8 +220,8 @@ def spatial_pairs(record, package):
             (f"s_2_y_cav{end} (41)", ours["column_mean"], getattr(package, f"s_2_y_cav{end}")),
             (f"s_2_y_rav{end} (41)", ours["row_mean"], getattr(package, f"s_2_y_rav{end}")),
             (f"s_2_y_pixel{end} (42)", pixel, getattr(package, f"s_2_y_pixel{end}")),
-            (f"s_2_y_col{end} (42)", ours["column_mean"] - pixel / HEIGHT, getattr(package, f"s_2_y_col{end}")),
-            (f"s_2_y_row{end} (42)", ours["row_mean"] - pixel / WIDTH, getattr(package, f"s_2_y_row{end}")),
+            (f"s_2_y_col{end} (42)", ours["column_mean"] - pixel / height, getattr(package, f"s_2_y_col{end}")),
+            (f"s_2_y_row{end} (42)", ours["row_mean"] - pixel / width, getattr(package, f"s_2_y_row{end}")),
         ]
     return pairs
 
@@ -223,15 +264,23 @@ def main():
     """Writes, evaluates and compares the frames, and returns the exit code."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", type=pathlib.Path, required=True, help="folder of estimate-sensor-noise")
-    binaries = parser.parse_args().bin.resolve()
+    parser.add_argument("--descriptor", type=pathlib.Path, help="descriptor of recorded frames (default: simulated)")
+    options = parser.parse_args()
+    binaries = options.bin.resolve()
     if int(np.__version__.split(".")[0]) > 1:
         sys.exit(f"NumPy is {np.__version__}, and emva1288 1.0.2 needs NumPy 1: pip install 'numpy<2'")
-    with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stderr(sys.stderr):
-        descriptor = write_frames(pathlib.Path(folder))
-        record, xml = evaluate_by_tool(binaries, descriptor)
-        package = evaluate_by_package(descriptor)
-        pairs = temporal_pairs(record, package) + line_pairs(record, package) + spatial_pairs(record, package)
-        pairs += xml_pairs(record, xml)
+    with tempfile.TemporaryDirectory() as temporary, contextlib.redirect_stderr(sys.stderr):
+        folder = pathlib.Path(temporary)
+        descriptor = options.descriptor.resolve() if options.descriptor else write_frames(folder)
+        record, xml = evaluate_by_tool(binaries, descriptor, folder)
+        temporal, saturation = record, None
+        if options.descriptor:
+            temporal, _ = evaluate_by_tool(binaries, write_pairs(descriptor, folder), folder)
+            saturation = temporal["saturation_point"]
+        package = evaluate_by_package(descriptor, saturation)
+        pairs = temporal_pairs(temporal, package) + line_pairs(temporal, package)
+        pairs += dark_current_pairs(temporal, package) if has_dark_current(temporal) else []
+        pairs += spatial_pairs(record, package) + xml_pairs(record, xml)
         wrong = 0
         for name, tool, other in pairs:
             relative = difference(tool, other)

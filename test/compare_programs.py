@@ -5,7 +5,7 @@
     compare_programs.py --old OLD/bin --new NEW/bin [--only TEXT] [--jobs N] [--damaged N]
 
 A case is one call of estimate-sensor-noise. Compared are its exit code, standard output and standard error, and the
-SHA-256 of the report, the page and the maps. The stacks are those of the old simulator:
+SHA-256 of the report, the page and the maps. The old simulator makes the stacks:
 
     stacks       scenes, cameras and flaws of simulate-sensor-noise, by both methods and with the options of OPTIONS
     types        the same values as unsigned char, unsigned short, short, float and double
@@ -14,8 +14,8 @@ SHA-256 of the report, the page and the maps. The stacks are those of the old si
     files        every format of fuzz/frame_files.py, whole, with the damages of fuzz/known.py, and damaged by
                  fuzz/mutations.py (--damaged, default 200)
 
-Results with 3 threads and with a memory limit are compared with those of the same program without, too. Prints each
-case that differs, and how. Exit code 0: all are equal; 1: some differ.
+Results with 3 threads, and results with a memory limit, are also compared with the results of the same program without
+them. Prints each case that differs, and how. Exit code 0: all are equal; 1: some differ.
 """
 
 import argparse

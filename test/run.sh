@@ -5,19 +5,22 @@
 # documentation, then Python (examples, tests, damaged files) with the wheel in a fresh virtual environment, then C++ once more
 # with AddressSanitizer and UndefinedBehaviorSanitizer, in build/sanitized, then 20 seconds of libFuzzer for each file format,
 # which are skipped where clang cannot be had. Warnings are errors, and test/check-style.sh has no finding. The last lines say
-# what each part took, and what it found in the caches. Options are handed on to ctest, for example -R Codes.
+# what each part took, and what it found in the caches. Options are handed on to ctest, for example -R StackMaps.
 #
 # Python needs ITK's source (wrapping/build-itk.sh says where that comes from). Where it is not to be had, the last line says
 # so, and what was tested counts. SENSORNOISE_PYTHON=1: that is a failure, too; SENSORNOISE_PYTHON=0: Python is left out.
 # SENSORNOISE_STYLE in the same way: 1, or CI=true: it is a failure that a program which checks the style is not to be had;
 # 0: the style is left out. SENSORNOISE_SITE in the same way, for the site of the documentation. SENSORNOISE_SANITIZE=0: the
 # sanitizers are left out; SENSORNOISE_FUZZ=0: libFuzzer is; SENSORNOISE_BROWSER=0: the page that measures bursts in a browser
-# is, which is skipped where Emscripten cannot be had. examples/setup.sh has the variables of the caches.
+# is, which is skipped where Emscripten cannot be had. SENSORNOISE_TIME_LIMIT=SECONDS: sanitizers and libFuzzer are left out, and
+# the last lines say so, if the parts before them took longer, as a cold build may. examples/setup.sh has the variables of the
+# caches.
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 source "$here/examples/setup.sh"
 export SENSORNOISE_WARNINGS_AS_ERRORS="${SENSORNOISE_WARNINGS_AS_ERRORS:-ON}"
 
+started="$(date +%s)"
 failed=()
 skipped=()
 times=()
@@ -33,6 +36,14 @@ took() {
   [ "$objects" = 0 ] || note="$found of $objects objects from the cache"
   times+=("$(printf '%6d s  %-26s %s' "$SECONDS" "$1" "$note")")
   SECONDS=0
+}
+
+# is_in_time PART: whether the limit of the time leaves room for a part. If not, it is noted as skipped.
+is_in_time() {
+  local elapsed="$(($(date +%s) - started))"
+  [ "$elapsed" -gt "${SENSORNOISE_TIME_LIMIT:-$elapsed}" ] || return 0
+  skipped+=("$1: not run, the parts before took $elapsed s, and SENSORNOISE_TIME_LIMIT is $SENSORNOISE_TIME_LIMIT s")
+  return 1
 }
 
 # run_cpp_tests FOLDER [options for ctest]
@@ -144,7 +155,7 @@ if [ "${SENSORNOISE_PYTHON:-}" != 0 ]; then
   [ "$status" = 0 ] || failed+=(Python)
 fi
 
-if [ "${SENSORNOISE_SANITIZE:-}" != 0 ]; then
+if [ "${SENSORNOISE_SANITIZE:-}" != 0 ] && is_in_time sanitizers; then
   cmake -S "$here" --preset sanitized >"$here/build/sanitized.log" 2>&1 ||
     { cat "$here/build/sanitized.log" >&2; exit 1; }
   cmake --build "$here/build/sanitized"
@@ -155,7 +166,7 @@ if [ "${SENSORNOISE_SANITIZE:-}" != 0 ]; then
   took "C++ tests with sanitizers"
 fi
 
-if [ "${SENSORNOISE_FUZZ:-}" != 0 ]; then
+if [ "${SENSORNOISE_FUZZ:-}" != 0 ] && is_in_time "coverage-guided search for damaged files"; then
   run_part "coverage-guided search" "coverage-guided search" "coverage-guided search for damaged files: skipped" no \
     "$here/test/fuzz/coverage_guided.sh" --runs 30000
 fi

@@ -4,8 +4,8 @@
 """Runs clang-tidy over every source of a compile_commands.json: test/check-style.sh.
 
 Most of clang-tidy's time goes into the headers of ITK and Eigen. So the sources of one folder and target are read
-together, in one file that includes them, as the library is built. What had no finding is remembered in CACHE, keyed by
-all that clang-tidy reads, and is not looked at again.
+together, in one file that includes them, as the library is built. Sources without a finding are remembered in CACHE,
+keyed by all that clang-tidy reads, and are not checked again.
 """
 
 import argparse
@@ -19,9 +19,9 @@ import subprocess
 import sys
 import time
 
-# Of the compiler's flags, those that say what a source means.
+# Flags of the compiler that determine the meaning of a source.
 KEPT = ("-D", "-I", "-std=")
-# Those that cmake/Warnings.cmake asks of Clang, and -Wpedantic without extra semicolons, which ITK 5.4 demands.
+# Warnings that cmake/Warnings.cmake asks of Clang, and -Wpedantic without extra semicolons, which ITK 5.4 demands.
 WARNINGS = (
     *("-Wall", "-Wextra", "-Wpedantic", "-Wno-extra-semi", "-Wshadow", "-Wconversion", "-Wno-sign-conversion"),
     *("-Wold-style-cast", "-Wcast-qual", "-Wnon-virtual-dtor", "-Woverloaded-virtual"),

@@ -166,7 +166,7 @@ NoiseCorrelationEstimator<TStack>::FindMeanAndMask()
 {
   auto maps = sensornoise::MakeStackMaps<PixelType>(
     std::move(m_Measurement->moments),
-    sensornoise::MakeCodeSettings(0, std::nan(""), std::nan(""), m_QuantisationStep),
+    sensornoise::MakeDnSettings(0, std::nan(""), std::nan(""), m_QuantisationStep),
     this->GetParallelFor());
   m_Measurement->settings.quantisationStepDn = maps.summary.codes.quantisationStepDn;
   if (m_Measurement->mean.empty())

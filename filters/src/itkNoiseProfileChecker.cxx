@@ -19,7 +19,7 @@
 
 #include "itkSensorNoiseErrors.h"
 #include "itkSensorNoiseProfileFile.h"
-#include "exports/ProfileCheck.h"
+#include "exports/NoiseProfile.h"
 
 #include <ostream>
 #include <string>

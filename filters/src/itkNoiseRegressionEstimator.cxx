@@ -19,7 +19,7 @@
 
 #include "itkSensorNoiseErrors.h"
 #include "base/PolynomialFit.h"
-#include "published/PublishedEstimate.h"
+#include "published/PublishedPasses.h"
 #include "sensornoise/ReportPage.h"
 #include "sensornoise/Report.h"
 

@@ -19,7 +19,6 @@
 #define itkSensorNoiseDarkSink_h
 
 #include "itkSensorNoiseStackSink.h"
-#include "mosaic/DarkFrameSums.h"
 #include "mosaic/MosaicGeometry.h"
 #include "sensornoise/Settings.h"
 
@@ -92,9 +91,9 @@ public:
 
   /** Returns offset and read noise of the frames that were read. \see sensornoise::DarkFrameSums::Measure */
   std::vector<sensornoise::KnownOffset>
-  Measure(const sensornoise::CodeSettings & codes)
+  Measure(const sensornoise::DnSettings & dnSettings)
   {
-    return m_Sums->Measure(codes, this->GetParallelFor());
+    return m_Sums->Measure(dnSettings, this->GetParallelFor());
   }
 
 protected:

@@ -25,10 +25,10 @@
 #include "moments/DarkFrames.h"
 #include "mosaic/MosaicPasses.h"
 #include "published/PublishedPasses.h"
-#include "refined/MemoryNeed.h"
+#include "refined/PixelProjections.h"
 #include "refined/RefinedPasses.h"
 #include "sensornoise/ChannelReports.h"
-#include "report/StackSettings.h"
+#include "report/StackReport.h"
 
 #include <algorithm>
 #include <array>

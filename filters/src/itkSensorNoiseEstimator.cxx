@@ -22,7 +22,7 @@
 #include "itkSensorNoiseEstimation.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Settings.h"
-#include "moments/MosaicLevels.h"
+#include "moments/StackMaps.h"
 
 #include <algorithm>
 #include <cmath>

@@ -24,15 +24,15 @@
 #include "base/FreeMemory.h"
 #include "sensornoise/Settings.h"
 #include "moments/Exposures.h"
-#include "report/StackSettings.h"
+#include "report/StackReport.h"
 
 #include <cmath>
 #include <optional>
 #include <ostream>
 #include <string>
 
-/** \file
- * Settings of SensorNoiseEstimator, their checks against the inputs, and the settings of the methods made of them. */
+/** \file Settings of SensorNoiseEstimator, their checks against the inputs, and the settings of the methods that follow
+ * from them. */
 
 namespace itk
 {
@@ -224,7 +224,7 @@ SensorNoiseEstimator<TStack>::MakePublishedSettings() const
   settings.sigmaRows = m_SigmaRows;
   settings.shutterAxis = m_ShutterAxis;
   settings.excessNoiseFactor = this->GetExcessNoiseFactor();
-  settings.codes = this->MakeCodeSettings();
+  settings.codes = this->MakeDnSettings();
   return settings;
 }
 
@@ -236,16 +236,16 @@ SensorNoiseEstimator<TStack>::GetCamera() const
 }
 
 template <typename TStack>
-sensornoise::CodeSettings
-SensorNoiseEstimator<TStack>::MakeCodeSettings() const
+sensornoise::DnSettings
+SensorNoiseEstimator<TStack>::MakeDnSettings() const
 {
   const sensornoise::CameraSettings camera = this->GetCamera();
   const unsigned int                bitDepth = this->GetBitDepth();
   const double                      clipHigh = this->GetClipHigh();
-  return sensornoise::MakeCodeSettings(bitDepth > 0 ? bitDepth : camera.bitDepth,
-                                       this->GetClipLow(),
-                                       std::isnan(clipHigh) ? camera.whiteLevelDn : clipHigh,
-                                       this->GetQuantisationStep());
+  return sensornoise::MakeDnSettings(bitDepth > 0 ? bitDepth : camera.bitDepth,
+                                     this->GetClipLow(),
+                                     std::isnan(clipHigh) ? camera.whiteLevelDn : clipHigh,
+                                     this->GetQuantisationStep());
 }
 
 template <typename TStack>
@@ -254,7 +254,7 @@ SensorNoiseEstimator<TStack>::MakeRefinedSettings() const
 {
   sensornoise::RefinedSettings settings;
   settings.rollingShutter = m_RollingShutter;
-  settings.codes = this->MakeCodeSettings();
+  settings.codes = this->MakeDnSettings();
   if (this->HasLevelRange())
   {
     settings.levelRangeDn = sensornoise::LevelRange{ m_LevelRangeLow, m_LevelRangeHigh };

@@ -20,7 +20,7 @@
 #include "base/FreeMemory.h"
 #include "sensornoise/FrameFile.h"
 #include "files/FrameReader.h"
-#include "files/RawLayout.h"
+#include "files/FrameFormats.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -23,7 +23,6 @@
 #include "files/FrameFormats.h"
 #include "files/FrameReader.h"
 #include "files/RawCameraFile.h"
-#include "files/RawLayout.h"
 
 #include <exception>
 #include <vector>

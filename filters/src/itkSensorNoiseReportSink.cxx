@@ -18,7 +18,7 @@
 #include "itkSensorNoiseReportSink.h"
 
 #include "itkSensorNoiseErrors.h"
-#include "report/StackSettings.h"
+#include "report/StackReport.h"
 
 #include <optional>
 #include <ostream>

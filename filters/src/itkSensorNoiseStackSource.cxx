@@ -20,7 +20,7 @@
 #include "itkSensorNoiseErrors.h"
 #include "itkSensorNoiseStackSourceSettings.hxx"
 #include "base/FreeMemory.h"
-#include "moments/Codes.h"
+#include "moments/StackMaps.h"
 #include "simulation/FrameProcessing.h"
 #include "sensornoise/Simulator.h"
 #include "sensornoise/SimulationSettings.h"
@@ -82,7 +82,7 @@ SensorNoiseStackSource<TOutputStack>::GenerateOutputInformation()
                                    std::to_string(frame.GetSize(0)) + " x " + std::to_string(frame.GetSize(1)) +
                                    " pixels");
       sensornoise::SimulationTruth truth = sensornoise::DrawTruth(settings, frame.GetSize(0), frame.GetSize(1));
-      sensornoise::StackSimulator::CodeRange<OutputPixelType>(settings);
+      sensornoise::StackSimulator::PixelRangeDn<OutputPixelType>(settings);
       return truth;
     },
     ImpossibleSimulation);

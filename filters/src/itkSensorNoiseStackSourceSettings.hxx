@@ -29,8 +29,7 @@
 #include <string>
 #include <vector>
 
-/** \file
- * Settings of SensorNoiseStackSource, and the settings of the simulation made of them. */
+/** \file Settings of SensorNoiseStackSource, and the settings of the simulation that follow from them. */
 
 namespace itk
 {

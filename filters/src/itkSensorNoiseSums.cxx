@@ -20,7 +20,7 @@
 #include "itkSensorNoiseErrors.h"
 #include "itkSensorNoiseEstimation.h"
 #include "base/BinaryStream.h"
-#include "moments/MosaicLevels.h"
+#include "moments/StackMaps.h"
 #include "sensornoise/Version.h"
 
 #include <algorithm>
@@ -86,7 +86,7 @@ SensorNoiseSums<TStack>::Start(EstimatorType * estimator, const std::string & re
     if (recognised.empty())
     {
       itkExceptionMacro("the Bayer pattern is \"auto\" and the stack's metadata do not have it; expected none, RGGB, "
-                        "GRBG, GBRG or BGGR, or what the first frame tells");
+                        "GRBG, GBRG or BGGR, or the pattern of the first frame");
     }
     estimator->SetBayerPattern(recognised);
     estimator->m_BayerSource = sensornoise::BayerSource::Levels;

@@ -20,8 +20,8 @@
 #include "itkSensorNoiseMetaData.h"
 #include "sensornoise/ReportText.h"
 #include "sensornoise/SingleImageMethod.h"
-#include "moments/MosaicLevels.h"
-#include "report/StackSettings.h"
+#include "moments/StackMaps.h"
+#include "report/StackReport.h"
 
 #include <algorithm>
 #include <array>
@@ -85,7 +85,7 @@ SingleImageNoiseEstimator<TStack>::StartMeasurement(const PixelType * firstFrame
   sensornoise::SingleImageSettings settings;
   settings.bayerPattern = m_Measurement->pattern;
   settings.excessNoiseFactor = this->GetExcessNoiseFactor();
-  settings.codes = sensornoise::MakeCodeSettings(
+  settings.codes = sensornoise::MakeDnSettings(
     this->GetBitDepth(), this->GetClipLow(), this->GetClipHigh(), this->GetQuantisationStep());
   m_Measurement->method.emplace(
     settings, frame, this->GetNumberOfFrames(), m_Measurement->mask, this->GetParallelFor());

@@ -18,7 +18,6 @@
 #include "itkTemporalStatisticsImageFilter.h"
 
 #include "sensornoise/Settings.h"
-#include "moments/Codes.h"
 #include "moments/StackMaps.h"
 #include "moments/TemporalMoments.h"
 #include "itkSensorNoiseMapContainer.h"
@@ -88,8 +87,7 @@ TemporalStatisticsImageFilter<TStack>::StartPasses()
     itkExceptionMacro("the stack has " << this->GetNumberOfFrames()
                                        << " frame(s); a temporal variance needs at least 2");
   }
-  sensornoise::ValidateCodeSettings(
-    sensornoise::MakeCodeSettings(m_BitDepth, m_ClipLow, m_ClipHigh, m_QuantisationStep));
+  sensornoise::ValidateDnSettings(sensornoise::MakeDnSettings(m_BitDepth, m_ClipLow, m_ClipHigh, m_QuantisationStep));
   m_Moments = std::make_unique<Moments>(Moments{
     sensornoise::TemporalMoments<PixelType>(this->GetFrameRegion().GetNumberOfPixels(), this->GetParallelFor()) });
 }
@@ -114,7 +112,7 @@ TemporalStatisticsImageFilter<TStack>::EndPass(unsigned int)
 {
   auto maps = sensornoise::MakeStackMaps<PixelType>(
     std::move(m_Moments->sums),
-    sensornoise::MakeCodeSettings(m_BitDepth, m_ClipLow, m_ClipHigh, m_QuantisationStep),
+    sensornoise::MakeDnSettings(m_BitDepth, m_ClipLow, m_ClipHigh, m_QuantisationStep),
     this->GetParallelFor());
   m_Moments.reset();
   m_Summary = maps.summary;

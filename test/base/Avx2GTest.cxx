@@ -45,5 +45,5 @@ TEST(WideVectors, AreNotFusedAndAddInTheSameOrder)
   }
   EXPECT_EQ(total, expected);
   EXPECT_EQ(calls, 1);
-  EXPECT_GT(unlikeFused, size / 20); // so that the test can tell
+  EXPECT_GT(unlikeFused, size / 20); // otherwise both results would be equal by chance
 }

@@ -181,7 +181,7 @@ TYPED_TEST(SensorNoiseBinaryStream, RestoredSumsAreTheSavedOnes)
 {
   const auto        sums = Make<TypeParam>(Pixels);
   const std::string saved = Saved(sums);
-  auto              restored = sums; // of the same sizes, and with other numbers in it
+  auto              restored = sums; // it has the same sizes, and Merge() doubles its numbers
   restored.Merge(sums);
   ASSERT_NE(Saved(restored), saved);
   EXPECT_EQ(RestoreComplaint(restored, saved), "");

@@ -209,3 +209,18 @@ TEST(SensorNoiseChiSquare, NormalQuantile)
     EXPECT_EQ(NormalQuantile(p), -NormalUpperQuantile(p));
   }
 }
+
+TEST(SensorNoiseQuadrature, IsTheRootOfTheSquares)
+{
+  EXPECT_DOUBLE_EQ(AddInQuadrature(2.0, -3.0, 6.0), 7.0);
+  EXPECT_EQ(AddInQuadrature(0.0, 0.0, 0.0), 0.0);
+  EXPECT_DOUBLE_EQ(AddInQuadrature(2e200, 3e200, 6e200), 7e200);
+}
+
+TEST(SensorNoiseQuadrature, AnErrorThatIsNotKnownStaysSo)
+{
+  EXPECT_EQ(AddInQuadrature(Infinity, 1.0, 0.0), Infinity);
+  EXPECT_EQ(AddInQuadrature(1.0, -Infinity, 0.0), Infinity);
+  EXPECT_EQ(AddInQuadrature(1.0, 0.0, Infinity), Infinity);
+  EXPECT_TRUE(std::isnan(AddInQuadrature(1.0, 0.0, NotANumber)));
+}

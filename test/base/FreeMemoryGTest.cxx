@@ -53,7 +53,7 @@ TEST(FreeMemory, WhatWasFreedBetweenPiecesInUseIsGivenBack)
     statm >> pages >> pages; // all, and of these what is in memory
     return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   };
-  constexpr std::size_t                           pieceBytes = 32768; // of the heap, not of mmap()
+  constexpr std::size_t pieceBytes = 32768; // small enough for the heap: larger blocks come from mmap()
   std::vector<std::unique_ptr<std::vector<char>>> pieces(2000);
   for (auto & piece : pieces)
   {

@@ -16,7 +16,7 @@ using namespace sensornoise;
 
 namespace
 {
-/** Means and a mask, of which every seventh pixel is left out and holds a wild value. */
+/** Means and a mask. Every seventh pixel is masked, and its mean is arbitrary. */
 struct Scene
 {
   std::vector<double>       mean;

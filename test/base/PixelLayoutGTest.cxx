@@ -12,9 +12,9 @@ using namespace sensornoise;
 
 namespace
 {
-constexpr std::size_t Width = 93; // of a plane: longer than the vectors, and not a multiple of them
+constexpr std::size_t Width = 93; // width of a plane: longer than the SIMD vectors, and not a multiple of them
 constexpr std::size_t Height = 5;
-constexpr std::size_t Columns = 2 * Width + 1; // of the mosaic
+constexpr std::size_t Columns = 2 * Width + 1; // columns of the mosaic
 constexpr std::size_t Frames = 3;
 
 /** Every second pixel of every second row. */

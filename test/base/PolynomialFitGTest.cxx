@@ -81,7 +81,7 @@ TEST(SensorNoisePolynomialFit, ParabolaIsRecoveredExactly)
   EXPECT_TRUE(fit.isDetermined);
   EXPECT_NEAR(fit.curvature, 0.0025, 1e-10 * 0.0025);
   EXPECT_NEAR(fit.slope, 1.25, 1e-10 * 1.25);
-  EXPECT_NEAR(fit.intercept, -50.0, 1e-10 * 45000.0); // of the largest variance
+  EXPECT_NEAR(fit.intercept, -50.0, 1e-10 * 45000.0); // relative to the largest variance
 }
 
 TEST(SensorNoisePolynomialFit, LineAndParabolaOfOneWalkAreThoseOfTwo)
@@ -175,7 +175,7 @@ TEST(SensorNoisePolynomialFit, ExcessScatterRaisesReducedChi2)
   {
     scatter.variance[p] *= p % 2 == 0 ? 1.4 : 0.6;
   }
-  // Var = 2/(T-1) (1 + 0.16) + 0.16, over 2/(T-1): 5.08; the fourth moment is about twice that of one chi-square.
+  // Var = 2/(T-1) (1 + 0.16) + 0.16, over 2/(T-1): 5.08; the fourth moment is about twice the moment of one chi-square.
   const FitQuality quality = EvaluateLineFit(scatter.Data(), FitLine(scatter.Data()), Frames);
   EXPECT_NEAR(quality.reducedChi2, 1.16 + 0.16 * (Frames - 1.0) / 2.0, 5.0 * 5.08 * 2.0 * SdOfReducedChi2(20000));
 }

@@ -1,7 +1,6 @@
-// SPDX-FileCopyrightText: the ITKSensorNoise contributors
-// SPDX-License-Identifier: Apache-2.0
-// The estimate of a list of files, each time after that of the same frames in memory. The counter in_memory is the
-// ratio. The files were written just before, and so are in the computer's memory, too.
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors SPDX-License-Identifier: Apache-2.0 The estimate of a list of
+// files, each time after the estimate of the same frames in memory. The counter in_memory is the ratio. The files were
+// written just before, and so are in the computer's memory, too.
 
 #include "benchmark/BenchmarkStack.h"
 #include "itkExtractImageFilter.h"

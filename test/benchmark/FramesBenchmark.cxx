@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-// What a frame costs, and what a pixel does once: the first frames of one stack are measured, an eighth of them, a
-// quarter, half and all, in turn. The counter frames_T is the time for T of them, in the time in which a read pass
-// reads one frame; a line through these numbers has the cost per sample as its slope.
+// Time of a frame, and time of a pixel that does not depend on the frames. The first frames of one stack are measured:
+// an eighth of them, a quarter, half and all, in turn. The counter frames_T is the time for T of them, in the time in
+// which a read pass reads one frame; a line through these numbers has the cost per sample as its slope.
 
 #include "benchmark/BenchmarkStack.h"
 #include "sensornoise/Simulator.h"
@@ -15,7 +15,7 @@ namespace sensornoise::benchmarks
 {
 namespace
 {
-constexpr std::size_t Tiles = 8; // of the scene, one below the other
+constexpr std::size_t Tiles = 8; // tiles of the scene, one below the other
 
 /** The target scene Tiles times, one below the other, so that the scene of a frame that is rolled by the height of a
  * tile is the same. The surround of each is even, and so the first row goes with the last. */

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-// Speed, as ratios to two yardsticks, timed in the same run and by the same threads just before what is measured:
-// read_passes counts passes over the stack in memory that read one sample after the other, memory_passes those of the
-// fastest sum that the compiler makes, which waits for the memory. The counters are medians.
+// Speed, as ratios to two reference times. Both are measured in the same run, by the same threads, just before each
+// benchmark. The counter read_passes counts passes over the stack in memory that read one sample after the other. The
+// counter memory_passes counts passes of the fastest sum that the compiler makes, whose speed the memory limits. The
+// counters are medians.
 //
-// What is done pixel by pixel is timed against ITK's CastImageFilter between the same types, on a part of the stack:
-// casts counts its runs.
+// Filters that work pixel by pixel are timed against ITK's CastImageFilter between the same types, on a part of the
+// stack. The counter casts counts its runs.
 //
 //   SensorNoiseBenchmark [--benchmark_filter=...]     stack: 1376 x 1040 x 100 unsigned short, 2 threads
 
@@ -67,7 +68,8 @@ Projections(benchmark::State & state)
   });
 }
 
-/** One thread, each time before two: times_faster is the ratio, and of_read_pass that of plain read passes. */
+/** Times one thread, each time before two threads. times_faster is the ratio of the times, and of_read_pass is the
+ * ratio for plain read passes. */
 void
 TwoThreads(benchmark::State & state, const char * what)
 {

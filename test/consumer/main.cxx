@@ -101,7 +101,8 @@ try
   const sensornoise::Quantity filter = GainByFilter(stack);
   const double                gain = core.value.value_or(std::nan(""));
   const double                error = core.standardError.value_or(std::nan(""));
-  std::cout << "SensorNoise " << sensornoise::GetModuleVersion() << ": gain " << gain << " +- " << error << " DN/e-\n";
+  std::cout << "SensorNoise " << sensornoise::GetModuleVersion() << ": gain " << gain << " \u00B1 " << error
+            << " DN/e\u207B\n";
 
   bool isGood = Expect(std::abs(gain - settings.camera.gainDnPerElectron) < 5.0 * error, "the gain is the camera's");
   isGood &= Expect(filter.value == core.value && filter.standardError == core.standardError,

@@ -138,7 +138,8 @@ TEST(SensorNoiseCommonNoise, ResidualIlluminationIsTheCoefficientOfTheSquaredSig
     }
     return frame;
   });
-  const double variance = (wave.array() - wave.mean()).square().sum() / (Frames - 1.0); // of this temporal component
+  const double variance =
+    (wave.array() - wave.mean()).square().sum() / (Frames - 1.0); // sample variance of this temporal component
   ExpectFigure(found, 0, variance, 0.03 * variance);
   for (Eigen::Index d = 0; d < 2 * Lines; ++d)
   {
@@ -170,7 +171,7 @@ TEST(SensorNoiseCommonNoise, BandsAreCommonToRowsNextToEachOther)
   }
 }
 
-TEST(SensorNoiseCommonNoise, IsTakenOffTheSumsOfItsLag)
+TEST(SensorNoiseCommonNoise, IsSubtractedFromTheSumsOfItsLag)
 {
   CommonNoise common;
   common.illumination = 0.5;
@@ -182,14 +183,14 @@ TEST(SensorNoiseCommonNoise, IsTakenOffTheSumsOfItsLag)
     sums.bins[b] = { 100.0, 40.0, 10.0 + static_cast<double>(b), 20.0, 30.0 };
   }
   const auto taken = [&](const Lag & lag, std::size_t bin) {
-    return sums.bins[bin].covariance - common.TakeOff(sums, lag).bins[bin].covariance;
+    return sums.bins[bin].covariance - common.Subtract(sums, lag).bins[bin].covariance;
   };
   EXPECT_DOUBLE_EQ(taken({ 0, 0, 0 }, 0), 10.0 * (3.0 + 7.0) + 0.5 * 30.0);
   EXPECT_DOUBLE_EQ(taken({ -2, 1, 0 }, 0), 10.0 * (2.0 + 5.0) + 0.5 * 30.0);
   EXPECT_DOUBLE_EQ(taken({ -2, 1, 0 }, 3), 13.0 * (2.0 + 5.0) + 0.5 * 30.0);
   EXPECT_DOUBLE_EQ(taken({ 9, 9, 0 }, 0), 0.5 * 30.0); // lines at this distance are not used
-  EXPECT_EQ(common.TakeOff(sums, { 1, 1, 0 }).bins[1].pairs, 100.0);
-  EXPECT_EQ(common.TakeOff(sums, { 1, 1, 0 }).bins[1].square, 30.0);
+  EXPECT_EQ(common.Subtract(sums, { 1, 1, 0 }).bins[1].pairs, 100.0);
+  EXPECT_EQ(common.Subtract(sums, { 1, 1, 0 }).bins[1].square, 30.0);
 }
 
 TEST(SensorNoiseCommonNoise, SameBitsForAnyNumberOfThreads)

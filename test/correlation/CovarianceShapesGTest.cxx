@@ -44,14 +44,14 @@ FitOf(const std::array<FittedShape, NumberOfShapes> & fits, CovarianceShape shap
 
 TEST(SensorNoiseCovarianceShapes, AreRelativeToTheVariance)
 {
-  constexpr double codesDn2 = 2.0;
-  const auto       shapes = CovarianceShapes(OwnSums(), 0.0, codesDn2).InBins();
+  constexpr double quantisationDn2 = 2.0;
+  const auto       shapes = CovarianceShapes(OwnSums(), 0.0, quantisationDn2).InBins();
   for (std::size_t b = 0; b < SignalDn.size(); ++b)
   {
     const double z = SignalDn[b];
     const double v = VarianceAt(z);
     const auto   row = static_cast<Eigen::Index>(b);
-    EXPECT_NEAR(shapes(row, static_cast<Eigen::Index>(CovarianceShape::Variance)), (v - codesDn2) / v, 1e-14);
+    EXPECT_NEAR(shapes(row, static_cast<Eigen::Index>(CovarianceShape::Variance)), (v - quantisationDn2) / v, 1e-14);
     EXPECT_NEAR(shapes(row, static_cast<Eigen::Index>(CovarianceShape::Signal)), z / v, 1e-14);
     EXPECT_NEAR(shapes(row, static_cast<Eigen::Index>(CovarianceShape::Square)), z * z / v, 1e-12);
     EXPECT_NEAR(shapes(row, static_cast<Eigen::Index>(CovarianceShape::Constant)), 1.0 / v, 1e-15);
@@ -67,24 +67,26 @@ TEST(SensorNoiseCovarianceShapes, BinWithoutPairsHasNoCovariance)
 
 TEST(SensorNoiseCovarianceShapes, ReadNoiseMayBeAddedAfterAFilter)
 {
-  constexpr double       codesDn2 = 2.0;
-  const CovarianceShapes shapes(OwnSums(), 0.0, codesDn2);
+  constexpr double       quantisationDn2 = 2.0;
+  const CovarianceShapes shapes(OwnSums(), 0.0, quantisationDn2);
   for (const std::size_t part : { std::size_t{ 1 }, PartsAfterFilter })
   {
     const auto   k = static_cast<std::size_t>(CovarianceShape::FirstPart) + part - 1;
-    const double late = (20.0 - codesDn2) * static_cast<double>(part) / PartsAfterFilter;
+    const double late = (20.0 - quantisationDn2) * static_cast<double>(part) / PartsAfterFilter;
     EXPECT_EQ(shapes.UnitOf(k).ofVariance, 1.0);
     EXPECT_NEAR(shapes.UnitOf(k).constantDn2, -late, 1e-12);
     for (std::size_t b = 0; b < SignalDn.size(); ++b)
     {
       const double v = VarianceAt(SignalDn[b]);
-      EXPECT_NEAR(
-        shapes.InBins()(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(k)), (v - codesDn2 - late) / v, 1e-12);
+      EXPECT_NEAR(shapes.InBins()(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(k)),
+                  (v - quantisationDn2 - late) / v,
+                  1e-12);
     }
   }
   // If the dark offset is not known, the smallest signal is the signal of the darkest pixels.
   const auto last = NumberOfShapes - 1;
-  EXPECT_NEAR(CovarianceShapes(OwnSums(), 6.0, codesDn2).UnitOf(last).constantDn2, -(21.0 + 2.0 - codesDn2), 1e-12);
+  EXPECT_NEAR(
+    CovarianceShapes(OwnSums(), 6.0, quantisationDn2).UnitOf(last).constantDn2, -(21.0 + 2.0 - quantisationDn2), 1e-12);
 }
 
 TEST(SensorNoiseCovarianceShapes, EachIsRecoveredExactlyAndNoOtherFits)

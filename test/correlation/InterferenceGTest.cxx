@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "correlation/Constants.h"
-#include "correlation/Interference.h"
 #include "correlation/NoiseCorrelation.h"
 #include "helpers/CorrelationTestHelper.h"
 #include "helpers/StackTestHelper.h"

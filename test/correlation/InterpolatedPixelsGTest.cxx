@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "correlation/InterpolatedPixels.h"
+#include "correlation/ProcessingSigns.h"
 #include "helpers/CorrelationTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "correlation/Jackknife.h"
+#include "correlation/CorrelationSums.h"
 #include "simulation/Random.h"
 
 #include <cmath>

@@ -158,7 +158,8 @@ TEST(SensorNoiseNoiseCorrelation, RepellingChargeGrowsWithTheSquareOfTheSignal)
 
 TEST(SensorNoiseNoiseCorrelation, SensitivityThatDriftsIsNoFilterOfFrames)
 {
-  // The frames share noise that grows with the square of the signal; a filter makes it grow with the variance.
+  // The noise of the frames is correlated and grows with the square of the signal; a filter makes it grow with the
+  // variance.
   const NoiseCorrelation found = MeasureNoiseCorrelation(ComputeResiduals({}, Size, Frames, 0.02), 0.0, SerialFor);
   EXPECT_EQ(found.kind, NoiseKind::NotLinear);
   EXPECT_TRUE(found.isBySensitivity);

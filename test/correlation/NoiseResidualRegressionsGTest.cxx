@@ -53,7 +53,7 @@ NoiseResiduals
 WithoutRows(double sd, std::vector<float> & left, const ParallelFor & parallelFor = SerialFor)
 {
   auto residuals = ComputeResiduals(Geometry, Frames, Signal(), NoiseUnderRows(sd));
-  left = residuals.TakeOffLines(LineAxis::Rows, All, parallelFor);
+  left = residuals.SubtractLines(LineAxis::Rows, All, parallelFor);
   return residuals;
 }
 
@@ -115,7 +115,7 @@ TEST(SensorNoiseNoiseResidualRegressions, RowsOfOneLevelLoseTheirMeanAlone)
   std::vector<float> left;
   auto               residuals =
     ComputeResiduals(Geometry, Frames, std::vector<double>(Geometry.Pixels(), 100.0), WhiteNoise(Geometry, 6));
-  left = residuals.TakeOffLines(LineAxis::Rows, All, SerialFor);
+  left = residuals.SubtractLines(LineAxis::Rows, All, SerialFor);
   EXPECT_NEAR(left.front(), 1.0 - 1.0 / 128.0, 1e-6);
 }
 
@@ -124,7 +124,7 @@ TEST(SensorNoiseNoiseResidualRegressions, RowsWithoutPixelsAreSkipped)
   auto                      residuals = ComputeResiduals(Geometry, Frames, Signal(), NoiseUnderRows(0.05));
   std::vector<std::uint8_t> take = All;
   std::fill_n(take.begin(), Geometry.width, std::uint8_t{ 0 });
-  const std::vector<float> left = residuals.TakeOffLines(LineAxis::Rows, take, SerialFor);
+  const std::vector<float> left = residuals.SubtractLines(LineAxis::Rows, take, SerialFor);
   EXPECT_EQ(left.front(), 0.0F);
   EXPECT_GT(left[residuals.GetTiles().side], 0.9F);
 }
@@ -155,7 +155,7 @@ TEST(SensorNoiseNoiseResidualRegressions, ColumnsOfTheTransposedFrameAreItsRows)
     frame.values = transposed(frame.values);
     return frame;
   });
-  turned.TakeOffLines(LineAxis::Columns, All, SerialFor);
+  turned.SubtractLines(LineAxis::Columns, All, SerialFor);
   std::vector<float>   left;
   const NoiseResiduals rows = WithoutRows(0.05, left);
   const SampleTiles &  tiles = rows.GetTiles();

@@ -22,7 +22,7 @@ TEST(SensorNoiseSortPixelsBySignal, AreInTheOrderOfAComparison)
   std::vector<std::pair<float, std::size_t>> expected;
   for (std::size_t p = 0; p < signal.size(); ++p)
   {
-    const float size = std::exp2(10.0F * normal(random)); // of all magnitudes, and of both signs
+    const float size = std::exp2(10.0F * normal(random)); // signals of all magnitudes and both signs
     signal[p] = p % 5 == 0 ? std::round(normal(random)) : std::copysign(size, normal(random));
     take[p] = p % 7 != 3 ? 1 : 0;
     if (take[p] != 0)

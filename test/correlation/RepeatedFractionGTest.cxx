@@ -27,17 +27,17 @@ FractionOf(double sd, double blend, double probability, double step = 1.0)
   std::bernoulli_distribution isRepeated(probability);
   const std::size_t           pixels = Side * Side;
   std::vector<double>         level(pixels, 100.0);
-  std::vector<std::uint16_t>  codes(Frames * pixels);
-  for (std::size_t i = 0; i < codes.size(); ++i)
+  std::vector<std::uint16_t>  greyValues(Frames * pixels);
+  for (std::size_t i = 0; i < greyValues.size(); ++i)
   {
     double & own = level[i % pixels];
     own = blend * own + (1.0 - blend) * (100.0 + noise(random));
     const bool repeats = i >= pixels && isRepeated(random);
-    codes[i] = repeats ? codes[i - pixels] : static_cast<std::uint16_t>(step * std::round(own));
+    greyValues[i] = repeats ? greyValues[i - pixels] : static_cast<std::uint16_t>(step * std::round(own));
   }
   const std::vector<double> mean(pixels, 100.0 * step);
   FrameSample               sample = FrameSample::Of<unsigned short>(Geometry, Frames);
-  sample.AddFrames(codes.data(), 0, Frames, mean);
+  sample.AddFrames(greyValues.data(), 0, Frames, mean);
   return sample.RepeatedFraction(std::vector<std::uint8_t>(pixels, 1), step);
 }
 } // namespace

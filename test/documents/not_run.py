@@ -35,6 +35,7 @@ NOT_RUN = {
             "python examples/python/study_tables.py single.jsonl",
             "python examples/python/compare_methods.py --bin build/bin --peers environments",
             "python examples/python/study_likelihood.py --bin build/bin --seeds 10",
+            "python examples/python/study_ablation.py --bin build/bin --seeds 3 --lines 'drawn/*'",
         ),
         _STUDY,
     ),
@@ -42,5 +43,8 @@ NOT_RUN = {
     "bash wrapping/build-wheel.sh && pip install dist/itk_sensornoise-*.whl": _BUILDS,
 }
 
-# Programs that a build may lack; their commands are then not run.
-OPTIONAL = {"stabilise-mats": "needs OpenCV with image and video files"}
+# Programs that a build or a computer may lack; their commands are then not run.
+OPTIONAL = {
+    "stabilise-mats": "needs OpenCV with image and video files",
+    "exiftool": "needs exiftool",
+}

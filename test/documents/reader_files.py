@@ -90,6 +90,12 @@ def dng(frames: list[bytes], target: str) -> None:
         write(target.format(number), tiff_files.dng("s.dng", frame, 14).data)
 
 
+def png(frames: list[bytes], target: str) -> None:
+    """Writes PNG files of 16 bits, one frame a file."""
+    for number, frame in enumerate(frames):
+        first_case([frame], target.format(number), frame_files.pngs, "png list")
+
+
 def raw(frames: list[bytes], target: str) -> None:
     """Writes 16-bit pixels without a header, one frame a file or all in one."""
     for number, group in enumerate([[frame] for frame in frames] if "{" in target else [frames]):
@@ -104,23 +110,23 @@ def raw_gap(frames: list[bytes], target: str) -> None:
 def mono12p(frames: list[bytes], target: str) -> None:
     """Writes 12 packed bits, the lowest first, one frame a file."""
     for number, frame in enumerate(frames):
-        write(target.format(number), pixel_codings.lowest_first(pixel_codings.codes_of([frame], 12), 12))
+        write(target.format(number), pixel_codings.lowest_first(pixel_codings.grey_values_of([frame], 12), 12))
 
 
 def raspberry(frames: list[bytes], target: str) -> None:
     """Writes a stream of 12-bit frames as MIPI CSI-2 packs them, whose rows end at a multiple of ROW_BYTES."""
     made = bytearray()
     for frame in frames:
-        codes = pixel_codings.codes_of([frame], 12)
-        for start in range(0, len(codes), frame_parts.WIDTH):
+        grey_values = pixel_codings.grey_values_of([frame], 12)
+        for start in range(0, len(grey_values), frame_parts.WIDTH):
             row = bytearray()
-            for first, second in zip(*[iter(codes[start : start + frame_parts.WIDTH])] * 2, strict=True):
+            for first, second in zip(*[iter(grey_values[start : start + frame_parts.WIDTH])] * 2, strict=True):
                 row += bytes((first >> 4, second >> 4, (second & 15) << 4 | first & 15))
             made += row + bytes(-len(row) % ROW_BYTES)
     write(target, bytes(made))
 
 
-KINDS = (tif, hyperstack, ser, ser_bayer, fits, mraw, dng, raw, raw_gap, mono12p, raspberry)
+KINDS = (tif, hyperstack, ser, ser_bayer, fits, mraw, dng, png, raw, raw_gap, mono12p, raspberry)
 
 
 def main() -> None:

@@ -49,9 +49,18 @@ class Scratch:
             "PYTHONPATH": str(SOURCE / "test" / "documents"),
         }
 
+    @property
+    def has_python(self) -> bool:
+        """Whether Python blocks are run."""
+        return self._python is not None
+
     def has_program(self, name: str) -> bool:
-        """Returns whether the build has this program."""
-        return (self.folder / "build" / "bin" / name).exists()
+        """Returns whether the build or the computer has this program."""
+        return shutil.which(name, path=self._environment["PATH"]) is not None
+
+    def write(self, name: str, text: str) -> None:
+        """Writes a text file into the folder."""
+        (self.folder / name).write_text(text, encoding="utf-8")
 
     def run(self, command: str) -> list[str]:
         """Runs a command and returns the lines of its standard output, then of its standard error."""

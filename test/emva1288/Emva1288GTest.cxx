@@ -121,7 +121,7 @@ TEST(SensorNoiseEmva1288, DarkLevelsBetweenExposuresAreInterpolated)
   EXPECT_NEAR(*report.gain.value, camera.gain, 1e-10);
   EXPECT_NEAR(report.points[9].signalDn, camera.gain * 3500.0, 1e-8);
   EXPECT_TRUE(HasNote(report, "dark-not-matched"));
-  EXPECT_FALSE(report.darkCurrent.value); // of two exposures
+  EXPECT_FALSE(report.darkCurrent.value); // two exposures do not determine it
 }
 
 TEST(SensorNoiseEmva1288, TheThresholdIsWhereSignalEqualsNoise)
@@ -182,6 +182,43 @@ TEST(SensorNoiseEmva1288, APairPrecedesALongSeriesOfItsExposure)
   EXPECT_NEAR(*report.gain.value, 0.5, 1e-10);
   EXPECT_EQ(*report.brightStack, series.size() - 1);
   EXPECT_NEAR(*report.prnuUnfiltered.value, 100.0 * 7.0 / 1750.0, 1e-9);
+}
+
+TEST(SensorNoiseEmva1288, ALongSeriesBetweenPairsIsNoPointOfTheCurve)
+{
+  // The photons of the long series are wrong, as in a published data set: they would change R, and with it the rest.
+  std::vector<EmvaSeries> series = ExactCamera({});
+  EmvaSeries              longer = ExactSeries({}, 10.5, 3675.0, 50);
+  longer.photons = 0.1 * *longer.photons;
+  series.push_back(longer);
+  const EmvaReport report = EvaluateEmva1288(series);
+  ExpectCamera(report, {});
+  EXPECT_NEAR(*report.linearityError.value, 0.0, 1e-10);
+  EXPECT_EQ(report.points.size(), 22U);
+  EXPECT_EQ(*report.brightStack, series.size() - 1);
+}
+
+TEST(SensorNoiseEmva1288, ALongSeriesBetweenPairsCountsForTheWeightedGain)
+{
+  std::vector<EmvaSeries> series = ExactCamera({});
+  const double            without = *EvaluateEmva1288(series).weightedGain.standardError;
+  series.push_back(ExactSeries({}, 10.5, 3675.0, 500));
+  EXPECT_LT(*EvaluateEmva1288(series).weightedGain.standardError, without);
+  series.back().temporalVarianceDn2 *= 1.1;
+  EXPECT_GT(*EvaluateEmva1288(series).weightedGain.value, 0.5 + 1e-4);
+  EXPECT_NEAR(*EvaluateEmva1288(series).gain.value, 0.5, 1e-10);
+}
+
+TEST(SensorNoiseEmva1288, LongSeriesAreTheCurveWhereFewSeriesArePairs)
+{
+  std::vector<EmvaSeries> series = ExactCamera({});
+  for (EmvaSeries & each : series)
+  {
+    each.frames = each.isDark || each.exposure < 4.0 ? 2U : 4U; // 3 of 22 flat exposures are pairs
+  }
+  const EmvaReport report = EvaluateEmva1288(series);
+  ExpectCamera(report, {});
+  EXPECT_EQ(report.points.size(), 22U);
 }
 
 TEST(SensorNoiseEmva1288, RefusesSeriesThatAreNone)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "emva1288/SeriesSums.h"
+#include "emva1288/EvaluationSteps.h"
 
 #include <cmath>
 #include <cstddef>

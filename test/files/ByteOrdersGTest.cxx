@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "files/FileBytes.h"
-#include "files/RawLayout.h"
+#include "files/FrameFormats.h"
 #include "helpers/FrameFileTestHelper.h"
 
 #include <cmath>
@@ -31,9 +31,9 @@ FrameOf(double levelDn, double noiseDn, double slopeDn)
   for (std::size_t i = 0; i < Width * Width; ++i)
   {
     const double level = levelDn + slopeDn * static_cast<double>(i % Width) + noise(random);
-    const auto   code = static_cast<unsigned int>(static_cast<int>(std::lround(level)) + 65536) % 65536U;
-    bytes += static_cast<char>(code % 256U);
-    bytes += static_cast<char>(code / 256U);
+    const auto   greyValue = static_cast<unsigned int>(static_cast<int>(std::lround(level)) + 65536) % 65536U;
+    bytes += static_cast<char>(greyValue % 256U);
+    bytes += static_cast<char>(greyValue / 256U);
   }
   return bytes;
 }
@@ -73,7 +73,7 @@ TEST_F(ByteOrdersOfRaw, FramesThatMakeSenseInBothOrdersAreNotNamed)
   const std::string levels(2 * Width * Width, '\x12'); // one level
   EXPECT_EQ(WarningOf(levels, "uint16le"), "");
   EXPECT_EQ(WarningOf(levels, "uint16be"), "");
-  std::string bytes; // 8 bits in the high byte, as of a camera that moves its codes up
+  std::string bytes; // 8 bits in the high byte: the camera shifts its digital numbers
   for (std::size_t i = 0; i < Width * Width; ++i)
   {
     bytes += '\0';

@@ -62,7 +62,7 @@ protected:
     return bytes;
   }
 
-  /** Any frames, in any order, are those of \a pixels; and so for several threads at once. */
+  /** Expects that any frames, read in any order and by several threads at once, are the frames of \a pixels. */
   static void
   GivesFrames(const std::string & name, const std::string & pixels)
   {
@@ -152,7 +152,8 @@ TEST_F(DataFile, GivesIntegersOf32BitsAsDouble)
   EXPECT_EQ(valuesOf("uint32"), (std::vector<double>{ 4294967295.0, 2147483648.0, 1.0 }));
 }
 
-// What was inspected is what is read: a stream that another program writes to is checked again on the way.
+// The inspected bytes are the bytes that are read: a stream that another program changes is checked again while it is
+// read.
 TEST_F(DataFile, AStreamThatIsDamagedAfterItsInspectionIsRefused)
 {
   const std::string pixels = RandomBytes(Frames * FrameBytes);
@@ -170,7 +171,7 @@ TEST_F(DataFile, AStreamThatIsDamagedAfterItsInspectionIsRefused)
     }
   };
   EXPECT_EQ(said(), "");
-  stream[stream.size() - 8] = static_cast<char>(stream[stream.size() - 8] ^ 1); // of the checksum
+  stream[stream.size() - 8] = static_cast<char>(stream[stream.size() - 8] ^ 1); // a bit of the checksum
   Nrrd("gzip", "endian: little\n", stream);
   EXPECT_NE(said().find("280 bytes and then an error (incorrect data check)"), std::string::npos) << said();
   Nrrd("gzip", "endian: little\n", stream.substr(0, stream.size() / 2));

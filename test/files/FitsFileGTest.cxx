@@ -59,20 +59,20 @@ CardsOf(int bits, const Cards & more = {})
 }
 
 std::string
-Big(const Codes & codes, std::size_t bytes)
+Big(const GreyValues & greyValues, std::size_t bytes)
 {
-  return BytesOfCodes(codes, bytes, true);
+  return BytesOfGreyValues(greyValues, bytes, true);
 }
 
-Codes
-SixteenCodes(unsigned first, unsigned step)
+GreyValues
+SixteenGreyValues(unsigned first, unsigned step)
 {
-  Codes codes;
+  GreyValues greyValues;
   for (unsigned i = 0; i < 16; ++i)
   {
-    codes.push_back(first + step * i);
+    greyValues.push_back(first + step * i);
   }
-  return codes;
+  return greyValues;
 }
 
 class FitsFile : public FrameFileTest
@@ -92,30 +92,32 @@ protected:
 
 TEST_F(FitsFile, EachTypeIsReadExactly)
 {
-  const Codes codes = SixteenCodes(0, 4369); // 0 to 65535
-  const auto  signedOf = [&codes](int add) {
+  const GreyValues greyValues = SixteenGreyValues(0, 4369); // 0 to 65535
+  const auto       signedOf = [&greyValues](int add) {
     std::vector<int> numbers;
-    for (const unsigned code : codes)
+    for (const unsigned greyValue : greyValues)
     {
-      numbers.push_back(static_cast<std::int16_t>(code) + add);
+      numbers.push_back(static_cast<std::int16_t>(greyValue) + add);
     }
     return numbers;
   };
   const auto shorts = signedOf(0);
   const auto unsignedShorts = signedOf(32768);
-  EXPECT_EQ(Read<short>(UnitOf(CardsOf(16), Big(codes, 2)), FramePixel::Short),
+  EXPECT_EQ(Read<short>(UnitOf(CardsOf(16), Big(greyValues, 2)), FramePixel::Short),
             std::vector<short>(shorts.begin(), shorts.end()));
-  const std::string asUnsigned = UnitOf(CardsOf(16, { { "BZERO", "32768" }, { "BSCALE", "1.0" } }), Big(codes, 2));
+  const std::string asUnsigned = UnitOf(CardsOf(16, { { "BZERO", "32768" }, { "BSCALE", "1.0" } }), Big(greyValues, 2));
   EXPECT_EQ(Read<unsigned short>(asUnsigned, FramePixel::UnsignedShort),
             std::vector<unsigned short>(unsignedShorts.begin(), unsignedShorts.end()));
   EXPECT_EQ(Read<unsigned short>(asUnsigned, FramePixel::UnsignedShort, 1, 1),
             std::vector<unsigned short>(unsignedShorts.begin() + 8, unsignedShorts.end()));
-  EXPECT_EQ(Read<unsigned char>(UnitOf(CardsOf(8), Big(SixteenCodes(0, 17), 1)), FramePixel::UnsignedChar)[15], 255);
-  const Codes wide = SixteenCodes(0x80000000, 100000007);
+  EXPECT_EQ(Read<unsigned char>(UnitOf(CardsOf(8), Big(SixteenGreyValues(0, 17), 1)), FramePixel::UnsignedChar)[15],
+            255);
+  const GreyValues wide = SixteenGreyValues(0x80000000, 100000007);
   EXPECT_EQ(Read<double>(UnitOf(CardsOf(32), Big(wide, 4)), FramePixel::Double)[0], -2147483648.0);
   const std::string wideUnsigned = UnitOf(CardsOf(32, { { "BZERO", "2147483648" } }), Big(wide, 4));
   EXPECT_EQ(Read<double>(wideUnsigned, FramePixel::Double)[15], 1500000105.0);
-  EXPECT_EQ(Read<float>(UnitOf(CardsOf(-32), Big(SixteenCodes(0x40490FDB, 1), 4)), FramePixel::Float)[0], 3.14159274F);
+  EXPECT_EQ(Read<float>(UnitOf(CardsOf(-32), Big(SixteenGreyValues(0x40490FDB, 1), 4)), FramePixel::Float)[0],
+            3.14159274F);
   EXPECT_EQ(
     Read<double>(UnitOf(CardsOf(-64), std::string("\x3F\xF8", 2) + std::string(126, '\0')), FramePixel::Double)[0],
     1.5);
@@ -124,11 +126,11 @@ TEST_F(FitsFile, EachTypeIsReadExactly)
 TEST_F(FitsFile, OtherScalesAndBlanksAreDouble)
 {
   const std::string scaled = UnitOf(CardsOf(16, { { "BZERO", "1.5D2" }, { "BSCALE", "0.25" }, { "BLANK", "-1" } }),
-                                    Big(SixteenCodes(65535, 2), 2));
+                                    Big(SixteenGreyValues(65535, 2), 2));
   const std::vector<double> pixels = Read<double>(scaled, FramePixel::Double);
   EXPECT_TRUE(std::isnan(pixels[0]));
   EXPECT_EQ(pixels[1], 150.25);
-  EXPECT_EQ(Read<double>(UnitOf(CardsOf(-32, { { "BSCALE", "2" } }), Big(SixteenCodes(0x3F800000, 0), 4)),
+  EXPECT_EQ(Read<double>(UnitOf(CardsOf(-32, { { "BSCALE", "2" } }), Big(SixteenGreyValues(0x3F800000, 0), 4)),
                          FramePixel::Double)[3],
             2.0);
 }
@@ -137,7 +139,7 @@ TEST_F(FitsFile, TheOnlyImageOfAFileIsRead)
 {
   const Cards       empty{ { "SIMPLE", "T" }, { "BITPIX", "8" }, { "NAXIS", "0" } };
   Cards             extension = CardsOf(16);
-  const std::string pixels = Big(SixteenCodes(7, 1), 2);
+  const std::string pixels = Big(SixteenGreyValues(7, 1), 2);
   extension[0] = { "XTENSION", "'IMAGE   '" };
   const Cards       table{ { "XTENSION", "'BINTABLE'" }, { "BITPIX", "8" }, { "NAXIS", "2" },
                            { "NAXIS1", "10" },           { "NAXIS2", "3" }, { "PCOUNT", "5" } };
@@ -160,7 +162,7 @@ TEST_F(FitsFile, TheOnlyImageOfAFileIsRead)
 
 TEST_F(FitsFile, TheChecksumOfItsDataIsChecked)
 {
-  const std::string pixels = Big(Codes(16, 258), 2);                                      // 8 times 0x01020102
+  const std::string pixels = Big(GreyValues(16, 258), 2);                                 // 8 times 0x01020102
   const std::string good = UnitOf(CardsOf(16, { { "DATASUM", "'135268368'" } }), pixels); // 0x08100810
   Read<short>(good, FramePixel::Short);
   std::string damaged = good;
@@ -190,7 +192,7 @@ TEST_F(FitsFile, AnExposureOf0IsRecorded)
     const std::string bytes = UnitOf(CardsOf(16, cards), std::string(32, 'a'));
     return IsFrames("a.fits", bytes, FramePixel::Short, 4, 2, 2).camera.exposureSeconds;
   };
-  EXPECT_EQ(exposure({ { "EXPTIME", "0.0" } }), 0.0); // of a bias frame
+  EXPECT_EQ(exposure({ { "EXPTIME", "0.0" } }), 0.0); // exposure of a bias frame
   EXPECT_EQ(exposure({ { "EXPTIME", "0." }, { "EXPOSURE", "0.5" } }), 0.5);
   EXPECT_EQ(exposure({ { "EXPTIME", "2.5D-1" } }), 0.25);
   EXPECT_TRUE(std::isnan(exposure({})));

@@ -117,7 +117,7 @@ TEST_F(FrameFileInspection, AnyChangeOfAFileIsNoticed)
             file.name + ": has changed since it was opened; found " + std::to_string(bytes.size()) +
               " bytes, expected the " + std::to_string(bytes.size()) + " bytes of then");
   file = fresh();
-  // the time of the contents set back: that of the status tells
+  // the time of the contents set back: the time of the status shows it
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   const auto time = fs::last_write_time(file.name);
   std::fstream(file.name, std::ios::binary | std::ios::in | std::ios::out) << bytes;

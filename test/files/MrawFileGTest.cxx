@@ -15,30 +15,30 @@ namespace
 using namespace sensornoise;
 using namespace sensornoise::test;
 
-Codes
-SomeCodes(std::size_t count, unsigned bits)
+GreyValues
+SomeGreyValues(std::size_t count, unsigned bits)
 {
-  Codes             codes;
+  GreyValues        greyValues;
   const std::string bytes = RandomBytes(2 * count);
   for (std::size_t i = 0; i < count; ++i)
   {
-    codes.push_back((static_cast<unsigned char>(bytes[2 * i]) * 256U + static_cast<unsigned char>(bytes[2 * i + 1])) >>
-                    (16 - bits));
+    greyValues.push_back(
+      (static_cast<unsigned char>(bytes[2 * i]) * 256U + static_cast<unsigned char>(bytes[2 * i + 1])) >> (16 - bits));
   }
-  return codes;
+  return greyValues;
 }
 
 std::string
-PixelsOf(const Codes & codes, unsigned bits)
+PixelsOf(const GreyValues & greyValues, unsigned bits)
 {
-  return bits == 8 || bits == 16 ? BytesOfCodes(codes, bits / 8) : BitStream(codes, bits, true);
+  return bits == 8 || bits == 16 ? BytesOfGreyValues(greyValues, bits / 8) : BitStream(greyValues, bits, true);
 }
 
 class MrawFile : public FrameFileTest
 {
 protected:
   template <typename TPixel>
-  static Codes
+  static GreyValues
   Read(const FrameFile & file)
   {
     std::vector<TPixel> pixels(file.width * file.height * file.frames);
@@ -62,14 +62,14 @@ TEST_F(MrawFile, IsReadByEitherOfItsNames)
     header.bits = bits;
     header.depth = bits;
     const FramePixel  pixel = bits == 8 ? FramePixel::UnsignedChar : FramePixel::UnsignedShort;
-    const Codes       codes = SomeCodes(160, bits);
-    const std::string bytes = PixelsOf(codes, bits);
+    const GreyValues  greyValues = SomeGreyValues(160, bits);
+    const std::string bytes = PixelsOf(greyValues, bits);
     Write("a.mraw", bytes);
     const FrameFile byHeader = IsFrames("a.cihx", header.Bytes(), pixel, 8, 5, 4);
     const FrameFile byPixels = IsFrames("a.mraw", bytes, pixel, 8, 5, 4);
     for (const FrameFile & file : { byHeader, byPixels })
     {
-      EXPECT_EQ(bits == 8 ? Read<unsigned char>(file) : Read<unsigned short>(file), codes) << bits;
+      EXPECT_EQ(bits == 8 ? Read<unsigned char>(file) : Read<unsigned short>(file), greyValues) << bits;
       EXPECT_EQ(file.camera.bitDepth, bits);
       EXPECT_EQ(file.camera.camera, "FASTCAM Mini");
       EXPECT_DOUBLE_EQ(file.camera.exposureSeconds, 1.0 / 5000.0);
@@ -80,26 +80,26 @@ TEST_F(MrawFile, IsReadByEitherOfItsNames)
 
 TEST_F(MrawFile, AnOlderHeaderIsReadToo)
 {
-  const Codes codes = SomeCodes(160, 12);
-  Write("a.mraw", BitStream(codes, 12, true));
+  const GreyValues greyValues = SomeGreyValues(160, 12);
+  Write("a.mraw", BitStream(greyValues, 12, true));
   const std::string header = "#Camera Information Header\r\nCamera Type : SA5\r\nShutter Speed(s) : 1/1000.0\r\n"
                              "Total Frame : 4\r\nImage Width : 8\r\nImage Height : 5\r\nColor Type : Mono\r\n"
                              "Color Bit : 12\r\nFile Format : MRaw\r\nEffectiveBit Depth : 12\r\n"
                              "EffectiveBit Side : Lower\r\nEND\r\n";
   const FrameFile   file = IsFrames("a.cih", header, FramePixel::UnsignedShort, 8, 5, 4);
-  EXPECT_EQ(Read<unsigned short>(file), codes);
+  EXPECT_EQ(Read<unsigned short>(file), greyValues);
   EXPECT_EQ(file.camera.camera, "SA5");
   EXPECT_EQ(file.camera.exposureSeconds, 0.001);
 }
 
-TEST_F(MrawFile, CodesThatWereMovedUpStayAsTheyAre)
+TEST_F(MrawFile, GreyValuesThatWereMovedUpStayUnchanged)
 {
   CihxOf header;
   header.bits = 16;
   header.side = "Higher";
-  Write("a.mraw", BytesOfCodes(Codes(160, 0xABC0), 2));
+  Write("a.mraw", BytesOfGreyValues(GreyValues(160, 0xABC0), 2));
   const FrameFile file = IsFrames("a.cihx", header.Bytes(), FramePixel::UnsignedShort, 8, 5, 4);
-  EXPECT_EQ(Read<unsigned short>(file), Codes(160, 0xABC0));
+  EXPECT_EQ(Read<unsigned short>(file), GreyValues(160, 0xABC0));
   EXPECT_EQ(file.camera.bitDepth, 16u);
   header.side = "Lower";
   EXPECT_EQ(IsFrames("a.cihx", header.Bytes(), FramePixel::UnsignedShort, 8, 5, 4).camera.bitDepth, 12u);

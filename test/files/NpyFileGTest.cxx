@@ -47,18 +47,19 @@ protected:
 
 TEST_F(NpyFile, EachTypeIsReadExactly)
 {
-  const Codes codes{ 1, 2, 3, 4, 5, 65535 };
+  const GreyValues greyValues{ 1, 2, 3, 4, 5, 65535 };
   for (const bool isBigEndian : { false, true })
   {
     const std::string order = isBigEndian ? ">" : "<";
-    const std::string shorts = BytesOfCodes(codes, 2, isBigEndian);
-    const std::string longs = BytesOfCodes({ 1, 2, 3, 4, 5, 0xFFFFFFFF }, 4, isBigEndian);
+    const std::string shorts = BytesOfGreyValues(greyValues, 2, isBigEndian);
+    const std::string longs = BytesOfGreyValues({ 1, 2, 3, 4, 5, 0xFFFFFFFF }, 4, isBigEndian);
     EXPECT_EQ(Read<unsigned short>(order + "u2", shorts, FramePixel::UnsignedShort)[5], 65535);
     EXPECT_EQ(Read<short>(order + "i2", shorts, FramePixel::Short)[5], -1);
     EXPECT_EQ(Read<double>(order + "u4", longs, FramePixel::Double)[5], 4294967295.0);
     EXPECT_EQ(Read<double>(order + "i4", longs, FramePixel::Double)[5], -1.0);
-    EXPECT_EQ(Read<float>(order + "f4", BytesOfCodes(Codes(6, 0x3F800000), 4, isBigEndian), FramePixel::Float)[2],
-              1.0F);
+    EXPECT_EQ(
+      Read<float>(order + "f4", BytesOfGreyValues(GreyValues(6, 0x3F800000), 4, isBigEndian), FramePixel::Float)[2],
+      1.0F);
     Read<double>(order + "f8", std::string(48, '\0'), FramePixel::Double);
   }
   EXPECT_EQ(Read<unsigned char>("|u1", "abcdef", FramePixel::UnsignedChar)[5], 'f');

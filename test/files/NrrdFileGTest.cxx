@@ -222,7 +222,7 @@ TEST_F(NrrdFile, CompressedPixelsThatAreNotExactlyThoseDeclaredAreRefused)
   isRefused(stream + "a", "1 bytes are left over after its pixels");
   isRefused(stream + stream, "bytes are left over after its pixels");
   isRefused("", "0 bytes and then an error (no end of the stream)");
-  const std::size_t head = 10; // of whose bits some mean nothing
+  const std::size_t head = 10; // bytes of gzip's header; some of their bits have no meaning
   std::size_t       accepted = 0;
   for (std::size_t bit = 8 * head; bit < 8 * stream.size(); ++bit)
   {

@@ -131,7 +131,7 @@ TEST_F(PngFile, OtherThanExactlyItsPixelsAreRefused)
   png.width = 2147483648;
   png.rows = "a";
   IsRefused("a.png", png.Bytes(), { "size 2147483648 along axis 0; expected at least 1 and at most 2147483647" });
-  png.width = 2147483647; // of which nothing is allocated
+  png.width = 2147483647; // no memory is allocated for it
   IsRefused("a.png", png.Bytes(), { "compressed pixels give 1 bytes", "expected 38654705655 bytes" });
   png.width = 0;
   IsRefused("a.png", png.Bytes(), { "size 0 along axis 0" });

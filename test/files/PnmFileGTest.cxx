@@ -24,7 +24,8 @@ TEST_F(PnmFile, FramesOfEightAndSixteenBitsAreRead)
   EXPECT_STREQ(file.format->name, "PGM");
   EXPECT_EQ(file.camera.bitDepth, 8u);
   const std::string header = "P5 2 1 4095\n";
-  const std::string stack = header + BytesOfCodes({ 1, 2 }, 2, true) + header + BytesOfCodes({ 3, 4000 }, 2, true);
+  const std::string stack =
+    header + BytesOfGreyValues({ 1, 2 }, 2, true) + header + BytesOfGreyValues({ 3, 4000 }, 2, true);
   file = IsFrames("a.pgm", stack, FramePixel::UnsignedShort, 2, 1, 2);
   EXPECT_EQ(file.camera.bitDepth, 12u);
   std::vector<unsigned short> pixels(4);

@@ -31,7 +31,7 @@ protected:
     }
   }
 
-  static Codes
+  static GreyValues
   Read(const FrameFile & file)
   {
     std::vector<unsigned short> pixels(file.width * file.height);
@@ -52,7 +52,7 @@ protected:
   }
 };
 
-TEST_F(RawCameraFile, UncompressedAndPackedCodesAreReadAsTheyAre)
+TEST_F(RawCameraFile, UncompressedAndPackedGreyValuesAreReadUnchanged)
 {
   for (const unsigned bits : { 16U, 14U, 12U, 10U })
   {
@@ -64,14 +64,14 @@ TEST_F(RawCameraFile, UncompressedAndPackedCodesAreReadAsTheyAre)
         dng.isBigEndian = isBigEndian;
         dng.isBelow = isBelow;
         const FrameFile file = IsSound(dng);
-        EXPECT_EQ(Read(file), dng.codes) << bits << isBigEndian << isBelow;
+        EXPECT_EQ(Read(file), dng.greyValues) << bits << isBigEndian << isBelow;
         EXPECT_EQ(file.camera.blackLevelDn, 64.0) << bits << isBigEndian << isBelow;
       }
     }
   }
 }
 
-TEST_F(RawCameraFile, CodesOfLosslessJpegAreReadAsTheyAre)
+TEST_F(RawCameraFile, GreyValuesOfLosslessJpegAreReadUnchanged)
 {
   for (const unsigned bits : { 16U, 14U, 12U })
   {
@@ -83,7 +83,7 @@ TEST_F(RawCameraFile, CodesOfLosslessJpegAreReadAsTheyAre)
         dng.isJpeg = true;
         dng.components = components;
         dng.tile = tile;
-        EXPECT_EQ(Read(IsSound(dng)), dng.codes) << bits << ' ' << components << ' ' << tile;
+        EXPECT_EQ(Read(IsSound(dng)), dng.greyValues) << bits << ' ' << components << ' ' << tile;
       }
     }
   }
@@ -94,15 +94,15 @@ TEST_F(RawCameraFile, SaysWhatTheCameraIs)
   const CameraSettings camera = IsSound(DngOf::Sound()).camera;
   EXPECT_EQ(camera.camera, "Maker Model 1");
   EXPECT_EQ(camera.bayerPattern, "RGGB");
-  EXPECT_EQ(camera.bitDepth, 14u); // by the white level, which all codes fit
+  EXPECT_EQ(camera.bitDepth, 14u); // from the white level; all digital numbers fit
   EXPECT_EQ(camera.blackLevelDn, 64.0);
   EXPECT_EQ(camera.whiteLevelDn, 16383.0);
   EXPECT_EQ(camera.isoSpeed, 400.0);
-  EXPECT_NEAR(camera.exposureSeconds, 0.02, 1e-9);
+  EXPECT_EQ(camera.exposureSeconds, 0.02); // LibRaw has 0.01999999955, in single precision
   EXPECT_TRUE(std::isnan(camera.opticalBlackDn));
   EXPECT_EQ(IsSound(DngOf::Sound(12)).camera.bitDepth, 12u);
   DngOf bright = DngOf::Sound();
-  bright.codes[100] = 20000;
+  bright.greyValues[100] = 20000;
   EXPECT_EQ(IsSound(bright).camera.bitDepth, 0u);
 }
 
@@ -122,15 +122,15 @@ TEST_F(RawCameraFile, PatternIsThatOfTheFirstVisiblePixel)
   inside.tags[50829] = { 4, { 2, 4, 32, 46 } };
   FrameFile file = IsFrames("a.dng", inside.Bytes(), FramePixel::UnsignedShort, 42, 30, 1);
   EXPECT_EQ(file.camera.bayerPattern, "RGGB");
-  const Codes found = Read(file);
-  EXPECT_EQ(found.front(), inside.codes[2 * 48 + 4]);
-  EXPECT_EQ(found[42], inside.codes[3 * 48 + 4]);
-  EXPECT_EQ(found.back(), inside.codes[31 * 48 + 45]);
+  const GreyValues found = Read(file);
+  EXPECT_EQ(found.front(), inside.greyValues[2 * 48 + 4]);
+  EXPECT_EQ(found[42], inside.greyValues[3 * 48 + 4]);
+  EXPECT_EQ(found.back(), inside.greyValues[31 * 48 + 45]);
   // LibRaw begins at even places: a row and a column later
   inside.tags[50829] = { 4, { 1, 3, 31, 47 } };
   file = IsFrames("a.dng", inside.Bytes(), FramePixel::UnsignedShort, 43, 29, 1);
   EXPECT_EQ(file.camera.bayerPattern, "BGGR");
-  EXPECT_EQ(Read(file).front(), inside.codes[2 * 48 + 4]);
+  EXPECT_EQ(Read(file).front(), inside.greyValues[2 * 48 + 4]);
 }
 
 TEST_F(RawCameraFile, MonochromeSensorsHaveNoPattern)
@@ -140,7 +140,7 @@ TEST_F(RawCameraFile, MonochromeSensorsHaveNoPattern)
   const FrameFile file = IsSound(dng);
   EXPECT_EQ(file.camera.bayerPattern, "");
   EXPECT_EQ(file.camera.blackLevelDn, 64.0);
-  EXPECT_EQ(Read(file), dng.codes);
+  EXPECT_EQ(Read(file), dng.greyValues);
 }
 
 TEST_F(RawCameraFile, BlackLevelsThatDifferAreNone)
@@ -160,7 +160,7 @@ TEST_F(RawCameraFile, MaskedColumnsGiveTheOpticalBlack)
   {
     for (unsigned x = 0; x < 8; ++x)
     {
-      dng.codes[y * dng.width + x] = 100 + (x % 2) + 4 * (y % 2); // row means 100.5 and 104.5
+      dng.greyValues[y * dng.width + x] = 100 + (x % 2) + 4 * (y % 2); // row means 100.5 and 104.5
     }
   }
   dng.tags[50829] = { 4, { 0, 8, 32, 48 } };
@@ -220,8 +220,8 @@ TEST_F(RawCameraFile, LossIsRefused)
 TEST_F(RawCameraFile, SeveralColoursAPixelAreRefused)
 {
   DngOf dng = DngOf::Sound();
-  dng.codes.insert(dng.codes.end(), dng.codes.begin(), dng.codes.end());
-  dng.codes.insert(dng.codes.end(), dng.codes.begin(), dng.codes.begin() + 48 * 32);
+  dng.greyValues.insert(dng.greyValues.end(), dng.greyValues.begin(), dng.greyValues.end());
+  dng.greyValues.insert(dng.greyValues.end(), dng.greyValues.begin(), dng.greyValues.begin() + 48 * 32);
   dng.tags[262] = { 3, { 34892 } };
   dng.tags[277] = { 3, { 3 } };
   dng.tags[258] = { 3, { 16, 16, 16 } };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/RawLayout.h"
+#include "files/FrameFormats.h"
 #include "files/FrameReader.h"
 #include "helpers/BurstFilesTestHelper.h"
 #include "helpers/FrameFileTestHelper.h"
@@ -63,24 +63,24 @@ protected:
 TEST_F(RawFile, EachTypeIsReadAsItLies)
 {
   using Shorts = std::vector<unsigned short>;
-  const Codes       codes{ 1, 2, 300, 1000, 5, 6, 7, 1023 }; // two frames of 2 x 2
+  const GreyValues  greyValues{ 1, 2, 300, 1000, 5, 6, 7, 1023 }; // two frames of 2 x 2
   const Shorts      second{ 5, 6, 7, 1023 };
-  const std::string little = BytesOfCodes(codes, 2);
+  const std::string little = BytesOfGreyValues(greyValues, 2);
   EXPECT_EQ(Read<unsigned short>(little, "2x2:uint16le", 1, 1), second);
   EXPECT_EQ(Read<unsigned short>(little, "2x2:MONO10", 1, 1), second);
   EXPECT_EQ(Read<unsigned short>(little, "2x2:SRGGB10", 1, 1), second);
   EXPECT_EQ(Read<unsigned short>("skip" + little, "2x2:uint16le:4", 1, 1), second);
-  EXPECT_EQ(Read<unsigned short>(BytesOfCodes(codes, 2, true), "2x2:uint16be", 1, 1), second);
-  EXPECT_EQ(Read<short>(BytesOfCodes({ 0xFFFF }, 2), "1x1:int16le", 0, 1), std::vector<short>{ -1 });
+  EXPECT_EQ(Read<unsigned short>(BytesOfGreyValues(greyValues, 2, true), "2x2:uint16be", 1, 1), second);
+  EXPECT_EQ(Read<short>(BytesOfGreyValues({ 0xFFFF }, 2), "1x1:int16le", 0, 1), std::vector<short>{ -1 });
   EXPECT_EQ(Read<unsigned char>("abcd", "2x1:uint8", 1, 1), (std::vector<unsigned char>{ 'c', 'd' }));
-  EXPECT_EQ(Read<unsigned short>(BitStream(codes, 10, false), "2x2:Mono10p", 1, 1), second);
-  EXPECT_EQ(Read<unsigned short>(BitStream(codes, 12, false), "2x2:BayerGR12p", 1, 1), second);
-  EXPECT_EQ(Read<unsigned short>(BitStream(codes, 12, true), "2x2:uint12msb", 1, 1), second);
-  EXPECT_EQ(Read<unsigned short>(GigEPacked(codes, 12), "2x2:Mono12Packed", 1, 1), second);
-  EXPECT_EQ(Read<unsigned short>(GigEPacked(codes, 10), "2x2:Mono10Packed", 1, 1), second);
-  EXPECT_EQ(Read<unsigned short>(MipiPacked(codes, 10), "2x2:RAW10", 1, 1), second);
-  EXPECT_EQ(Read<unsigned short>(MipiPacked(codes, 12), "2x2:SBGGR12P", 1, 1), second);
-  EXPECT_EQ(Read<unsigned short>(MipiPacked(codes, 14), "2x2:raw14", 1, 1), second);
+  EXPECT_EQ(Read<unsigned short>(BitStream(greyValues, 10, false), "2x2:Mono10p", 1, 1), second);
+  EXPECT_EQ(Read<unsigned short>(BitStream(greyValues, 12, false), "2x2:BayerGR12p", 1, 1), second);
+  EXPECT_EQ(Read<unsigned short>(BitStream(greyValues, 12, true), "2x2:uint12msb", 1, 1), second);
+  EXPECT_EQ(Read<unsigned short>(GigEPacked(greyValues, 12), "2x2:Mono12Packed", 1, 1), second);
+  EXPECT_EQ(Read<unsigned short>(GigEPacked(greyValues, 10), "2x2:Mono10Packed", 1, 1), second);
+  EXPECT_EQ(Read<unsigned short>(MipiPacked(greyValues, 10), "2x2:RAW10", 1, 1), second);
+  EXPECT_EQ(Read<unsigned short>(MipiPacked(greyValues, 12), "2x2:SBGGR12P", 1, 1), second);
+  EXPECT_EQ(Read<unsigned short>(MipiPacked(greyValues, 14), "2x2:raw14", 1, 1), second);
 }
 
 TEST_F(RawFile, RowsMayHaveAGapBehindThem)
@@ -123,13 +123,13 @@ TEST_F(RawFile, LargeFramesAreReadInPieces)
   std::string       rows = "ab" + std::string(gap - 2, '-') + "cd" + std::string(gap - 2, '-');
   EXPECT_EQ(Read<unsigned char>(rows, "2x2:uint8:0:" + std::to_string(gap), 0, 1),
             (std::vector<unsigned char>{ 'a', 'b', 'c', 'd' }));
-  Codes codes;
+  GreyValues greyValues;
   for (unsigned i = 0; i < 1024 * 1024; ++i)
   {
-    codes.push_back(i * 2654435761U >> 20);
+    greyValues.push_back(i * 2654435761U >> 20);
   }
-  EXPECT_EQ(Read<unsigned short>(BitStream(codes, 12, false), "1024x1024:Mono12p", 0, 1),
-            (std::vector<unsigned short>(codes.begin(), codes.end())));
+  EXPECT_EQ(Read<unsigned short>(BitStream(greyValues, 12, false), "1024x1024:Mono12p", 0, 1),
+            (std::vector<unsigned short>(greyValues.begin(), greyValues.end())));
 }
 
 TEST_F(RawFile, SaysWhatTheTypeSaysOfTheCamera)

@@ -22,7 +22,7 @@ BytesOf(const std::string & text)
   return reinterpret_cast<const unsigned char *>(text.data());
 }
 
-Codes
+GreyValues
 Unpacked(SamplePacking packing, unsigned bits, const std::string & bytes)
 {
   const SampleFormat format{ FramePixel::UnsignedShort, packing, false, bits };
@@ -36,13 +36,13 @@ Unpacked(SamplePacking packing, unsigned bits, const std::string & bytes)
 // The examples of the Linux kernel's documentation and of GenICam's Pixel Format Naming Convention, by hand.
 TEST(SamplePacking, IsThatOfTheStandards)
 {
-  const Codes two{ 0xABC, 0x123 };
+  const GreyValues two{ 0xABC, 0x123 };
   EXPECT_EQ(Unpacked(SamplePacking::LowestFirst, 12, "\xBC\x3A\x12"), two);
   EXPECT_EQ(Unpacked(SamplePacking::HighestFirst, 12, "\xAB\xC1\x23"), two);
   EXPECT_EQ(Unpacked(SamplePacking::GigE, 12, "\xAB\x3C\x12"), two);
   EXPECT_EQ(Unpacked(SamplePacking::Mipi, 12, "\xAB\x12\x3C"), two);
-  EXPECT_EQ(Unpacked(SamplePacking::GigE, 10, "\xFF\x21\x80"), (Codes{ 0x3FD, 0x202 }));
-  EXPECT_EQ(Unpacked(SamplePacking::Mipi, 10, "\x01\x02\x03\xFF\xE4"), (Codes{ 4, 9, 14, 1023 }));
+  EXPECT_EQ(Unpacked(SamplePacking::GigE, 10, "\xFF\x21\x80"), (GreyValues{ 0x3FD, 0x202 }));
+  EXPECT_EQ(Unpacked(SamplePacking::Mipi, 10, "\x01\x02\x03\xFF\xE4"), (GreyValues{ 4, 9, 14, 1023 }));
 }
 
 TEST(SamplePacking, UnpacksWhatWasPacked)
@@ -50,17 +50,17 @@ TEST(SamplePacking, UnpacksWhatWasPacked)
   std::mt19937 random(1);
   for (const unsigned bits : { 10U, 12U, 14U })
   {
-    Codes codes;
+    GreyValues greyValues;
     for (int i = 0; i < 4000; ++i)
     {
-      codes.push_back(static_cast<unsigned>(random() >> (32 - bits)));
+      greyValues.push_back(static_cast<unsigned>(random() >> (32 - bits)));
     }
-    EXPECT_EQ(Unpacked(SamplePacking::LowestFirst, bits, BitStream(codes, bits, false)), codes) << bits;
-    EXPECT_EQ(Unpacked(SamplePacking::HighestFirst, bits, BitStream(codes, bits, true)), codes) << bits;
-    EXPECT_EQ(Unpacked(SamplePacking::Mipi, bits, MipiPacked(codes, bits)), codes) << bits;
+    EXPECT_EQ(Unpacked(SamplePacking::LowestFirst, bits, BitStream(greyValues, bits, false)), greyValues) << bits;
+    EXPECT_EQ(Unpacked(SamplePacking::HighestFirst, bits, BitStream(greyValues, bits, true)), greyValues) << bits;
+    EXPECT_EQ(Unpacked(SamplePacking::Mipi, bits, MipiPacked(greyValues, bits)), greyValues) << bits;
     if (bits < 14)
     {
-      EXPECT_EQ(Unpacked(SamplePacking::GigE, bits, GigEPacked(codes, bits)), codes) << bits;
+      EXPECT_EQ(Unpacked(SamplePacking::GigE, bits, GigEPacked(greyValues, bits)), greyValues) << bits;
     }
   }
 }

@@ -14,16 +14,16 @@ namespace
 using namespace sensornoise;
 using namespace sensornoise::test;
 
-/** Codes of a noisy ramp of 12 bits, a little of everything in the low byte. */
-Codes
+/** Returns grey values of a noisy ramp of 12 bits, with many values of the low byte. */
+GreyValues
 Ramp(std::size_t count, unsigned scale = 1)
 {
-  Codes codes;
+  GreyValues greyValues;
   for (std::size_t i = 0; i < count; ++i)
   {
-    codes.push_back(static_cast<unsigned>(1000 + 3 * i + i * i % 37) * scale);
+    greyValues.push_back(static_cast<unsigned>(1000 + 3 * i + i * i % 37) * scale);
   }
-  return codes;
+  return greyValues;
 }
 
 class SerFile : public FrameFileTest
@@ -41,14 +41,14 @@ protected:
   Sound(bool isBigEndian = false)
   {
     SerOf ser;
-    ser.pixels = BytesOfCodes(Ramp(140), 2, isBigEndian);
+    ser.pixels = BytesOfGreyValues(Ramp(140), 2, isBigEndian);
     return ser;
   }
 };
 
 TEST_F(SerFile, IsReadInEitherOrderWhateverTheFlagSays)
 {
-  const Codes codes = Ramp(140);
+  const GreyValues greyValues = Ramp(140);
   for (const bool isBig : { false, true })
   {
     for (const unsigned flag : { 0U, 1U })
@@ -56,24 +56,25 @@ TEST_F(SerFile, IsReadInEitherOrderWhateverTheFlagSays)
       SerOf ser = Sound(isBig);
       ser.isLittleEndian = flag;
       const FrameFile file = IsFrames("a.ser", ser.Bytes(), FramePixel::UnsignedShort, 7, 5, 4);
-      EXPECT_EQ(Read(file), (std::vector<unsigned short>(codes.begin(), codes.end()))) << isBig << flag;
+      EXPECT_EQ(Read(file), (std::vector<unsigned short>(greyValues.begin(), greyValues.end()))) << isBig << flag;
     }
   }
 }
 
-// Codes of 8 bits in the high byte make sense either way: then it is as programs write it.
+// Grey values of 8 bits in the high byte are valid in both byte orders. The reader then takes the order that programs
+// write.
 TEST_F(SerFile, AnUnclearByteOrderIsTakenFromTheFlag)
 {
-  Codes codes;
+  GreyValues greyValues;
   for (unsigned i = 0; i < 140; ++i)
   {
-    codes.push_back((i * 7 % 200) << 8);
+    greyValues.push_back((i * 7 % 200) << 8);
   }
   SerOf ser = Sound();
   ser.depth = 16;
-  ser.pixels = BytesOfCodes(codes, 2);
+  ser.pixels = BytesOfGreyValues(greyValues, 2);
   FrameFile file = IsFrames("a.ser", ser.Bytes(), FramePixel::UnsignedShort, 7, 5, 4);
-  EXPECT_EQ(Read(file), (std::vector<unsigned short>(codes.begin(), codes.end())));
+  EXPECT_EQ(Read(file), (std::vector<unsigned short>(greyValues.begin(), greyValues.end())));
   ser.isLittleEndian = 1;
   file = IsFrames("a.ser", ser.Bytes(), FramePixel::UnsignedShort, 7, 5, 4);
   EXPECT_EQ(Read(file)[1], 7);
@@ -94,8 +95,8 @@ TEST_F(SerFile, SaysWhatTheCameraIs)
   SerOf ser = Sound();
   ser.depth = 16; // what programs write for any sensor
   EXPECT_EQ(IsFrames("a.ser", ser.Bytes(), FramePixel::UnsignedShort, 7, 5, 4).camera.bitDepth, 0u);
-  ser.depth = 12; // but the codes were moved up
-  ser.pixels = BytesOfCodes(Ramp(140, 16), 2);
+  ser.depth = 12; // but the digital numbers were shifted to the high bits
+  ser.pixels = BytesOfGreyValues(Ramp(140, 16), 2);
   EXPECT_EQ(IsFrames("a.ser", ser.Bytes(), FramePixel::UnsignedShort, 7, 5, 4).camera.bitDepth, 0u);
   ser.depth = 8;
   ser.pixels = RandomBytes(140);

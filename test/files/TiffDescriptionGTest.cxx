@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-// What ImageJ and OME say of the pages of a TIFF.
+// Descriptions by ImageJ and OME of the pages of a TIFF.
 
 namespace
 {

@@ -61,7 +61,7 @@ TEST_F(TiffFile, WhatWritersAddIsAccepted)
   };
   isAccepted(TiffWith({ { 254, { 4, { 0 } } } }));      // full images
   isAccepted(TiffWith({ { 254, { 4, { 2 } } } }));      // pages
-  isAccepted(TiffWith({ { 336, { 3, { 0, 255 } } } })); // of inks
+  isAccepted(TiffWith({ { 336, { 3, { 0, 255 } } } })); // ink levels
   isAccepted(TiffWith({ { 262, { 3, { 0 } } } }));      // 0 is white
   isAccepted(TiffWith({ { 270, Text("ImageJ=1.53t\nimages=3\nslices=3\n") } }));
   isAccepted(TiffWith({ { 305, Text("a program") }, { 50839, { 1, { 1, 2, 3, 4, 5, 6 } } } }));

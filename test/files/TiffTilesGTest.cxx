@@ -122,7 +122,7 @@ TEST_F(TiffTiles, PredictorsAreUndoneInTheRowsOfTiles)
   }
 }
 
-/** The pixels of a TIFF of floating-point numbers whose bits are those of the helper's integers. */
+/** The pixels are floating-point numbers with the same bits as the helper's integers. */
 TEST_F(TiffTiles, FloatingPointPredictorIsUndone)
 {
   TiffOf tiff = TiledWith({ { 317, { 3, { 3 } } }, { 339, { 3, { 3 } } } });
@@ -187,7 +187,7 @@ TEST_F(TiffTiles, WhatTheirTagsMustSayIsRequired)
   isRefused({ { 279, { 4, { 8 } } } }, "has tags of strips and of tiles; expected one of both");
 }
 
-// What is read of a file is in proportion to its frames: 4 times their pixels, and 2^20 = 1024 x 1024 more.
+// The number of bytes that are read is in proportion to the frames: 4 times their pixels, and 2^20 = 1024 x 1024 more.
 TEST_F(TiffTiles, FarAboveTheFrameAreRefused)
 {
   TiffOf tiff = Tiled(1024, 1024);
@@ -286,7 +286,8 @@ TEST_F(TiffTiles, ImagesBehindATiledPageOfImageJAreRefused)
   EXPECT_EQ(said.find("--raw"), std::string::npos) << said;
 }
 
-// Of a single page, a width that takes as many tiles would be believed: what fills the tiles up are pixels, too.
+// Two pages: in a single page, another width with the same number of tiles would be accepted, because the padding of
+// the tiles would be read as pixels.
 TEST_F(TiffTiles, AnyChangedBitOfTwoPagesIsRefusedOrLeavesTheSize)
 {
   TiffOf tiff = Tiled();

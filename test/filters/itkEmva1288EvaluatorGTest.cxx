@@ -21,7 +21,7 @@ using EvaluatorType = itk::Emva1288Evaluator<StackType>;
 constexpr std::size_t Size = 40;
 constexpr std::size_t Levels = 6;
 constexpr double      Darkness = 1e-9;        // factor of the illumination of dark frames: the simulation refuses 0
-constexpr double      PhotonsOfUnit = 1000.0; // of the exposure 1
+constexpr double      PhotonsOfUnit = 1000.0; // photons at the exposure 1
 
 /** Frames of the levels of a simulated flat field; level 0: dark frames. */
 std::vector<unsigned short>

@@ -60,7 +60,8 @@ TEST(FlickerCorrectionImageFilter, NoiseFreeStackBecomesTheOffset)
   }
 }
 
-// The mean of v^* over time is 1 by construction, so that of gamma_t is 0 and that of u^ is ubar - (ubar - mu) = mu.
+// The mean of v^* over time is 1 by construction, so the mean of gamma_t is 0 and the mean of u^ is ubar - (ubar - mu)
+// = mu.
 TEST(FlickerCorrectionImageFilter, CorrectedStackHasTheOffsetAsItsMean)
 {
   for (const RollingShutter mode : { RollingShutter::Off, RollingShutter::Fixed })

@@ -148,7 +148,7 @@ TEST(GeneralizedAnscombeImageFilter, DoesNotDependOnThreads)
   EXPECT_EQ(one->GetNumberOfNegativeArguments(), many->GetNumberOfNegativeArguments());
 }
 
-// What was counted stands as long as the output does.
+// The count stays valid as long as the output does.
 TEST(GeneralizedAnscombeImageFilter, SecondUpdateDoesNoWork)
 {
   const auto filter = FilterOf<ForwardType>(Levels<StackType>({ { 17, 9, 5 } }).GetPointer());
@@ -172,11 +172,11 @@ TEST(GeneralizedAnscombeImageFilter, NotANumberStaysOne)
   filter->Update();
   EXPECT_TRUE(std::isnan(filter->GetOutput()->GetBufferPointer()[4]));
   EXPECT_EQ(filter->GetNumberOfNegativeArguments(), 0U);
-  const auto codes =
+  const auto greyValues =
     FilterOf<itk::InverseGeneralizedAnscombeImageFilter<FloatType, itk::Image<unsigned short, 2>>>(filter->GetOutput());
   for (int i = 0; i < 2; ++i) // also when it is asked again
   {
-    EXPECT_SAYS(ErrorOf(codes),
+    EXPECT_SAYS(ErrorOf(greyValues),
                 "1 stabilised value(s) are NaN, which integers cannot hold; expected numbers, or an output of float or "
                 "double");
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "itkNoiseProfileChecker.h"
-#include "exports/ProfileCheck.h"
+#include "exports/NoiseProfile.h"
 #include "helpers/ProfileTestHelper.h"
 
 #include <filesystem>

@@ -144,8 +144,9 @@ TEST(NoiseRegressionEstimator, ReadNoiseBelowItsErrorsIsNotIdentifiable)
 }
 
 // A sample variance of T frames is V chi^2_n / n with n = T-1. (v - V)^2 / (2 V^2 / n) has the mean 1 and the variance
-// 2 + 12/n, so that its average over N pixels has the standard deviation sqrt((2 + 12/n) / N). The slope's is below
-// that of the regression with the largest of all variances, sqrt(2/n) V_max / (sd of the mean x sqrt(N)).
+// 2 + 12/n, so that its average over N pixels has the standard deviation sqrt((2 + 12/n) / N). The standard error of
+// the slope is below the standard error of the regression with the largest of all variances, sqrt(2/n) V_max / (sd of
+// the mean x sqrt(N)).
 TEST(NoiseRegressionEstimator, SampledVariancesAreTestedAsNoise)
 {
   constexpr double                      n = 24.0;

@@ -64,7 +64,8 @@ PlaneOf(const StackType * stack, BayerPlane plane)
   return filter->GetOutput();
 }
 
-/** Without what is said of the channel, and of codes, which are shared. */
+/** Returns the record without the members of the channel and of the digital numbers, which are common to all channels.
+ */
 std::string
 Numbers(sensornoise::Report report)
 {

@@ -14,7 +14,7 @@
 #include <string>
 
 /** \file
- * What the input's metadata say of the camera counts as given, unless something else is. */
+ * Camera settings in the metadata of the input count as given, unless the caller gives others. */
 
 namespace
 {
@@ -31,7 +31,7 @@ StackOf(const sensornoise::CameraSettings & camera)
 }
 } // namespace
 
-TEST(SensorNoiseEstimatorCamera, CodesAreThoseThatTheFileSays)
+TEST(SensorNoiseEstimatorCamera, DnSettingsAreReadFromTheFile)
 {
   sensornoise::CameraSettings camera;
   camera.camera = "Maker Model";

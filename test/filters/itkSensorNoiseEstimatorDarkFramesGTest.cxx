@@ -62,7 +62,7 @@ TEST(SensorNoiseEstimatorDarkFrames, OneDarkFrameDeterminesTheOffsetAlone)
   estimator->Update();
   const sensornoise::Report & report = estimator->GetReport();
   EXPECT_NEAR(*report.offset.value, 100.0, 4.0 * 8.0 / std::sqrt(Width * Height));
-  // From the line through the others' variance: its error is far from that of dark frames.
+  // From the line through the others' variance: its error is far from the error by dark frames.
   EXPECT_GT(report.readNoise.standardError.value_or(0.0), 0.1);
 }
 

@@ -76,7 +76,7 @@ TEST(SensorNoiseEstimator, MaskedPixelsAreLeftOut)
   {
     ASSERT_EQ(it.Get() == static_cast<unsigned char>(PixelUse::Masked), it.GetIndex()[0] >= 48);
   }
-  // What lies under the mask does not matter.
+  // Values under the mask have no effect.
   const auto other = ImageOf<StackType>({ { Width, Height, Frames } }, [](const auto & index) {
     return index[0] < 49 ? SimulatedStack()->GetPixel(index) : 1000 + index[0] + index[2] % 7;
   });

@@ -3,7 +3,7 @@
 #include "itkSensorNoiseEstimator.h"
 #include "base/FreeMemory.h"
 #include "pixels/ProjectionSums.h"
-#include "refined/MemoryNeed.h"
+#include "refined/PixelProjections.h"
 #include "helpers/PipelineTestHelper.h"
 #include "helpers/SensorNoiseEstimatorTestHelper.h"
 
@@ -25,7 +25,7 @@ static_assert(LargePixels > 2 * sensornoise::ProjectionSums::SlabPixels, "the fr
 
 TEST(SensorNoiseEstimatorMemory, ALimitReadsTheStackMoreOftenAndChangesNoBit)
 {
-  // Whole numbers whose sums need 8 bytes: those of integer pixels fit within the least memory.
+  // Whole numbers whose sums need 8 bytes: the sums of integer pixels fit within the least memory.
   using FloatStack = itk::Image<float, 3>;
   const auto reader = StackReader<FloatStack>::Of(TargetStack<FloatStack>(LargeWidth, LargeHeight, FewFrames));
   const auto limited = EstimatorOf<FloatStack>(reader->GetOutput());

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-// What the report says of how it was made, and what is said where there is none.
+// Settings in the report, and errors where there is no report.
 
 namespace
 {
@@ -103,7 +103,7 @@ TEST(SensorNoiseEstimatorSettings, AHashIsNotedAndChangesNoNumber)
   sensornoise::Report plain = estimator->GetReport();
   EXPECT_FALSE(plain.input);
   estimator->SetFramesHash(frames, 0, 8190000);
-  estimator->SetDarkHash(darkFrames, 2, 700); // of no frames
+  estimator->SetDarkHash(darkFrames, 2, 700); // no such frames are given
   estimator->Update();
   sensornoise::Report noted = estimator->GetReport();
   EXPECT_NE(sensornoise::ToJson(noted).find("\"input\": {\"of\": \"pixels\", \"sha256\": \"" + frames +

@@ -113,7 +113,7 @@ TEST_F(SensorNoiseFrameFilesTruncation, AChangeAfterOpeningIsNoticed)
     const std::string              name = "frame_2" + extension;
     EXPECT_EQ(ErrorOfReading<unsigned short>(list), "no error");
 
-    // of the same size, other pixels
+    // a file of the same size with other pixels
     fs::copy_file(files[0], files[2], fs::copy_options::overwrite_existing);
     MakeLater(files[2]);
     ExpectParts(ErrorOfReading<unsigned short>(list), { name, "changed" });

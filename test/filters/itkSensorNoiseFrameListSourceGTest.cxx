@@ -308,8 +308,8 @@ TEST_F(SensorNoiseFrameListSource, GeometryIsThatOfTheFiles)
   EXPECT_EQ(list->GetOutput()->GetPixel({ { 0, 0, 1 } }), 'b');
 }
 
-// Some readers shift the codes of such a file down by 4 bits: a gain of 1.1 becomes 0.069.
-TEST_F(SensorNoiseFrameListSource, CodesOfAPngStandAsInTheFileHoweverFewBitsAreSignificant)
+// Some readers shift the digital numbers of such a file down by 4 bits: a gain of 1.1 becomes 0.069.
+TEST_F(SensorNoiseFrameListSource, GreyValuesOfAPngAreReadUnchangedHoweverFewBitsAreSignificant)
 {
   sensornoise::test::PngOf png;
   png.shift = 4;
@@ -326,7 +326,7 @@ TEST_F(SensorNoiseFrameListSource, CodesOfAPngStandAsInTheFileHoweverFewBitsAreS
 }
 
 #ifdef __unix__
-// That of ITK 5.2 does.
+// The reader of ITK 5.2 does.
 TEST_F(SensorNoiseFrameListSource, NothingIsPrintedAboutTagsThatAreNotKnown)
 {
   sensornoise::test::TiffOf tiff;

@@ -26,26 +26,26 @@ using namespace sensornoisetest::files;
 using namespace sensornoise::test;
 using StackType = itk::Image<unsigned short, 3>;
 
-/** The codes that FrameFilesTest writes, without a frame's rest. */
-Codes
-CodesOfStack(std::size_t columns)
+/** Returns the grey values that FrameFilesTest writes, without the bytes behind a frame. */
+GreyValues
+GreyValuesOfStack(std::size_t columns)
 {
-  Codes codes;
+  GreyValues greyValues;
   for (std::size_t t = 0; t < frames; ++t)
   {
     for (std::size_t y = 0; y < height; ++y)
     {
       for (std::size_t x = 0; x < columns; ++x)
       {
-        codes.push_back(static_cast<unsigned int>(1 + x + columns * (y + height * t)));
+        greyValues.push_back(static_cast<unsigned int>(1 + x + columns * (y + height * t)));
       }
     }
   }
-  return codes;
+  return greyValues;
 }
 
-Codes
-CodesOf(const StackType * image)
+GreyValues
+GreyValuesOf(const StackType * image)
 {
   const unsigned short * const first = image->GetBufferPointer();
   return { first, first + image->GetBufferedRegion().GetNumberOfPixels() };
@@ -62,7 +62,7 @@ protected:
     ser.height = height;
     ser.frames = frames;
     ser.color = 9;
-    ser.pixels = BytesOfCodes(CodesOfStack(width), 2);
+    ser.pixels = BytesOfGreyValues(GreyValuesOfStack(width), 2);
     return WriteText(name, ser.Bytes());
   }
 
@@ -70,7 +70,7 @@ protected:
   std::string
   WriteMraw(const std::string & name) const
   {
-    WriteText(name + ".mraw", BitStream(CodesOfStack(8), 12, true));
+    WriteText(name + ".mraw", BitStream(GreyValuesOfStack(8), 12, true));
     return WriteText(name + ".cihx", CihxOf{}.Bytes());
   }
 
@@ -95,38 +95,39 @@ TEST_F(SensorNoiseImageIO, EachFormatStreamsThroughTheSource)
     {
       const auto source = MakeSource<unsigned short>({ file });
       const auto image = ReadPart<unsigned short>(source, first, 1);
-      const auto all = CodesOfStack(8);
+      const auto all = GreyValuesOfStack(8);
       const auto size = static_cast<std::ptrdiff_t>(8 * height);
-      EXPECT_EQ(CodesOf(image),
-                Codes(all.begin() + static_cast<std::ptrdiff_t>(first) * size,
-                      all.begin() + static_cast<std::ptrdiff_t>(first + 1) * size));
+      EXPECT_EQ(GreyValuesOf(image),
+                GreyValues(all.begin() + static_cast<std::ptrdiff_t>(first) * size,
+                           all.begin() + static_cast<std::ptrdiff_t>(first + 1) * size));
     }
   }
 }
 
 TEST_F(SensorNoiseImageIO, RawFramesAreReadAsAStackAndAsAList)
 {
-  const std::string stack = WriteText("s.raw", "head" + BytesOfCodes(CodesOfStack(width), 2));
+  const std::string stack = WriteText("s.raw", "head" + BytesOfGreyValues(GreyValuesOfStack(width), 2));
   const auto        source = MakeSource<unsigned short>({ stack });
   ExpectParts(MessageOf([&] { source->Update(); }), { "s.raw", "no image in a format that can be checked" });
   source->SetRawLayout("7x5:uint16le:4");
   source->Update();
-  EXPECT_EQ(CodesOf(source->GetOutput()), CodesOfStack(width));
+  EXPECT_EQ(GreyValuesOf(source->GetOutput()), GreyValuesOfStack(width));
   EXPECT_TRUE(source->CanStream());
   source->SetRawLayout("7x5:uint16:4");
   ExpectParts(MessageOf([&] { source->Update(); }), { "does not say which byte comes first" });
   std::vector<std::string> files;
-  const Codes              codes = CodesOfStack(width);
+  const GreyValues         greyValues = GreyValuesOfStack(width);
   for (std::size_t t = 0; t < frames; ++t)
   {
-    const auto first = codes.begin() + static_cast<std::ptrdiff_t>(t * width * height);
-    files.push_back(WriteText("f" + std::to_string(t),
-                              BytesOfCodes(Codes(first, first + static_cast<std::ptrdiff_t>(width * height)), 2)));
+    const auto first = greyValues.begin() + static_cast<std::ptrdiff_t>(t * width * height);
+    files.push_back(
+      WriteText("f" + std::to_string(t),
+                BytesOfGreyValues(GreyValues(first, first + static_cast<std::ptrdiff_t>(width * height)), 2)));
   }
   const auto list = MakeSource<unsigned short>(files);
   list->SetRawLayout("7x5:uint16le");
   list->Update();
-  EXPECT_EQ(CodesOf(list->GetOutput()), codes);
+  EXPECT_EQ(GreyValuesOf(list->GetOutput()), greyValues);
   WriteText("f2", "short");
   const auto changed = MakeSource<unsigned short>(files);
   changed->SetRawLayout("7x5:uint16le");
@@ -172,15 +173,16 @@ TEST_F(SensorNoiseImageIO, APixelOfATiffIsWhatItksReaderMakesOfIt)
         const auto         source = MakeSource<unsigned short>({ file });
         StackType::Pointer expected = ReadByItk(file);
         source->Update();
-        EXPECT_EQ(CodesOf(source->GetOutput()), CodesOf(expected)) << compression << isBigEndian << photometric;
+        EXPECT_EQ(GreyValuesOf(source->GetOutput()), GreyValuesOf(expected))
+          << compression << isBigEndian << photometric;
         EXPECT_EQ(source->GetOutput()->GetSpacing(), expected->GetSpacing());
-        const Codes all = CodesOf(expected);
+        const GreyValues all = GreyValuesOf(expected);
         for (std::size_t first = 0; first < 3; ++first)
         {
           const auto part = MakeSource<unsigned short>({ file });
           const auto size = static_cast<std::ptrdiff_t>(all.size() / 3);
           const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first) * size;
-          EXPECT_EQ(CodesOf(ReadPart<unsigned short>(part, first, 1)), Codes(begin, begin + size));
+          EXPECT_EQ(GreyValuesOf(ReadPart<unsigned short>(part, first, 1)), GreyValues(begin, begin + size));
         }
       }
     }
@@ -249,7 +251,7 @@ TEST_F(SensorNoiseImageIO, PredictorsOfATiffAreUndoneAsItksReaderDoes)
   }
 }
 
-// What a reader of the user's own makes of the same files.
+// ITK's reader, which a user constructs, gives the same pixels for the same files.
 TEST_F(SensorNoiseImageIO, IsFoundByItksReaderAndStreams)
 {
   itk::SensorNoiseImageIOFactory::RegisterOneFactory();
@@ -293,7 +295,7 @@ TEST_F(SensorNoiseImageIO, IsFoundByItksReaderAndStreams)
 TEST_F(SensorNoiseImageIO, ReadsRawFramesWithALayout)
 {
   const auto io = itk::SensorNoiseImageIO::New();
-  const auto file = WriteText("a.bin", BytesOfCodes(CodesOfStack(width), 2));
+  const auto file = WriteText("a.bin", BytesOfGreyValues(GreyValuesOfStack(width), 2));
   EXPECT_FALSE(io->CanReadFile(file.c_str()));
   io->SetRawLayout("7x5:uint16le");
   EXPECT_TRUE(io->CanReadFile(file.c_str()));
@@ -302,7 +304,7 @@ TEST_F(SensorNoiseImageIO, ReadsRawFramesWithALayout)
   reader->SetFileName(file);
   reader->SetImageIO(io);
   reader->Update();
-  EXPECT_EQ(CodesOf(reader->GetOutput()), CodesOfStack(width));
+  EXPECT_EQ(GreyValuesOf(reader->GetOutput()), GreyValuesOfStack(width));
   EXPECT_NE(MessageOf([&] { io->Write(nullptr); }).find("this class writes no files"), std::string::npos);
   std::ostringstream text;
   io->Print(text);

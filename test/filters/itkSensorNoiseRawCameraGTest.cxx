@@ -82,7 +82,7 @@ TEST_F(RawCameraFrames, AreNotTakenByTiffInAnyOrderOfRegistration)
   dng.isBelow = true; // a preview, which ITK reads
   const std::string file = Write("a.dng", dng.Bytes());
   const std::string renamed = Write("b.tif", dng.Bytes());
-  const std::string tiff = Write("c.tif", TiffWith({}).Bytes()); // of three pages
+  const std::string tiff = Write("c.tif", TiffWith({}).Bytes()); // a TIFF with three pages
   TiffOf            single;
   single.pages.resize(1);
   const std::string page = Write("d.tif", single.Bytes());
@@ -122,7 +122,7 @@ TEST_F(RawCameraFrames, AreReadByItkWithWhatTheCameraIs)
   const ImageType * const image = reader->GetOutput();
   const auto * const      first = image->GetBufferPointer();
   EXPECT_EQ(image->GetBufferedRegion().GetSize(), (ImageType::SizeType{ { 48, 32 } }));
-  EXPECT_EQ(Codes(first, first + dng.codes.size()), dng.codes);
+  EXPECT_EQ(GreyValues(first, first + dng.greyValues.size()), dng.greyValues);
   const CameraSettings camera = CameraSettingsOf(reader->GetMetaDataDictionary());
   EXPECT_EQ(camera.camera, "Maker Model 1");
   EXPECT_EQ(camera.bayerPattern, "RGGB");
@@ -137,21 +137,21 @@ TEST_F(RawCameraFrames, AListOfThemIsFramesInTimeOrder)
     GTEST_SKIP() << "built without LibRaw";
   }
   std::vector<std::string> names;
-  Codes                    expected;
+  GreyValues               expected;
   for (unsigned t = 0; t < 3; ++t)
   {
     DngOf dng = DngOf::Sound(14);
     dng.isJpeg = t > 0;
-    dng.codes[5] = 77 + t;
+    dng.greyValues[5] = 77 + t;
     names.push_back(Write("f" + std::to_string(t) + ".dng", dng.Bytes()));
-    expected.insert(expected.end(), dng.codes.begin(), dng.codes.end());
+    expected.insert(expected.end(), dng.greyValues.begin(), dng.greyValues.end());
   }
   const FrameList list = OpenFrames(names);
   EXPECT_EQ(list.frames, 3u);
   EXPECT_EQ(list.camera.bayerPattern, "RGGB");
-  std::vector<unsigned short> codes(expected.size());
-  ReadFrames(list, 0, 3, codes.data());
-  EXPECT_EQ(Codes(codes.begin(), codes.end()), expected);
+  std::vector<unsigned short> greyValues(expected.size());
+  ReadFrames(list, 0, 3, greyValues.data());
+  EXPECT_EQ(GreyValues(greyValues.begin(), greyValues.end()), expected);
 }
 
 // Cut anywhere, none is taken for a whole one.

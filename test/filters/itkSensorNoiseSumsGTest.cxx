@@ -169,8 +169,8 @@ TEST(SensorNoiseSums, EqualFramesOfTwoProcessesAreCountedOnce)
   two.sums->AddFrames(FramesOf<StackType>(stack, 10, Frames - 10), 10);
   EXPECT_THROW(one.sums->MergeSums(two.sums->GetSums()), itk::ExceptionObject);
 
-  const auto ofOne = one.sums->GetFingerprints(); // of frames 0 ... 9
-  const auto ofTwo = two.sums->GetFingerprints(); // of frames 10 ... 24
+  const auto ofOne = one.sums->GetFingerprints(); // fingerprints of frames 0 ... 9
+  const auto ofTwo = two.sums->GetFingerprints(); // fingerprints of frames 10 ... 24
   EXPECT_TRUE(std::equal(
     ofOne->GetBufferPointer() + 4 * 16, ofOne->GetBufferPointer() + 5 * 16, ofTwo->GetBufferPointer() + 160));
   EXPECT_FALSE(std::equal(

@@ -137,9 +137,9 @@ TEST(VibrationCovarianceEstimator, EvenSceneHasNoVibration)
   EXPECT_FALSE(estimator->GetResult().isDetermined);
 }
 
-// (2.20) is of first order: what it leaves out is of the order of the shift squared, 0.06^2, times the curvature of the
-// blurred scene, a few per cent; and the sample variance of 60 shifts differs from the truth by sqrt(2/59) = 18 %,
-// which the realised truth takes away.
+// (2.20) is of first order. Its error is of the order of the squared shift, 0.06^2, times the curvature of the blurred
+// scene, which is a few per cent. The sample variance of 60 shifts differs from the variance of the motion by
+// sqrt(2/59) = 18 %. The test compares with the realised shifts, which removes this difference.
 TEST(VibrationCovarianceEstimator, SimulatedVibrationIsRecovered)
 {
   using StackType = itk::Image<float, 3>;

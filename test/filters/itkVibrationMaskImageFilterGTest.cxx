@@ -21,7 +21,7 @@ constexpr unsigned int Width = 29;
 constexpr unsigned int Height = 23;
 constexpr unsigned int Frames = 25;
 
-/** Random maps of mean, variance and valid pixels, of which the test keeps about a half. */
+/** Random maps of mean, variance and valid pixels. The filter keeps about half of the pixels. */
 struct Maps
 {
   explicit Maps(const FrameType::IndexType & start = FrameType::IndexType{ {} })

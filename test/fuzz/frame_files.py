@@ -7,7 +7,7 @@ import zlib
 
 import frame_parts
 from frame_parts import Case, File, parts_of, whole
-from pixel_codings import codes_of, gzip_stream, highest_first, lowest_first, swapped
+from pixel_codings import grey_values_of, gzip_stream, highest_first, lowest_first, swapped
 from tiff_files import dngs, tiffs
 
 
@@ -118,7 +118,7 @@ def sers(frames: list[bytes]) -> list[Case]:
 
     pixels = b"".join(frames)
     times = struct.pack(f"<{len(frames)}Q", *range(1, len(frames) + 1))
-    eight = bytes(code >> 4 & 255 for code in codes_of(frames, 12))
+    eight = bytes(value >> 4 & 255 for value in grey_values_of(frames, 12))
     return [
         Case("ser", [parts_of("s.ser", ("header", header(0, 16)), ("raw", pixels))], ["s.ser"]),
         Case(
@@ -144,9 +144,9 @@ def fitses(frames: list[bytes]) -> list[Case]:
         ("NAXIS2", f"{frame_parts.HEIGHT}"),
         ("NAXIS3", f"{len(frames)}"),
     ]
-    codes = codes_of(frames, 16)
-    unsigned = struct.pack(f">{len(codes)}H", *(code ^ 32768 for code in codes))
-    wide = struct.pack(f">{len(codes)}i", *codes)
+    grey_values = grey_values_of(frames, 16)
+    unsigned = struct.pack(f">{len(grey_values)}H", *(value ^ 32768 for value in grey_values))
+    wide = struct.pack(f">{len(grey_values)}i", *grey_values)
     first = [("SIMPLE", "T"), ("BITPIX", "16"), *sizes, ("BZERO", "32768"), ("BSCALE", "1")]
     empty = [("SIMPLE", "T"), ("BITPIX", "8"), ("NAXIS", "0")]
     extension = [("XTENSION", "'IMAGE   '"), ("BITPIX", "32"), *sizes, ("PCOUNT", "0"), ("GCOUNT", "1")]
@@ -180,7 +180,7 @@ def mraws(frames: list[bytes]) -> list[Case]:
         )
         return File("s.cihx", text.encode())
 
-    packed = highest_first(codes_of(frames, 12), 12)
+    packed = highest_first(grey_values_of(frames, 12), 12)
     return [
         Case("mraw 12", [header(12), whole("s.mraw", packed)], ["s.mraw"]),
         Case("mraw 16", [header(16), whole("s.mraw", b"".join(frames))], ["s.cihx"]),
@@ -188,10 +188,10 @@ def mraws(frames: list[bytes]) -> list[Case]:
 
 
 def raws(frames: list[bytes]) -> list[Case]:
-    """Without a header: all that can be told is whether the frames are whole."""
+    """Returns files without a header. The tools can only check whether the frames are whole."""
     size = f"{frame_parts.WIDTH}x{frame_parts.HEIGHT}"
     pixels = b"".join(frames)
-    packed = lowest_first(codes_of(frames, 12), 12)
+    packed = lowest_first(grey_values_of(frames, 12), 12)
     return [
         Case("raw", [parts_of("s.raw", ("header", b"skip"), ("raw", pixels))], ["s.raw"], f"{size}:uint16le:4"),
         Case("raw packed", [whole("s.raw", packed)], ["s.raw"], f"{size}:Mono12p"),

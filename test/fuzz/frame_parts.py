@@ -10,8 +10,8 @@ HEIGHT = 32  # pixels
 
 @dataclass
 class File:
-    """A file, and which of its bytes are pixels: `raw` if nothing tells that they changed, `checked` if a checksum
-    does. All others are header."""
+    """A file with the places of its pixels: `raw` where no checksum detects a change, `checked` where a checksum does.
+    All other bytes are header."""
 
     name: str
     data: bytes
@@ -21,7 +21,8 @@ class File:
 
 @dataclass
 class Case:
-    """Files, and those of them that are handed over, in time order; `raw`: how frames without a header lie."""
+    """Files, and the files among them that the tool is given, in time order. `raw` is the layout of frames without a
+    header."""
 
     name: str
     files: list[File]

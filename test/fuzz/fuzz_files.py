@@ -1,15 +1,20 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Damages files in every way that mutations.py knows, and demands that the tools do not crash, hang or believe them.
+"""Damages files in every way that mutations.py knows, and requires that the tools do not crash, hang or accept them.
 
     fuzz_files.py --bin FOLDER              the tools estimate-sensor-noise and simulate-sensor-noise
     fuzz_files.py --python INTERPRETER      itk.estimate_sensor_noise() instead, in a process of its own
 
-What a damaged file may lead to: exit 2 (wrong input) with one line on standard error, or 3 (nothing to estimate) with a
-line for each reason, or the result of the undamaged file; or another result, if what was changed are pixels that no
-checksum protects, or a header that still agrees with the size of the file. Anything else is a finding, printed with the
-number that repeats it: `--first N --count 1 --seed S --keep FOLDER` leaves its files in FOLDER. Exit code 1 if there
-are findings.
+A damaged file may lead to one of these:
+
+- exit code 2 (wrong input) with one line on standard error;
+- exit code 3 (nothing to estimate) with a line for each reason;
+- the result of the undamaged file;
+- another result, if the changed bytes are pixels that no checksum protects;
+- another result, if the changed header still agrees with the size of the file.
+
+Anything else is a finding. It is printed with the number that repeats it: `--first N --count 1 --seed S --keep FOLDER`
+leaves its files in FOLDER. Exit code 1 if there are findings.
 """
 
 import argparse

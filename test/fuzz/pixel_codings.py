@@ -37,38 +37,38 @@ def swapped(frame: bytes) -> bytes:
     return b"".join(frame[k + 1 : k + 2] + frame[k : k + 1] for k in range(0, len(frame), 2))
 
 
-def codes_of(frames: list[bytes], bits: int) -> list[int]:
+def grey_values_of(frames: list[bytes], bits: int) -> list[int]:
     """The pixels, of so many bits: higher ones are cut off."""
     pixels = b"".join(frames)
-    return [code & (1 << bits) - 1 for code in struct.unpack(f"<{len(pixels) // 2}H", pixels)]
+    return [grey_value & (1 << bits) - 1 for grey_value in struct.unpack(f"<{len(pixels) // 2}H", pixels)]
 
 
-def highest_first(codes: list[int], bits: int) -> bytes:
-    """A stream of bits, in pieces of eight codes."""
+def highest_first(grey_values: list[int], bits: int) -> bytes:
+    """A stream of bits, in pieces of eight grey values."""
     made = b""
-    for start in range(0, len(codes), 8):
+    for start in range(0, len(grey_values), 8):
         number = 0
-        for code in codes[start : start + 8]:
-            number = number << bits | code
+        for grey_value in grey_values[start : start + 8]:
+            number = number << bits | grey_value
         made += number.to_bytes(bits, "big")
     return made
 
 
-def lowest_first(codes: list[int], bits: int) -> bytes:
+def lowest_first(grey_values: list[int], bits: int) -> bytes:
     made = b""
-    for start in range(0, len(codes), 8):
-        number = sum(code << bits * k for k, code in enumerate(codes[start : start + 8]))
+    for start in range(0, len(grey_values), 8):
+        number = sum(grey_value << bits * k for k, grey_value in enumerate(grey_values[start : start + 8]))
         made += number.to_bytes(bits, "little")
     return made
 
 
-def lossless_jpeg(codes: list[int], bits: int) -> bytes:
-    """ITU-T T.81, Annex H: each code by its left neighbour, lengths of differences as codes of 5 bits."""
+def lossless_jpeg(grey_values: list[int], bits: int) -> bytes:
+    """ITU-T T.81, Annex H: each grey value by its left neighbour, lengths of differences as codes of 5 bits."""
 
     def segment(marker: int, content: bytes) -> bytes:
         return struct.pack(">BBH", 0xFF, marker, len(content) + 2) + content
 
-    number = "".join(_difference(codes, i, bits) for i in range(len(codes)))
+    number = "".join(_difference(grey_values, i, bits) for i in range(len(grey_values)))
     number += "1" * (-len(number) % 8)
     pixels = int(number, 2).to_bytes(len(number) // 8, "big").replace(b"\xff", b"\xff\0")
     table = bytes([0] * 5 + [17] + [0] * 11) + bytes(range(17))
@@ -77,9 +77,9 @@ def lossless_jpeg(codes: list[int], bits: int) -> bytes:
     return b"\xff\xd8" + segment(0xC4, table) + segment(0xC3, size) + scan + pixels + b"\xff\xd9"
 
 
-def _difference(codes: list[int], i: int, bits: int) -> str:
-    first = 1 << bits - 1 if i < frame_parts.WIDTH else codes[i - frame_parts.WIDTH]
-    value = codes[i] - (codes[i - 1] if i % frame_parts.WIDTH else first)
+def _difference(grey_values: list[int], i: int, bits: int) -> str:
+    first = 1 << bits - 1 if i < frame_parts.WIDTH else grey_values[i - frame_parts.WIDTH]
+    value = grey_values[i] - (grey_values[i - 1] if i % frame_parts.WIDTH else first)
     length = abs(value).bit_length()
     low = value if value >= 0 else value + (1 << length) - 1
     return f"{length:05b}" + (f"{low:0{length}b}" if length else "")

@@ -7,7 +7,7 @@ import zlib
 
 import frame_parts
 from frame_parts import Case, File, parts_of
-from pixel_codings import codes_of, highest_first, lossless_jpeg, lzw, pack_bits, swapped
+from pixel_codings import grey_values_of, highest_first, lossless_jpeg, lzw, pack_bits, swapped
 
 # Name of a compression: its TIFF code, its function, whether a checksum protects the pixels.
 COMPRESSIONS = {
@@ -134,14 +134,15 @@ def tiffs(frames: list[bytes]) -> list[Case]:
 
 def dng(name: str, frame: bytes, bits: int, jpeg: bool = False) -> File:
     """One strip before the directory, of a monochrome sensor, which has one report."""
-    codes = codes_of([frame], bits)
+    grey_values = grey_values_of([frame], bits)
     if jpeg:
-        pixels = lossless_jpeg(codes, bits)
+        pixels = lossless_jpeg(grey_values, bits)
     elif bits == 16:
         pixels = frame
     else:
         pixels = b"".join(
-            highest_first(codes[y : y + frame_parts.WIDTH], bits) for y in range(0, len(codes), frame_parts.WIDTH)
+            highest_first(grey_values[y : y + frame_parts.WIDTH], bits)
+            for y in range(0, len(grey_values), frame_parts.WIDTH)
         )
     texts = b"Maker\0Model 1\0"
     made = parts_of(name, ("header", b""), ("raw", pixels))

@@ -16,30 +16,30 @@
 namespace sensornoise::test
 {
 
-using Codes = std::vector<unsigned>;
+using GreyValues = std::vector<unsigned>;
 
 inline std::string
-BytesOfCodes(const Codes & codes, std::size_t bytes, bool isBigEndian = false)
+BytesOfGreyValues(const GreyValues & greyValues, std::size_t bytes, bool isBigEndian = false)
 {
   std::string text;
-  for (const unsigned code : codes)
+  for (const unsigned greyValue : greyValues)
   {
-    AppendNumber(text, code, bytes, isBigEndian);
+    AppendNumber(text, greyValue, bytes, isBigEndian);
   }
   return text;
 }
 
-/** A stream of bits, of each code and of each byte the highest first, or the lowest. */
+/** A stream of bits, of each grey value and of each byte the highest first, or the lowest. */
 inline std::string
-BitStream(const Codes & codes, unsigned bits, bool isHighestFirst)
+BitStream(const GreyValues & greyValues, unsigned bits, bool isHighestFirst)
 {
-  std::string text((codes.size() * bits + 7) / 8, '\0');
+  std::string text((greyValues.size() * bits + 7) / 8, '\0');
   std::size_t at = 0;
-  for (const unsigned code : codes)
+  for (const unsigned greyValue : greyValues)
   {
     for (unsigned i = 0; i < bits; ++i, ++at)
     {
-      const unsigned bit = (code >> (isHighestFirst ? bits - 1 - i : i)) & 1U;
+      const unsigned bit = (greyValue >> (isHighestFirst ? bits - 1 - i : i)) & 1U;
       const unsigned place = static_cast<unsigned>(at % 8);
       text[at / 8] =
         static_cast<char>(static_cast<unsigned char>(text[at / 8]) | (bit << (isHighestFirst ? 7 - place : place)));
@@ -50,39 +50,39 @@ BitStream(const Codes & codes, unsigned bits, bool isHighestFirst)
 
 /** GigE Vision's Mono10Packed and Mono12Packed. */
 inline std::string
-GigEPacked(const Codes & codes, unsigned bits)
+GigEPacked(const GreyValues & greyValues, unsigned bits)
 {
   std::string    text;
   const unsigned low = (1U << (bits - 8)) - 1;
-  for (std::size_t i = 0; i + 1 < codes.size(); i += 2)
+  for (std::size_t i = 0; i + 1 < greyValues.size(); i += 2)
   {
-    text += static_cast<char>(codes[i] >> (bits - 8));
-    text += static_cast<char>((codes[i] & low) | ((codes[i + 1] & low) << 4));
-    text += static_cast<char>(codes[i + 1] >> (bits - 8));
+    text += static_cast<char>(greyValues[i] >> (bits - 8));
+    text += static_cast<char>((greyValues[i] & low) | ((greyValues[i + 1] & low) << 4));
+    text += static_cast<char>(greyValues[i + 1] >> (bits - 8));
   }
   return text;
 }
 
 /** MIPI CSI-2's RAW10 (4 in 5 bytes), RAW12 (2 in 3) and RAW14 (4 in 7). */
 inline std::string
-MipiPacked(const Codes & codes, unsigned bits)
+MipiPacked(const GreyValues & greyValues, unsigned bits)
 {
   const std::size_t group = bits == 12 ? 2 : 4;
   std::string       text;
-  for (std::size_t first = 0; first + group <= codes.size(); first += group)
+  for (std::size_t first = 0; first + group <= greyValues.size(); first += group)
   {
-    Codes low;
+    GreyValues low;
     for (std::size_t i = first; i < first + group; ++i)
     {
-      text += static_cast<char>(codes[i] >> (bits - 8));
-      low.push_back(codes[i] & ((1U << (bits - 8)) - 1));
+      text += static_cast<char>(greyValues[i] >> (bits - 8));
+      low.push_back(greyValues[i] & ((1U << (bits - 8)) - 1));
     }
     text += BitStream(low, bits - 8, false);
   }
   return text;
 }
 
-/** A SER, of which everything can be otherwise. */
+/** A SER file. A test may change each of its members. */
 struct SerOf
 {
   unsigned    color{ 0 };

@@ -6,7 +6,7 @@
 #include "base/Eigen.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
-#include "correlation/Jackknife.h"
+#include "correlation/CorrelationSums.h"
 #include "correlation/NoiseResiduals.h"
 #include "correlation/FrameSample.h"
 #include "simulation/FrameProcessing.h"

@@ -5,7 +5,7 @@
 
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Settings.h"
-#include "mosaic/DarkFrameSums.h"
+#include "mosaic/MosaicGeometry.h"
 #include "simulation/Random.h"
 #include "helpers/StackTestHelper.h"
 

@@ -54,10 +54,15 @@ private:
   unsigned    m_Count{ 0 };
 };
 
-/** JPEG without loss (ITU-T T.81, Annex H): each code by its left neighbour of the same component, with one Huffman
- * table in which the 17 lengths of a difference have codes of 5 bits. \a frame: the marker of its frame. */
+/** JPEG without loss (ITU-T T.81, Annex H): each grey value by its left neighbour of the same component, with one
+ * Huffman table in which the 17 lengths of a difference have codes of 5 bits. \a frame: the marker of its frame. */
 inline std::string
-LosslessJpeg(const Codes & codes, unsigned width, unsigned height, unsigned bits, unsigned components, int frame = 0xC3)
+LosslessJpeg(const GreyValues & greyValues,
+             unsigned           width,
+             unsigned           height,
+             unsigned           bits,
+             unsigned           components,
+             int                frame = 0xC3)
 {
   const auto segment = [](int marker, const std::string & content) {
     std::string text = { '\xFF', static_cast<char>(marker) };
@@ -81,12 +86,12 @@ LosslessJpeg(const Codes & codes, unsigned width, unsigned height, unsigned bits
     table += static_cast<char>(length);
   }
   JpegBits pixels;
-  for (std::size_t i = 0; i < codes.size(); ++i)
+  for (std::size_t i = 0; i < greyValues.size(); ++i)
   {
     const std::size_t column = i % width;
-    const unsigned    first = i < width ? 1U << (bits - 1) : codes[i - width];
-    const auto        guess = static_cast<int>(column < components ? first : codes[i - components]);
-    const auto        difference = static_cast<std::int16_t>(static_cast<int>(codes[i]) - guess);
+    const unsigned    first = i < width ? 1U << (bits - 1) : greyValues[i - width];
+    const auto        guess = static_cast<int>(column < components ? first : greyValues[i - components]);
+    const auto        difference = static_cast<std::int16_t>(static_cast<int>(greyValues[i]) - guess);
     unsigned          length = 0;
     while ((difference < 0 ? -static_cast<int>(difference) : difference) >> length != 0)
     {
@@ -99,21 +104,21 @@ LosslessJpeg(const Codes & codes, unsigned width, unsigned height, unsigned bits
          pixels.Bytes() + "\xFF\xD9";
 }
 
-/** A DNG, of which everything can be otherwise. Its directory comes after its pixels. */
+/** A DNG file. A test may change each of its members. Its directory comes after its pixels. */
 struct DngOf
 {
-  unsigned width{ 48 };
-  unsigned height{ 32 };
-  unsigned bits{ 16 };
-  bool     isJpeg{ false };
-  unsigned components{ 1 }; // of the JPEG
-  unsigned tile{ 0 };       // its width and height; 0: a strip
-  bool     isBigEndian{ false };
-  bool     isBelow{ false };  // below a first directory, of a preview
-  Codes    codes{};           // of the whole image
-  TiffTags tags{};            // what it says beyond that or otherwise; without values: not
-  int      jpegFrame{ 0xC3 }; // the marker
-  unsigned iso{ 400 };
+  unsigned   width{ 48 };
+  unsigned   height{ 32 };
+  unsigned   bits{ 16 };
+  bool       isJpeg{ false };
+  unsigned   components{ 1 }; // components of the JPEG
+  unsigned   tile{ 0 };       // its width and height; 0: a strip
+  bool       isBigEndian{ false };
+  bool       isBelow{ false };  // below a first directory, of a preview
+  GreyValues greyValues{};      // grey values of the whole image
+  TiffTags   tags{};            // what it says beyond that or otherwise; without values: not
+  int        jpegFrame{ 0xC3 }; // the marker
+  unsigned   iso{ 400 };
 
   /** A noisy ramp. */
   static DngOf
@@ -123,13 +128,13 @@ struct DngOf
     dng.bits = bits;
     for (unsigned i = 0; i < dng.width * dng.height; ++i)
     {
-      dng.codes.push_back((300 + i + 7 * i * i % 101) & ((1U << bits) - 1));
+      dng.greyValues.push_back((300 + i + 7 * i * i % 101) & ((1U << bits) - 1));
     }
     return dng;
   }
 
   std::string
-  Chunk(const Codes & part, unsigned across, unsigned down) const
+  Chunk(const GreyValues & part, unsigned across, unsigned down) const
   {
     if (isJpeg)
     {
@@ -137,27 +142,27 @@ struct DngOf
     }
     if (bits == 16)
     {
-      return BytesOfCodes(part, 2, isBigEndian);
+      return BytesOfGreyValues(part, 2, isBigEndian);
     }
     std::string text;
     for (std::size_t y = 0; y < down; ++y)
     {
       const auto first = part.begin() + static_cast<std::ptrdiff_t>(y * across);
-      text += BitStream(Codes(first, first + across), bits, true);
+      text += BitStream(GreyValues(first, first + across), bits, true);
     }
     return text;
   }
 
   /** Returns the digital numbers of a tile; beyond the image, zeros. */
-  Codes
+  GreyValues
   Tile(unsigned left, unsigned top) const
   {
-    Codes part;
+    GreyValues part;
     for (unsigned y = top; y < top + tile; ++y)
     {
       for (unsigned x = left; x < left + tile; ++x)
       {
-        part.push_back(x < width && y < height ? codes[y * width + x] : 0);
+        part.push_back(x < width && y < height ? greyValues[y * width + x] : 0);
       }
     }
     return part;
@@ -185,11 +190,11 @@ struct DngOf
     }
     if (tile == 0)
     {
-      add(Chunk(codes, width, height));
+      add(Chunk(greyValues, width, height));
     }
     pixels.append(pixels.size() % 2, '\0');
     const std::size_t preview = 8 + pixels.size();
-    pixels += "colour"; // of two pixels
+    pixels += "colour"; // a preview of two pixels
     const std::size_t exif = 8 + pixels.size();
     pixels += tiff.Directory(
       { { 33434, { 5, { isBigEndian ? (1ULL << 32) + 50 : 1 + (50ULL << 32) } } }, { 34855, { 3, { iso } } } }, exif);

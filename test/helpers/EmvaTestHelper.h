@@ -13,7 +13,7 @@
 #include <vector>
 
 /** \file
- * Series of EMVA 1288: exact ones, and those of simulated cameras. */
+ * Series of EMVA 1288: exact series, and series of simulated cameras. */
 
 namespace sensornoise::test::emva
 {

@@ -62,7 +62,7 @@ protected:
   nlohmann::json
   ReportOf(const std::string & arguments, int exitCode = 0);
 
-  /** A burst with strong flicker, of which everything can be estimated. */
+  /** Makes a burst with strong flicker, from which every quantity can be estimated. */
   StackType::Pointer
   MakeBurst(unsigned int frames = 24, const std::string & size = "64x64");
 
@@ -147,7 +147,7 @@ protected:
   FilesLeft() const;
 
   /** The first line of standard error that is no note and no warning says what is wrong, and holds \a parts. There are
-   * more only where more than one thing in the frames keeps the gain from being told. */
+   * more only where the frames have more than one reason for which the gain is not identifiable. */
   void
   SaysInOneSentence(const std::vector<std::string> & parts) const;
 

@@ -41,6 +41,8 @@ struct Chain
   itk::VibrationMaskImageFilter<>::Pointer                    mask = itk::VibrationMaskImageFilter<>::New();
   typename itk::FlickerCorrectionImageFilter<TStack>::Pointer filter = itk::FlickerCorrectionImageFilter<TStack>::New();
 };
+template <typename TStack>
+Chain(TStack *, unsigned int) -> Chain<TStack>;
 
 inline StackType::Pointer
 SimulatedStack()

@@ -40,8 +40,8 @@ NormalFrame(std::size_t width, std::size_t height, std::uint64_t seed)
 struct FrameCovariance
 {
   double variance{ 0.0 };
-  double horizontal{ 0.0 }; ///< of neighbours in a row
-  double vertical{ 0.0 };   ///< of neighbours in a column
+  double horizontal{ 0.0 }; ///< noise correlation of neighbours in a row
+  double vertical{ 0.0 };   ///< noise correlation of neighbours in a column
   double diagonal{ 0.0 };
 };
 

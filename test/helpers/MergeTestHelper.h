@@ -30,7 +30,7 @@ template <typename TPixel>
 RefinedMethod<TPixel>
 MethodOf(const Stack<TPixel> & stack)
 {
-  return RefinedMethod<TPixel>(WithCodes(), GeometryOf(stack), stack.frames);
+  return RefinedMethod<TPixel>(WithDnSettings(), GeometryOf(stack), stack.frames);
 }
 
 /** Which of \a processes reads a frame. */

@@ -37,7 +37,7 @@ struct Pixel
   double offsetDn{ 0.0 };
 };
 
-/** The maps, with the noise of the means but not that of the variances, whose degrees of freedom are many. */
+/** The maps. The means have noise. The variances have none, because their degrees of freedom are many. */
 struct Maps
 {
   ReferenceFrame      frame;

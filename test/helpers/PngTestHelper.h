@@ -23,7 +23,7 @@ PngChunkOf(const std::string & type, const std::string & data)
   return chunk;
 }
 
-/** A PNG, of which everything can be otherwise. */
+/** A PNG file. A test may change each of its members. */
 struct PngOf
 {
   std::size_t width{ 13 };
@@ -34,7 +34,7 @@ struct PngOf
   std::string before{};   // chunks between IHDR and IDAT
   std::string after{};    // chunks between IDAT and IEND
   std::string rows{};     // filters and pixels; empty: of the right number
-  unsigned    shift{ 0 }; // of the codes, if the rows are made
+  unsigned    shift{ 0 }; // bits by which made grey values are shifted
   std::size_t piece{ 0 }; // bytes of an IDAT chunk; 0: one chunk
   std::string end{ PngChunkOf("IEND", "") };
 

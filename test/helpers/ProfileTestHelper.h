@@ -3,7 +3,7 @@
 #ifndef ProfileTestHelper_h
 #define ProfileTestHelper_h
 
-#include "exports/ProfileCheck.h"
+#include "exports/NoiseProfile.h"
 #include "helpers/ExportTestHelper.h"
 #include "sensornoise/Report.h"
 

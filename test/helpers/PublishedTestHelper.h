@@ -26,7 +26,7 @@
 namespace sensornoise::test
 {
 
-using Codes = unsigned short;
+using GreyValue = unsigned short;
 
 /** Patches of 16 grey levels seen by camera B of the paper, with flicker, without vibration and without blur, whose
  * faint rims the vibration test keeps where their variance happens to be high. */
@@ -42,17 +42,17 @@ SettingsOf(double flickerSd, std::size_t frames)
 }
 
 /** A small stack of the calibration target. */
-inline Stack<Codes>
+inline Stack<GreyValue>
 Simulate(const SimulationSettings & settings, std::size_t width = 64, std::size_t height = 56)
 {
-  return Simulate<Codes>(settings, width, height);
+  return Simulate<GreyValue>(settings, width, height);
 }
 
 /** A stack for the identities: 40 frames with flicker of 5 %. */
-inline const Stack<Codes> &
+inline const Stack<GreyValue> &
 FlickeringStack()
 {
-  static const Stack<Codes> stack = Simulate(SettingsOf(0.05, 40));
+  static const Stack<GreyValue> stack = Simulate(SettingsOf(0.05, 40));
   return stack;
 }
 

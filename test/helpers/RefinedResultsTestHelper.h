@@ -5,7 +5,7 @@
 
 #include "sensornoise/Report.h"
 #include "refined/GainEstimate.h"
-#include "refined/OffsetEstimate.h"
+#include "refined/RefinedEstimate.h"
 #include "refined/RefinedResults.h"
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 #include <vector>
 
 /** \file
- * What the passes of the refined method could have found, made by hand. */
+ * Possible results of the passes of the refined method, made without a stack. */
 
 namespace sensornoise::test
 {

@@ -5,7 +5,7 @@
 
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
-#include "moments/Codes.h"
+#include "moments/StackMaps.h"
 #include "sensornoise/StackMethod.h"
 #include "sensornoise/Settings.h"
 #include "sensornoise/Report.h"
@@ -23,12 +23,12 @@
 namespace sensornoise::test
 {
 
-/** Codes of 16 bits, with the clip levels of 12 bits above \a lowDn. */
+/** Grey values of 16 bits, with the clip levels of 12 bits above \a lowDn. */
 inline RefinedSettings
-WithCodes(double stepDn = 1.0, double lowDn = 0.0)
+WithDnSettings(double stepDn = 1.0, double lowDn = 0.0)
 {
   RefinedSettings settings;
-  settings.codes = MakeCodeSettings(16, lowDn, lowDn + 4095.0 * stepDn, stepDn);
+  settings.codes = MakeDnSettings(16, lowDn, lowDn + 4095.0 * stepDn, stepDn);
   return settings;
 }
 
@@ -42,7 +42,7 @@ GeometryOf(const Stack<TPixel> & stack)
 template <typename TPixel>
 RefinedMethod<TPixel>
 Measure(const Stack<TPixel> &   stack,
-        const RefinedSettings & settings = WithCodes(),
+        const RefinedSettings & settings = WithDnSettings(),
         std::size_t             chunk = 1000,
         const ParallelFor &     parallelFor = SerialFor)
 {

@@ -11,7 +11,7 @@
 #include <string>
 
 /** \file
- * What a report says. */
+ * Queries of the warnings and values of a report. */
 
 namespace sensornoise::test
 {

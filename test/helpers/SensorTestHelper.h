@@ -23,7 +23,7 @@
 namespace sensornoise::test::sensor
 {
 
-using Codes = unsigned short;
+using GreyValue = unsigned short;
 
 /** A camera that holds still, with flicker of 2 %. */
 inline SimulationSettings
@@ -54,15 +54,15 @@ FlatScene(std::size_t size, double shading = 0.0)
 }
 
 /** Returns as many dark frames of the same camera. */
-inline Stack<Codes>
+inline Stack<GreyValue>
 DarkFramesOf(SimulationSettings settings, std::size_t size)
 {
   settings.isDark = true;
-  return Simulate<Codes>(settings, size, size);
+  return Simulate<GreyValue>(settings, size, size);
 }
 
 inline RefinedSettings
-WithDarkFrames(const Stack<Codes> & dark)
+WithDarkFrames(const Stack<GreyValue> & dark)
 {
   RefinedSettings settings;
   settings.offset = MeasureDarkStack(dark);

@@ -3,6 +3,9 @@
 #ifndef sensornoise_test_SentencesTestHelper_h
 #define sensornoise_test_SentencesTestHelper_h
 
+#include "page/PageSections.h"
+#include "sensornoise/Report.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <regex>
@@ -33,6 +36,20 @@ WordsOfLongestSentence(const std::string & text)
     most = std::max(most, count);
   }
   return most;
+}
+
+/** Returns whether the message itself ends with an action, as a command: "...: give the offset (--offset)". */
+inline bool
+HasAction(const Warning & warning)
+{
+  std::string action = SplitWarning(warning).action;
+  if (action.size() < 2)
+  {
+    return false;
+  }
+  action = action.substr(1, action.size() - 2); // without its first letter and the full stop
+  const std::string & text = warning.message;
+  return text.size() > action.size() && text.compare(text.size() - action.size(), std::string::npos, action) == 0;
 }
 
 } // namespace sensornoise::test

@@ -11,7 +11,7 @@
 #include <string>
 
 /** \file
- * What of a report is stored, and how two of them are compared: see StoredReportsGTest.cxx. */
+ * The stored part of a report, and the comparison of two stored reports, see StoredReportsGTest.cxx. */
 
 namespace sensornoise::test
 {
@@ -86,7 +86,7 @@ DifferencesOf(const nlohmann::json & stored, const nlohmann::json & found, const
   if (stored.is_structured() && stored.type() == found.type() && stored.size() == found.size())
   {
     std::string differences;
-    auto        others = found.items(); // members in the order of their names, as those of stored
+    auto        others = found.items(); // members in the order of their names, as in stored
     auto        other = others.begin();
     for (const auto & item : stored.items())
     {

@@ -24,7 +24,7 @@ struct TiffTag
 /** Tags by their numbers. A tag without values is left out. */
 using TiffTags = std::map<unsigned, TiffTag>;
 
-/** A TIFF, of which everything can be otherwise. */
+/** A TIFF file. A test may change each of its members. */
 struct TiffOf
 {
   bool                  isBig{ false };
@@ -36,7 +36,7 @@ struct TiffOf
   std::size_t           tileLength{ 0 };
   unsigned              bits{ 16 };
   unsigned              compression{ 1 };
-  unsigned              predictor{ 1 };                   // of the pixels; the tag is one of `pages`
+  unsigned              predictor{ 1 };                   // predictor of the pixels; its tag is one of `pages`
   std::vector<TiffTags> pages = std::vector<TiffTags>(3); // what each says beyond that or otherwise
   std::string           strip{};                          // instead of the first strip or tile
   std::size_t           fillUp{ 0 };                      // rows added to the last strip

@@ -84,7 +84,7 @@ ExpectSame(double a, double b, double relative = 1e-8)
   EXPECT_NEAR(a, b, relative * std::abs(b));
 }
 
-/** All that does not depend on where the grey scale begins. */
+/** Expects equal limits, except for the intercept, which depends on the origin of the grey scale. */
 void
 ExpectSameButIntercept(const PrecisionLimit & a, const PrecisionLimit & b, double factor = 1.0)
 {
@@ -259,8 +259,9 @@ TEST(SensorNoiseCramerRaoBound, GreyScaleTwiceAsFine)
   ExpectSame(after.vibrationSdY, before.vibrationSdY);
 }
 
-// Shot noise alone: four times the electrons leave the error of the gain and halve that of flux, flicker and shift. The
-// variance's own information on the flux, 1/(2p) of the mean's with p > 10000 electrons, does not scale: 1e-4.
+// Shot noise alone: four times the electrons leave the error of the gain and halve the error of flux, flicker and
+// shift. The variance's own information on the flux, 1/(2p) of the mean's with p > 10000 electrons, does not scale:
+// 1e-4.
 TEST(SensorNoiseCramerRaoBound, FourTimesTheElectrons)
 {
   Stack stack = PatchesStack(20, Gentle);

@@ -65,7 +65,7 @@ ExpectSame(double a, double b)
   EXPECT_NEAR(a, b, 1e-10 * std::abs(b));
 }
 
-/** All that does not depend on where the grey scale begins. */
+/** Expects equal limits, except for the intercept, which depends on the origin of the grey scale. */
 void
 ExpectSameButIntercept(const PrecisionLimit & a, const PrecisionLimit & b, double factor = 1.0)
 {
@@ -210,8 +210,8 @@ TEST(SensorNoisePrecisionLimit, GreyScaleTwiceAsFine)
   ExpectSame(after.gainInterceptCorrelation, before.gainInterceptCorrelation);
 }
 
-// Shot noise alone, V = g q, and mu = 0: four times the electrons leave the relative error of V as it is and halve that
-// of the flux.
+// Shot noise alone, V = g q, and mu = 0: with four times the electrons, the relative error of V is the same, and the
+// relative error of the flux is halved.
 TEST(SensorNoisePrecisionLimit, FourTimesTheElectrons)
 {
   Plan plan = SmoothPlan();

@@ -80,7 +80,7 @@ TEST(SensorNoiseDarkDrift, SquaresAreThoseOfTheDeviationsFromTheFramesMeans)
   }
 }
 
-TEST(SensorNoiseDarkDrift, WithoutFramesNothingIsTakenOff)
+TEST(SensorNoiseDarkDrift, WithoutFramesNothingIsSubtracted)
 {
   EXPECT_EQ(DarkDrift().SquaresWithoutDrift(0, 7.0, 100.0), 7.0);
   EXPECT_EQ(DarkDrift().GetVarianceDn2(1.0), 0.0);
@@ -103,6 +103,36 @@ TEST(SensorNoiseDarkDrift, ItAddsNothingToThePixelsVariances)
   EXPECT_LT(steady.driftVarianceDn2, 0.02);
   // The error of the offset is the standard error of the mean of 8 levels.
   EXPECT_NEAR(drifting.standardErrorDn, std::sqrt(drifting.driftVarianceDn2 / 8.0), 0.05 * drifting.standardErrorDn);
+}
+
+TEST(SensorNoiseDarkDrift, ALevelThatSettlesIsInTheErrorOfTheOffset)
+{
+  const DarkSensor    sensor = MakeDarkSensor(Pixels, 4.0, LogNormalNoise(0.3));
+  std::vector<double> settling(16);
+  std::vector<double> reversed(16);
+  double              mean = 0.0;
+  for (std::size_t t = 0; t < 16; ++t)
+  {
+    settling[t] = 20.0 * std::exp(-static_cast<double>(t) / 4.0);
+    reversed[15 - t] = settling[t];
+    mean += settling[t] / 16.0;
+  }
+  const double halves = 2.0 * mean * (1.0 - std::exp(-2.0)) / (1.0 + std::exp(-2.0)); // the series is geometric
+  for (const auto & levels : { settling, reversed })
+  {
+    const KnownOffset dark = MeasureDarkStack(DarkStackOf<unsigned short>(sensor, 16, levels));
+    // The halves differ far beyond chance, so that half of their difference is in the error.
+    EXPECT_GT(dark.standardErrorDn, 0.5 * 0.9 * halves);
+    EXPECT_LT(dark.standardErrorDn, 0.5 * 1.2 * halves);
+  }
+  // The same levels in an order without a trend: the standard error of their mean.
+  std::vector<double> mixed(16);
+  for (std::size_t t = 0; t < 16; ++t)
+  {
+    mixed[t] = settling[t * 5 % 16];
+  }
+  const KnownOffset dark = MeasureDarkStack(DarkStackOf<unsigned short>(sensor, 16, mixed));
+  EXPECT_NEAR(dark.standardErrorDn, std::sqrt(dark.driftVarianceDn2 / 16.0), 0.05 * dark.standardErrorDn);
 }
 
 TEST(SensorNoiseDarkDrift, BlinkingPixelsAndMaskedOnesAreNoDrift)

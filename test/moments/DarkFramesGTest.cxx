@@ -23,7 +23,7 @@ using namespace sensornoise::test;
 
 namespace
 {
-/** Returns settings of dark frames of camera B. The dark offset is between two codes. */
+/** Returns settings of dark frames of camera B. The dark offset is between two digital numbers. */
 SimulationSettings
 DarkSettings(std::size_t frames, double readNoiseDn = 8.0, std::uint64_t seed = 1)
 {
@@ -45,7 +45,7 @@ SimulateDark(const SimulationSettings & settings, std::size_t size = 64)
 template <typename TPixel>
 KnownOffset
 Measure(const Stack<TPixel> &             stack,
-        const CodeSettings &              codes = {},
+        const DnSettings &                dnSettings = {},
         const std::vector<std::uint8_t> & mask = {},
         const ParallelFor &               parallelFor = SerialFor)
 {
@@ -53,7 +53,7 @@ Measure(const Stack<TPixel> &             stack,
   TemporalMoments<TPixel> moments(pixels);
   moments.AddFrames(stack.Frame(0), pixels, stack.frames, 0, pixels);
   moments.AdvanceFrames(stack.frames);
-  return MeasureDarkFrames<TPixel>(std::move(moments), codes, mask, parallelFor);
+  return MeasureDarkFrames<TPixel>(std::move(moments), dnSettings, mask, parallelFor);
 }
 
 /** Expects that offset and variance deviate from the truth by at most 4 standard errors. */
@@ -148,7 +148,7 @@ TEST(SensorNoiseDarkFrames, HotNoisyAndDeadPixelsDoNotCarryThemOff)
 
 TEST(SensorNoiseDarkFrames, RoundingThatHidesTheLevelIsInItsError)
 {
-  // Hardly any noise: a single frame contains the codes 100 and 101 with a mean of about 100.16.
+  // Hardly any noise: a single frame contains the digital numbers 100 and 101 with a mean of about 100.16.
   const KnownOffset dark = Measure(SimulateDark(DarkSettings(1, 0.2)));
   EXPECT_NEAR(dark.valueDn, 100.3, 2.0 * dark.standardErrorDn);
   EXPECT_GT(dark.standardErrorDn, 0.1);

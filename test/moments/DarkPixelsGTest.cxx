@@ -93,7 +93,7 @@ TEST(SensorNoiseDarkPixels, DefectivePixelsAreCountedAndLeftOut)
   EXPECT_EQ(dark.maps->frames, 20u);
   EXPECT_EQ(dark.maps->stepDn, 1.0);
 
-  // Two frames do not distinguish stuck pixels: every seventh pixel has the same code in both.
+  // Two frames do not distinguish stuck pixels: every seventh pixel has the same value in both.
   const KnownOffset two = MeasureDarkStack(DarkStackOf<unsigned short>(sensor, 2));
   EXPECT_LE(two.numberDefective, 100u);
 }
@@ -107,7 +107,7 @@ TEST(SensorNoiseDarkPixels, OneFrameHasNoMapsAndNoVariance)
   EXPECT_NEAR(dark.valueDn, 100.3, 4.0 * dark.standardErrorDn);
 }
 
-TEST(SensorNoiseDarkPixels, NoiseBelowTheCodesIsNoReasonToCallPixelsDefective)
+TEST(SensorNoiseDarkPixels, NoiseBelowTheQuantizationStepIsNoReasonToCallPixelsDefective)
 {
   const DarkSensor  sensor = MakeDarkSensor(4096, 0.3, [](CounterSeededRandom &) { return 0.1; });
   const KnownOffset dark = MeasureDarkStack(DarkStackOf<unsigned short>(sensor, 20));

@@ -16,13 +16,13 @@ namespace
 constexpr double OffsetDn = 100.0;
 constexpr double FullDn = 3500.0;
 
-CodeRange
-CodesOf12Bits()
+DnRange
+DnRangeOf12Bits()
 {
-  CodeRange codes;
-  codes.clipHighDn = 4095.0;
-  codes.clipSource = "code range";
-  return codes;
+  DnRange dnRange;
+  dnRange.clipHighDn = 4095.0;
+  dnRange.clipSource = "code range";
+  return dnRange;
 }
 
 /** Signal of a quadratic response, as ResponseShape::Quadratic [DN]. */
@@ -105,7 +105,7 @@ TEST(SensorNoiseExposureFit, AnExactLineHasNoErrorAndItsOwnOffset)
 {
   for (const bool hasDark : { false, true })
   {
-    const ExposureFit fit = FitExposures(ExactLevels(5, 0.0, hasDark), CodesOf12Bits());
+    const ExposureFit fit = FitExposures(ExactLevels(5, 0.0, hasDark), DnRangeOf12Bits());
     EXPECT_NEAR(ErrorOf(fit), 0.0, 1e-9);
     ASSERT_TRUE(fit.offsetDn && fit.responsivity);
     EXPECT_NEAR(fit.offsetDn->value, OffsetDn, 1e-8);
@@ -120,7 +120,7 @@ TEST(SensorNoiseExposureFit, AnExactParabolaHasTheErrorOfTheDefinition)
   {
     for (const double nonlinearity : { 0.01, 0.04, -0.03 })
     {
-      const ExposureFit fit = FitExposures(ExactLevels(8, nonlinearity, hasDark), CodesOf12Bits());
+      const ExposureFit fit = FitExposures(ExactLevels(8, nonlinearity, hasDark), DnRangeOf12Bits());
       EXPECT_NEAR(ErrorOf(fit), TrueError(8, nonlinearity, hasDark), 1e-9);
       ASSERT_TRUE(fit.offsetDn);
       // The line deviates from the offset at exposure 0. The parabola does not, and their distance is the error.
@@ -132,12 +132,12 @@ TEST(SensorNoiseExposureFit, AnExactParabolaHasTheErrorOfTheDefinition)
 TEST(SensorNoiseExposureFit, TheUnitOfTheExposuresChangesOnlyTheResponsivity)
 {
   std::vector<ExposureLevel> levels = ExactLevels(6, 0.03, false);
-  const ExposureFit          seconds = FitExposures(levels, CodesOf12Bits());
+  const ExposureFit          seconds = FitExposures(levels, DnRangeOf12Bits());
   for (ExposureLevel & level : levels)
   {
     level.exposure *= 1e6;
   }
-  const ExposureFit microseconds = FitExposures(levels, CodesOf12Bits());
+  const ExposureFit microseconds = FitExposures(levels, DnRangeOf12Bits());
   EXPECT_NEAR(ErrorOf(microseconds), ErrorOf(seconds), 1e-12);
   EXPECT_NEAR(microseconds.offsetDn->value, seconds.offsetDn->value, 1e-8);
   EXPECT_NEAR(microseconds.responsivity->value * 1e6, seconds.responsivity->value, 1e-8);
@@ -148,7 +148,7 @@ TEST(SensorNoiseExposureFit, TheRangeIsFrom5To95PercentOfSaturation)
   std::vector<ExposureLevel> levels = ExactLevels(5, 0.0, true);
   levels.insert(levels.begin() + 1, ExactLevel(0.05, 0.0)); // 175 of 3995 DN: below 5 %
   levels.push_back({ 1.1, 2, OffsetDn + 0.96 * 3995.0, 0.0, 0.0, 0.0 });
-  const ExposureFit fit = FitExposures(levels, CodesOf12Bits());
+  const ExposureFit fit = FitExposures(levels, DnRangeOf12Bits());
   ASSERT_EQ(fit.levels.size(), 8u);
   for (std::size_t i = 0; i < fit.levels.size(); ++i)
   {
@@ -161,7 +161,7 @@ TEST(SensorNoiseExposureFit, TheRangeIsFrom5To95PercentOfSaturation)
 
 TEST(SensorNoiseExposureFit, WithoutClipLevelTheLargestLevelIsInTheRange)
 {
-  const ExposureFit fit = FitExposures(ExactLevels(5, 0.0, false), CodeRange());
+  const ExposureFit fit = FitExposures(ExactLevels(5, 0.0, false), DnRange());
   EXPECT_EQ(fit.saturationSource, "largest level");
   EXPECT_EQ(fit.saturationDn, OffsetDn + FullDn);
   for (const ExposureFit::Level & level : fit.levels)
@@ -172,16 +172,16 @@ TEST(SensorNoiseExposureFit, WithoutClipLevelTheLargestLevelIsInTheRange)
 
 TEST(SensorNoiseExposureFit, TheSourceIsThatOfTheHighClipLevel)
 {
-  CodeRange codes = CodesOf12Bits();
-  codes.SetClipSources("code range", "pile-up");
-  EXPECT_EQ(FitExposures(ExactLevels(5, 0.0, false), codes).saturationSource, "pile-up");
+  DnRange dnRange = DnRangeOf12Bits();
+  dnRange.SetClipSources("code range", "pile-up");
+  EXPECT_EQ(FitExposures(ExactLevels(5, 0.0, false), dnRange).saturationSource, "pile-up");
 }
 
 TEST(SensorNoiseExposureFit, TooFewLevelsInTheRangeAreSaidToBe)
 {
   std::vector<ExposureLevel> levels = ExactLevels(5, 0.0, true);
   levels.resize(3);
-  const ExposureFit fit = FitExposures(levels, CodesOf12Bits());
+  const ExposureFit fit = FitExposures(levels, DnRangeOf12Bits());
   EXPECT_FALSE(fit.squaredError);
   EXPECT_EQ(fit.reason.find("only 2 of 3 exposures"), 0u) << fit.reason;
   ASSERT_TRUE(fit.offsetDn); // from the dark frames
@@ -193,7 +193,7 @@ TEST(SensorNoiseExposureFit, LevelsThatFallWithTheExposureAreRefused)
   std::vector<ExposureLevel> levels = ExactLevels(5, 0.0, false);
   std::swap(levels[0].meanDn, levels[4].meanDn);
   std::swap(levels[1].meanDn, levels[3].meanDn);
-  const ExposureFit fit = FitExposures(levels, CodesOf12Bits());
+  const ExposureFit fit = FitExposures(levels, DnRangeOf12Bits());
   EXPECT_FALSE(fit.squaredError);
   EXPECT_NE(fit.reason.find("do not rise with the exposures"), std::string::npos) << fit.reason;
 }
@@ -205,11 +205,11 @@ TEST(SensorNoiseExposureFit, SingleFramesTakeTheirScatterFromAParabola)
   {
     levels.push_back(ExactLevel(exposure, 0.04, 1));
   }
-  const ExposureFit fit = FitExposures(levels, CodesOf12Bits());
+  const ExposureFit fit = FitExposures(levels, DnRangeOf12Bits());
   EXPECT_EQ(fit.dof, 5.0);
   EXPECT_NEAR(ErrorOf(fit), TrueError(8, 0.04, false), 1e-9);
   levels.resize(3);
-  const ExposureFit ofThree = FitExposures(levels, CodesOf12Bits());
+  const ExposureFit ofThree = FitExposures(levels, DnRangeOf12Bits());
   EXPECT_FALSE(ofThree.squaredError);
   EXPECT_EQ(ofThree.reason.find("no exposure has two frames"), 0u) << ofThree.reason;
 }
@@ -281,7 +281,7 @@ TEST(SensorNoiseExposureFit, IntervalsHoldTheTruthAndNoiseIsNoError)
     for (int i = 0; i < bursts; ++i)
     {
       const ExposureFit fit =
-        FitExposures(NoisyLevels(each.levels, each.frames, each.nonlinearity, 0.003, random), CodesOf12Bits());
+        FitExposures(NoisyLevels(each.levels, each.frames, each.nonlinearity, 0.003, random), DnRangeOf12Bits());
       ASSERT_TRUE(fit.squaredError);
       held += Holds(fit, truth) ? 1 : 0;
       mean += fit.squaredError->value / bursts;

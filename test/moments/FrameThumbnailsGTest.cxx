@@ -110,22 +110,22 @@ TEST(SensorNoiseFrameThumbnails, WhatIsMaskedOrNotFiniteIsLeftOut)
   EXPECT_EQ(ChangeOf(Stack([&](auto, auto, auto) { return nan; })).fraction, 0.0);
 }
 
-TEST(SensorNoiseFrameThumbnails, CodesHaveTheBitsOfNumbers)
+TEST(SensorNoiseFrameThumbnails, IntegersHaveTheBitsOfFloats)
 {
-  std::vector<unsigned short> codes;
+  std::vector<unsigned short> greyValues;
   for (const double value : Stack([](double t, double x, double y) { return 290.0 * std::abs(Wave(x + t, y)); }))
   {
-    codes.push_back(static_cast<unsigned short>(value)); // up to 49,000, so that steps need all their bits
+    greyValues.push_back(static_cast<unsigned short>(value)); // up to 49,000, so that steps need all their bits
   }
-  codes.front() = std::numeric_limits<unsigned short>::max();
-  codes[1] = 0;
-  const std::vector<double> numbers(codes.begin(), codes.end());
+  greyValues.front() = std::numeric_limits<unsigned short>::max();
+  greyValues[1] = 0;
+  const std::vector<double> numbers(greyValues.begin(), greyValues.end());
   std::ostringstream        saved[2];
-  FrameThumbnails           ofCodes(Geometry, Frames, {});
+  FrameThumbnails           ofIntegers(Geometry, Frames, {});
   FrameThumbnails           ofNumbers(Geometry, Frames, {});
-  ofCodes.AddFrames(codes.data(), 0, Frames, SerialFor);
+  ofIntegers.AddFrames(greyValues.data(), 0, Frames, SerialFor);
   ofNumbers.AddFrames(numbers.data(), 0, Frames, SerialFor);
-  ofCodes.Save(saved[0]);
+  ofIntegers.Save(saved[0]);
   ofNumbers.Save(saved[1]);
   EXPECT_EQ(saved[0].str(), saved[1].str());
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/MosaicLevels.h"
+#include "moments/StackMaps.h"
 
 #include "sensornoise/Simulator.h"
 

@@ -120,7 +120,7 @@ TEST(SensorNoiseNoiseMedian, ErrorsAreAsLargeAsTheySay)
   }
 }
 
-TEST(SensorNoiseNoiseMedian, RoundingIsTakenOff)
+TEST(SensorNoiseNoiseMedian, RoundingIsSubtracted)
 {
   std::vector<double> variances(1000);
   CounterSeededRandom random(1);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/Codes.h"
+#include "moments/StackMaps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,11 +93,11 @@ TEST(SensorNoiseOutermostLevels, AreThoseOfAWholeHistogramInAnyOrder)
   }
 }
 
-TEST(SensorNoiseOutermostLevels, StepIsThatOfTheCodesWithGapsStraysAndAnyScale)
+TEST(SensorNoiseOutermostLevels, StepIsTheDistanceOfGreyValuesWithGapsStraysAndAnyScale)
 {
   for (const double scale : { 1.0, 16.0, 1.0 / 65535.0, 0.37 })
   {
-    std::vector<double> values = RoundedNormal(3000, 300.0, scale);      // most codes are not attained at the ends
+    std::vector<double> values = RoundedNormal(3000, 300.0, scale); // most digital numbers are not attained at the ends
     values.push_back(LevelsOf(values, End::High).Level() - 0.4 * scale); // a stray value
     EXPECT_NEAR(LevelsOf(values, End::High).Step(), scale, 1e-9 * scale) << scale;
     EXPECT_NEAR(LevelsOf(values, End::Low).Step(), scale, 1e-9 * scale) << scale;

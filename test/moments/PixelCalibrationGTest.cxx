@@ -44,11 +44,11 @@ TEST(SensorNoisePixelCalibration, IntervalsAreStudentsAndChiSquares)
   EXPECT_NEAR(maps.readNoise.high[0], 4.0 * std::sqrt(7.0 / 1.689869), 1e-6);
 }
 
-TEST(SensorNoisePixelCalibration, RoundingIsTakenOffAndWhatItHidesIsInTheInterval)
+TEST(SensorNoisePixelCalibration, RoundingIsSubtractedAndWhatItHidesIsInTheInterval)
 {
   const PixelCalibration maps = MakePixelCalibration({ { 100.0, 100.0 }, { 3.0 + 1.0 / 3.0, 0.0 }, { 1, 1 }, 30, 2.0 });
   EXPECT_DOUBLE_EQ(maps.readNoise.value[0], std::sqrt(3.0));
-  // A constant pixel: its level is within half a step of the code, and its noise is at most half a step.
+  // A constant pixel: its level is within half a step of the digital number, and its noise is at most half a step.
   EXPECT_DOUBLE_EQ(maps.offset.low[1], 99.0);
   EXPECT_DOUBLE_EQ(maps.offset.high[1], 101.0);
   EXPECT_EQ(maps.readNoise.value[1], 0.0);

@@ -36,9 +36,9 @@ MapsOf(const Stack<TPixel> & stack, std::size_t chunk = Frames, const ParallelFo
   return MakeStackMaps<TPixel>(sums.Take(), {}, parallelFor);
 }
 
-/** Returns codes of a sensor that attains the levels from \a low to \a high only. */
+/** Returns digital numbers of a sensor that attains the levels from \a low to \a high only. */
 Stack<std::uint16_t>
-CodesBetween(std::optional<double> low, std::optional<double> high, std::size_t width = Width)
+StackBetween(std::optional<double> low, std::optional<double> high, std::size_t width = Width)
 {
   SimulationSettings settings = FlickeringSettings(Frames);
   settings.clipLowDn = low;
@@ -72,15 +72,15 @@ using FloatingTypes = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(SensorNoiseStackMapsOfFloating, FloatingTypes, );
 } // namespace
 
-TYPED_TEST(SensorNoiseStackMapsOfFloating, CopiesOfCodesThatSaturateLeaveOutTheSamePixels)
+TYPED_TEST(SensorNoiseStackMapsOfFloating, CopiesOfIntegersThatSaturateLeaveOutTheSamePixels)
 {
   for (const double scale : { 1.0, 0.25, 1.0 / 65535.0 })
   {
     for (const std::size_t width : { 48, 130, 400 })
     {
-      const auto      codes = CodesBetween({}, 2500.0, width);
-      const StackMaps expected = MapsOf(codes);
-      const StackMaps maps = MapsOf(codes.Map<TypeParam>([&](std::uint16_t u) { return scale * u; }));
+      const auto      greyValues = StackBetween({}, 2500.0, width);
+      const StackMaps expected = MapsOf(greyValues);
+      const StackMaps maps = MapsOf(greyValues.Map<TypeParam>([&](std::uint16_t u) { return scale * u; }));
       ASSERT_EQ(expected.summary.codes.clipSource, "low: code range, high: pile-up");
       const bool areWhole = scale == 1.0; // then the values are integers
       EXPECT_EQ(maps.summary.codes.clipSource,
@@ -96,24 +96,24 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, CopiesOfCodesThatSaturateLeaveOutTheS
 
 TYPED_TEST(SensorNoiseStackMapsOfFloating, ClipLevelThatMostPixelsAttainIsFound)
 {
-  const auto      codes = CodesBetween({}, 600.0);
-  const StackMaps expected = MapsOf(codes);
+  const auto      greyValues = StackBetween({}, 600.0);
+  const StackMaps expected = MapsOf(greyValues);
   EXPECT_EQ(expected.summary.codes.clipSource, "low: code range, high: pile-up");
   EXPECT_EQ(expected.summary.codes.clipHighDn, 600.0);
   EXPECT_GT(expected.summary.clipped, Width * Height / 2);
-  const StackMaps maps = MapsOf(codes.Map<TypeParam>([](std::uint16_t u) { return u / 16.0; }));
+  const StackMaps maps = MapsOf(greyValues.Map<TypeParam>([](std::uint16_t u) { return u / 16.0; }));
   EXPECT_EQ(maps.summary.codes.clipHighDn, 600.0 / 16.0);
   EXPECT_EQ(maps.valid, expected.valid);
 }
 
 TYPED_TEST(SensorNoiseStackMapsOfFloating, FloorIsFoundBelowAboveAndAtZero)
 {
-  const auto      codes = CodesBetween(500.0, {});
-  const StackMaps expected = MapsOf(codes);
+  const auto      greyValues = StackBetween(500.0, {});
+  const StackMaps expected = MapsOf(greyValues);
   ASSERT_EQ(expected.summary.codes.clipSource, "low: pile-up, high: code range");
   for (const double floorDn : { 500.25, 0.25, -300.25 }) // levels that are not integers
   {
-    const StackMaps maps = MapsOf(codes.Map<TypeParam>([&](std::uint16_t u) { return u - 500.0 + floorDn; }));
+    const StackMaps maps = MapsOf(greyValues.Map<TypeParam>([&](std::uint16_t u) { return u - 500.0 + floorDn; }));
     EXPECT_EQ(maps.summary.codes.clipLowDn, floorDn);
     EXPECT_FALSE(maps.summary.codes.clipHighDn);
     EXPECT_EQ(maps.summary.codes.clipSource, "low: pile-up, high: none");
@@ -121,7 +121,7 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, FloorIsFoundBelowAboveAndAtZero)
   }
 }
 
-TYPED_TEST(SensorNoiseStackMapsOfFloating, LevelsBetweenCodesSaturateToo)
+TYPED_TEST(SensorNoiseStackMapsOfFloating, LevelsBetweenIntegersSaturateToo)
 {
   const auto stack = Simulate<TypeParam>(FlickeringSettings(Frames), Width, Height);
   EXPECT_EQ(MapsOf(stack).summary.codes.clipSource, "none");
@@ -146,11 +146,11 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, WithoutSaturationNothingIsLeftOut)
 {
   for (const std::size_t width : { 48, 130, 400 })
   {
-    const auto codes = CodesBetween({}, {}, width);
+    const auto greyValues = StackBetween({}, {}, width);
     for (const double stepDn : { 1.0, 16.0, 60.0, 250.0 }) // the noise is from 3 to 40 DN
     {
       const StackMaps maps = MapsOf(
-        codes.Map<TypeParam>([&](std::uint16_t u) { return 0.25 + stepDn * static_cast<int>(u / stepDn + 0.5); }));
+        greyValues.Map<TypeParam>([&](std::uint16_t u) { return 0.25 + stepDn * static_cast<int>(u / stepDn + 0.5); }));
       EXPECT_EQ(maps.summary.codes.clipSource, "none") << width << ", " << stepDn;
       EXPECT_EQ(maps.summary.clipped, 0u);
       EXPECT_EQ(std::count(maps.valid.begin(), maps.valid.end(), 1), static_cast<std::ptrdiff_t>(maps.valid.size()));
@@ -160,7 +160,7 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, WithoutSaturationNothingIsLeftOut)
 
 TYPED_TEST(SensorNoiseStackMapsOfFloating, PixelsThatAreNotFiniteHideNoClipLevel)
 {
-  auto            stack = CodesBetween({}, 2500.0).Map<TypeParam>([](std::uint16_t u) { return u; });
+  auto            stack = StackBetween({}, 2500.0).Map<TypeParam>([](std::uint16_t u) { return u; });
   const StackMaps expected = MapsOf(stack);
   for (const TypeParam value : { std::numeric_limits<TypeParam>::quiet_NaN(),
                                  std::numeric_limits<TypeParam>::infinity(),
@@ -188,7 +188,7 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, PixelsThatAreNotFiniteHideNoClipLevel
 
 TYPED_TEST(SensorNoiseStackMapsOfFloating, AreTheSameForAnyChunksThreadsAndProcesses)
 {
-  const auto      stack = CodesBetween(500.0, 2500.0).Map<TypeParam>([](std::uint16_t u) { return u / 3.0; });
+  const auto      stack = StackBetween(500.0, 2500.0).Map<TypeParam>([](std::uint16_t u) { return u / 3.0; });
   const StackMaps expected = MapsOf(stack);
   ASSERT_EQ(expected.summary.codes.clipSource, "pile-up");
   for (const std::size_t chunk : { 1, 5 })
@@ -210,7 +210,7 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, AreTheSameForAnyChunksThreadsAndProce
 
 TEST(SensorNoiseStackMaps, TheTypeOfWholeNumbersChangesNothing)
 {
-  const Stack<std::uint16_t> stack = CodesBetween(std::nullopt, 2000.0);
+  const Stack<std::uint16_t> stack = StackBetween(std::nullopt, 2000.0);
   const StackMaps            expected = MapsOf(stack);
   EXPECT_EQ(expected.summary.codes.clipHighDn, 2000.0);
   for (const StackMaps & maps : { MapsInType<short>(stack), MapsInType<float>(stack), MapsInType<double>(stack) })
@@ -223,25 +223,25 @@ TEST(SensorNoiseStackMaps, TheTypeOfWholeNumbersChangesNothing)
 
 TEST(SensorNoiseStackMaps, ClipLevelsThatNoPixelAttainsHaveCutOffNothing)
 {
-  const StackSummary plain = MapsOf(CodesBetween(std::nullopt, std::nullopt)).summary;
+  const StackSummary plain = MapsOf(StackBetween(std::nullopt, std::nullopt)).summary;
   EXPECT_TRUE(plain.codes.clipLowDn && plain.codes.clipHighDn); // the ends of the DN range
-  EXPECT_FALSE(plain.AttainedCodes().clipLowDn || plain.AttainedCodes().clipHighDn);
-  const StackSummary saturated = MapsOf(CodesBetween(std::nullopt, 2000.0)).summary;
+  EXPECT_FALSE(plain.AttainedRange().clipLowDn || plain.AttainedRange().clipHighDn);
+  const StackSummary saturated = MapsOf(StackBetween(std::nullopt, 2000.0)).summary;
   EXPECT_EQ(saturated.clippedLow, 0U);
   EXPECT_EQ(saturated.clippedHigh, saturated.clipped);
-  EXPECT_EQ(saturated.AttainedCodes().clipHighDn, 2000.0);
-  EXPECT_FALSE(saturated.AttainedCodes().clipLowDn);
+  EXPECT_EQ(saturated.AttainedRange().clipHighDn, 2000.0);
+  EXPECT_FALSE(saturated.AttainedRange().clipLowDn);
 }
 
-TEST(SensorNoiseStackMaps, ScaledCodesHaveTheirStep)
+TEST(SensorNoiseStackMaps, ScaledNumbersHaveTheirStep)
 {
-  const Stack<std::uint16_t> codes = CodesBetween(std::nullopt, std::nullopt);
-  Stack<float>               scaled{ codes.width, codes.height, codes.frames, {} };
+  const Stack<std::uint16_t> greyValues = StackBetween(std::nullopt, std::nullopt);
+  Stack<float>               scaled{ greyValues.width, greyValues.height, greyValues.frames, {} };
   Stack<float>               noisy = scaled;
-  for (std::size_t i = 0; i < codes.pixels.size(); ++i)
+  for (std::size_t i = 0; i < greyValues.pixels.size(); ++i)
   {
-    scaled.pixels.push_back(static_cast<float>(codes.pixels[i]) / 65535.0F);
-    noisy.pixels.push_back(static_cast<float>(codes.pixels[i]) + 0.001F * static_cast<float>(i % 997));
+    scaled.pixels.push_back(static_cast<float>(greyValues.pixels[i]) / 65535.0F);
+    noisy.pixels.push_back(static_cast<float>(greyValues.pixels[i]) + 0.001F * static_cast<float>(i % 997));
   }
   EXPECT_NEAR(MapsOf(scaled).summary.codes.quantisationStepDn, 1.0 / 65535.0, 1e-9);
   EXPECT_EQ(MapsOf(noisy).summary.codes.quantisationStepDn, 0.0);

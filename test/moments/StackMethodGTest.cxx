@@ -23,13 +23,13 @@ using namespace sensornoise::test::merge;
 
 namespace
 {
-using Codes = unsigned short;
+using GreyValue = unsigned short;
 
 constexpr std::size_t Half = Frames / 2;
 
 /** Adds a half of the frames in process \a k, the last frame first. */
 void
-AddHalf(RefinedMethod<Codes> & method, const Stack<Codes> & stack, std::size_t k)
+AddHalf(RefinedMethod<GreyValue> & method, const Stack<GreyValue> & stack, std::size_t k)
 {
   for (std::size_t t = (k + 1) * Half; t-- > k * Half;)
   {
@@ -41,15 +41,15 @@ AddHalf(RefinedMethod<Codes> & method, const Stack<Codes> & stack, std::size_t k
 
 TEST(SensorNoiseStackMethod, ProcessesLeaveEqualFramesToEachOther)
 {
-  Stack<Codes> stack = SmallStack<Codes>();
+  Stack<GreyValue> stack = SmallStack<GreyValue>();
   std::copy_n(stack.Frame(3), Width * Height, stack.pixels.begin() + (Half + 5) * Width * Height);
-  const auto           whole = Measure(stack);
-  RefinedMethod<Codes> made = MethodOf(stack);
-  RefinedMethod<Codes> one = std::move(made);
-  RefinedMethod<Codes> two = MethodOf(stack);
+  const auto               whole = Measure(stack);
+  RefinedMethod<GreyValue> made = MethodOf(stack);
+  RefinedMethod<GreyValue> one = std::move(made);
+  RefinedMethod<GreyValue> two = MethodOf(stack);
   AddHalf(one, stack, 0);
   AddHalf(two, stack, 1);
-  std::set<StackMethod<Codes>::FrameFingerprint> known;
+  std::set<StackMethod<GreyValue>::FrameFingerprint> known;
   for (const auto & frame : one.GetFingerprints())
   {
     known.insert(frame.second);

@@ -44,7 +44,7 @@ TEST(MosaicGeometry, JoinIsPutOfEachPlane)
     std::vector<int>                expected(77, -1);
     for (std::size_t k = 0; k < ofPlanes.size(); ++k)
     {
-      ofPlanes[k].resize(k == 2 ? 0 : 15); // of one there is no map
+      ofPlanes[k].resize(k == 2 ? 0 : 15); // one plane has no map
       std::iota(ofPlanes[k].begin(), ofPlanes[k].end(), static_cast<int>(100 * k));
       geometry.Put(ofPlanes[k], BayerPlanes.at(k), expected.data());
     }

@@ -23,7 +23,7 @@
 #include <vector>
 
 /** \file
- * What a method finds of the planes of a mosaic is, bit by bit, what it finds of them one by one. */
+ * The results of a method on the planes of a mosaic have the same bits as its results on each plane alone. */
 
 using namespace sensornoise;
 using namespace sensornoise::test;

@@ -20,7 +20,7 @@ using namespace sensornoise::test;
 
 namespace
 {
-constexpr std::size_t side = 256; // of the mosaic [pixel]
+constexpr std::size_t side = 256; // side of the mosaic [pixel]
 
 /** Returns a camera with a mosaic, and a scene that vibrates with the standard deviations \a sdX and \a sdY [pixel]. */
 SimulationSettings

@@ -138,7 +138,7 @@ TEST(SensorNoiseComparison, ScatterIsDistinguishedFromChance)
   EXPECT_DOUBLE_EQ(chance.chiSquare, 2.0);
   EXPECT_NEAR(chance.probability, std::exp(-1.0), 1e-12);
   EXPECT_EQ(chance.excess, 0.0);
-  const CommonMean beyond = meanOf(0.1); // of a variance of 1, 0.01 is the errors'
+  const CommonMean beyond = meanOf(0.1); // the errors explain 0.01 of a variance of 1
   EXPECT_NEAR(beyond.chiSquare, 200.0, 1e-9);
   EXPECT_NEAR(beyond.excess, std::sqrt(0.99), 1e-9);
   EXPECT_TRUE(QuantityOf(MakeComparison({ MakeReport("a"), MakeReport("b") }), "gain").means.empty());

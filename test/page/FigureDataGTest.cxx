@@ -31,8 +31,8 @@ MakeReport()
 
 TEST(SensorNoiseFigureData, ResidualsAreInUnitsOfTheBinsError)
 {
-  // of normal noise in 51 frames a variance has the relative error sqrt(2 / 50) = 0.2, and a mean of 100 of them 0.02:
-  // 4.2 DN^2 of 210
+  // A variance of normal noise over 51 frames has the relative error sqrt(2 / 50) = 0.2. A mean of 100 variances has
+  // 0.02: 4.2 DN^2 for 210 DN^2.
   const FigureData data = MakeFigureData(MakeReport());
   ASSERT_EQ(data.residuals.size(), 2U);
   EXPECT_NEAR(data.residuals[0], 1.0, 1e-9);
@@ -51,6 +51,23 @@ TEST(SensorNoiseFigureData, MeansByWhichPixelsAreSortedHaveNoiseToo)
   // the offset is not known: the darkest level has none of the photons' noise
   report.offset = Quantity::Without(EstimateStatus::NotIdentifiable);
   EXPECT_NEAR(MakeFigureData(report).residuals[0], 4.2 / std::hypot(4.2, 2.0 * ofLevel), 1e-9);
+}
+
+// The variance of n details of one image has the relative error sqrt(2.3085 / n), however many frames there are: 0.1 of
+// 230 or 231 details. A level set has no error of its level.
+TEST(SensorNoiseFigureData, ResidualsOfLevelSetsAreInUnitsOfTheirDetails)
+{
+  Report report = MakeReport();
+  report.singleImage.emplace();
+  report.scatter = { { 100.0, 200.0 }, { 231.0, 410.0 }, { 231.0, 410.0 }, { 231, 400 } };
+  for (const std::size_t frames : { std::size_t{ 1 }, std::size_t{ 5 }, std::size_t{ 51 } })
+  {
+    report.framesDistinct = frames;
+    const FigureData data = MakeFigureData(report);
+    ASSERT_EQ(data.residuals.size(), 2U) << frames;
+    EXPECT_NEAR(data.residuals[0], 0.1 / std::sqrt(2.3085 / 231.0), 1e-9) << frames;
+    EXPECT_NEAR(data.residuals[1], 0.0, 1e-9) << frames;
+  }
 }
 
 TEST(SensorNoiseFigureData, TemporalCorrelationIsInTheErrorsOfResiduals)

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/GainByParts.h"
-#include "pixels/PartTiles.h"
 
 #include <algorithm>
 #include <cmath>

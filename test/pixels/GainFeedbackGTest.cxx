@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/UnequalIllumination.h"
+#include "pixels/VarianceLine.h"
 #include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
 #include "base/PixelLayout.h"

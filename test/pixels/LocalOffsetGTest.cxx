@@ -4,12 +4,14 @@
 #include "base/Eigen.h"
 #include "pixels/ProjectedVariance.h"
 #include "pixels/VarianceLine.h"
+#include "sensornoise/Parallel.h"
 #include "helpers/ProjectionTestHelper.h"
 
 #include <cmath>
 #include <cstddef>
 #include <functional>
 #include <gtest/gtest.h>
+#include <optional>
 #include <vector>
 
 using namespace sensornoise;
@@ -70,12 +72,26 @@ OneSourceAndADrift(std::size_t, double mean)
 {
   return { 0.3 * (mean - OffsetDn), 300.0 };
 }
+
+std::optional<LocalOffset>
+OffsetOf(const Scene & scene)
+{
+  const IlluminationResponses data = scene.Data();
+  return FindLocalOffset(data, RemoveMotionLeakage(data, SerialFor).responses);
+}
+
+bool
+IsMotionLocal(const Responses & responses)
+{
+  const Scene scene(responses);
+  return RemoveMotionLeakage(scene.Data(), SerialFor).isMotionLocal;
+}
 } // namespace
 
 TEST(SensorNoiseLocalOffset, SourcesHaveOneOffset)
 {
   const Scene scene(TwoSources);
-  const auto  found = FindLocalOffset(scene.Data());
+  const auto  found = OffsetOf(scene);
   ASSERT_TRUE(found);
   EXPECT_GT(found->tiles, 0u);
   EXPECT_LT(found->standardError, 20.0);
@@ -91,7 +107,7 @@ TEST(SensorNoiseLocalOffset, SourcesWithoutACommonZeroAreReported)
   const Scene scene([](std::size_t p, double mean) {
     return Eigen::Vector2d(0.3 * (mean - OffsetDn), 0.4 * (mean - (p % Width < Width / 2 ? 700.0 : -500.0)));
   });
-  const auto  found = FindLocalOffset(scene.Data());
+  const auto  found = OffsetOf(scene);
   EXPECT_TRUE(!found || !found->doLinesMeet);
 }
 
@@ -109,7 +125,7 @@ TEST(SensorNoiseLocalOffset, PartitionsWithinWhichTheIlluminationVariesAreNotUse
     const double rate = ofBlock[p / Width / 16 * 16 * Width + p % Width / 16 * 16] / CentreDn;
     return Eigen::Vector2d(rate * (level - OffsetDn), 0.0);
   });
-  const auto  found = FindLocalOffset(scene.Data());
+  const auto  found = OffsetOf(scene);
   ASSERT_TRUE(found);
   EXPECT_GE(found->tiles, 20u); // the frame has 20 tiles of 16 x 16 pixels, and 6 of 32 x 32
   EXPECT_TRUE(!found->doLinesMeet || std::abs(found->offset + CentreDn - OffsetDn) < 4.0 * found->standardError);
@@ -123,7 +139,7 @@ TEST(SensorNoiseLocalOffset, GradientsOfTheIlluminationDoNotShiftTheOffset)
     const double x = static_cast<double>(p % Width) / Width;
     return Eigen::Vector2d((mean - OffsetDn) * 0.5 * x, (mean - OffsetDn) * 0.5 * (1.0 - x));
   });
-  const auto  found = FindLocalOffset(scene.Data());
+  const auto  found = OffsetOf(scene);
   ASSERT_TRUE(found);
   EXPECT_LT(found->standardError, 10.0);
   EXPECT_NEAR(found->offset + CentreDn, OffsetDn, 4.0 * found->standardError);
@@ -138,7 +154,7 @@ TEST(SensorNoiseLocalOffset, LinesMeetUnderCurvedIllumination)
     const double y = static_cast<double>(p / Width) / Height - 0.5;
     return Eigen::Vector2d((mean - OffsetDn) * (1.0 - 4.0 * (x * x + y * y)), 0.0);
   });
-  const auto  found = FindLocalOffset(scene.Data());
+  const auto  found = OffsetOf(scene);
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->doLinesMeet);
   EXPECT_LT(found->standardError, 20.0);
@@ -148,11 +164,24 @@ TEST(SensorNoiseLocalOffset, LinesMeetUnderCurvedIllumination)
 TEST(SensorNoiseLocalOffset, SlopesOfNoiseHaveNoCommonZero)
 {
   const Scene scene([](std::size_t, double) { return Eigen::Vector2d(0.0, 0.0); });
-  EXPECT_FALSE(FindLocalOffset(scene.Data()));
+  EXPECT_FALSE(OffsetOf(scene));
 }
 
 TEST(SensorNoiseLocalOffset, DriftingLevelIsOneLineOverTheFrame)
 {
   EXPECT_TRUE(IsOffsetDrift(Scene(OneSourceAndADrift).Data()));
   EXPECT_FALSE(IsOffsetDrift(Scene(TwoSources).Data()));
+}
+
+TEST(SensorNoiseLocalOffset, PartsThatMoveByThemselvesAreNoIllumination)
+{
+  const std::vector<double> mean = WavyScene(Width, Height);
+  const auto                shifted = [&mean](std::size_t p, double shift) {
+    const bool isInside = p > 0 && p + 1 < mean.size();
+    return Eigen::Vector2d(0.0, isInside ? 0.5 * shift * (mean[p + 1] - mean[p - 1]) : 0.0);
+  };
+  EXPECT_FALSE(IsMotionLocal(TwoSources));
+  EXPECT_FALSE(IsMotionLocal(OneSourceAndADrift));
+  EXPECT_FALSE(IsMotionLocal([&](std::size_t p, double) { return shifted(p, 10.0); })); // the whole frame
+  EXPECT_TRUE(IsMotionLocal([&](std::size_t p, double) { return shifted(p, p % Width < Width / 2 ? 10.0 : 0.0); }));
 }

@@ -55,13 +55,13 @@ struct Response
   std::vector<double> variance;
   double              meanGain{ 0.0 };
 
-  template <typename TCode, typename TGain>
-  Response(double first, double last, double readNoiseElectrons2, TCode codeOf, TGain gainOf)
+  template <typename TLevel, typename TGain>
+  Response(double first, double last, double readNoiseElectrons2, TLevel levelOf, TGain gainOf)
   {
     for (std::size_t b = 0; b < Bins; ++b)
     {
       const double x = first + (last - first) * static_cast<double>(b) / (Bins - 1.0);
-      levels.push_back(codeOf(x));
+      levels.push_back(levelOf(x));
       variance.push_back(gainOf(x) * gainOf(x) * (x + readNoiseElectrons2));
       meanGain += gainOf(x) / Bins;
     }
@@ -85,8 +85,8 @@ struct Response
 Response
 NonlinearResponse(double nonlinearity)
 {
-  const auto codeOf = [=](double x) { return 100.0 + 0.3 * x * (1.0 + nonlinearity * (1.0 - x / 1e4)); };
-  return Response(0.0, 1e4, 4.0, codeOf, [=](double x) { return 0.3 * (1.0 + nonlinearity * (1.0 - 2.0 * x / 1e4)); });
+  const auto levelOf = [=](double x) { return 100.0 + 0.3 * x * (1.0 + nonlinearity * (1.0 - x / 1e4)); };
+  return Response(0.0, 1e4, 4.0, levelOf, [=](double x) { return 0.3 * (1.0 + nonlinearity * (1.0 - 2.0 * x / 1e4)); });
 }
 } // namespace
 
@@ -117,9 +117,9 @@ TEST(SensorNoiseMeanGain, PowerOfTheSignalIsExactWithTheOffset)
   // within 2e-4. Z is proportional to 1 / (2 - q).
   for (const double p : { 0.6, 0.77, 1.0, 1.3 })
   {
-    const auto     codeOf = [=](double x) { return 64.0 + 2.0 * std::pow(x, p); };
+    const auto     levelOf = [=](double x) { return 64.0 + 2.0 * std::pow(x, p); };
     const auto     gainOf = [=](double x) { return 2.0 * p * std::pow(x, p - 1.0); };
-    const Response response(800.0, 1000.0, 0.0, codeOf, gainOf);
+    const Response response(800.0, 1000.0, 0.0, levelOf, gainOf);
     EXPECT_NEAR(response.Found(3, 64.0) / response.meanGain, 1.0, 3e-4) << p;
     // Without the offset a small signal is assumed at the darkest level, where V' is the gain. Here V' is (2 p - 1) / p
     // times the gain.

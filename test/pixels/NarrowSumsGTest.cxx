@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/NarrowSums.h"
+#include "pixels/ProjectedFrames.h"
 #include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
 #include "series/SceneSeries.h"

@@ -209,8 +209,8 @@ TEST(SensorNoiseProjectedVariance, ReplacedSquaresHaveTheirOwnDegreesOfFreedom)
   ResidualSquares        rest;
   PixelCoordinates       none;
   AppendResidualSquares(other.frame, Basis(), other.sums, SerialFor, rest, none);
-  CodeNoise codes; // a remainder of 3 DN^2 at every level
-  codes.remaindersDn2 = { 3.0, 3.0 };
+  QuantisationNoise quantisation; // a remainder of 3 DN^2 at every level
+  quantisation.remaindersDn2 = { 3.0, 3.0 };
   const ProjectedSquares replaced(other.frame,
                                   Basis(),
                                   other.motion,
@@ -220,7 +220,7 @@ TEST(SensorNoiseProjectedVariance, ReplacedSquaresHaveTheirOwnDegreesOfFreedom)
                                   SerialFor,
                                   {},
                                   { { p }, { 400.0 * half }, half },
-                                  codes);
+                                  quantisation);
   EXPECT_NEAR(replaced.GetDivisor()[p], half, 1e-5 * half);
   EXPECT_NEAR(replaced.VarianceAt(0.0)[p], 400.0 - 3.0, 1e-4);
   EXPECT_NEAR(replaced.GetPerGain()[p], 2.0 * plain.GetPerGain()[p], 1e-5 * std::abs(plain.GetPerGain()[p]));

@@ -153,14 +153,14 @@ TYPED_TEST(SensorNoiseProjectionSumsOf, MergedPartsAgreeWithTheWhole)
 TEST(SensorNoiseProjectionSums, ResidualSquaresOfMergedChunksAreTheWholes)
 {
   // RSS = M2 - C' P^-1 C of merged chunks, estimator.md 6. From exact sums it has the same bits in any order.
-  using Codes = unsigned short;
-  const auto stack = Stack<Codes>();
+  using GreyValue = unsigned short;
+  const auto stack = Stack<GreyValue>();
   const auto rssOf = [&](const std::vector<std::pair<std::size_t, std::size_t>> & parts) {
-    IntegerMoments<Codes> moments(Pixels);
-    ProjectionSums        sums(Pixels, Series);
+    IntegerMoments<GreyValue> moments(Pixels);
+    ProjectionSums            sums(Pixels, Series);
     for (const auto & [first, last] : parts)
     {
-      IntegerMoments<Codes> own(Pixels);
+      IntegerMoments<GreyValue> own(Pixels);
       own.AddFrames(stack.data() + first * Pixels, Pixels, last - first, 0, Pixels);
       own.AdvanceFrames(last - first);
       moments.Merge(own);
@@ -278,7 +278,7 @@ TEST(SensorNoiseProjectionSums, NarrowOnesGiveTheWideOnes)
   narrow.Merge(narrowOf(0, 9));
   ProjectionSums part(Pixels, Series);
   part.AddFrames(ProjectedFrames(basis, stack.data(), layout, 0, 9), 0, Pixels);
-  double largest = 0.0; // of this part
+  double largest = 0.0; // largest error of this part
   for (std::size_t first = 0; first < Pixels; first += ProjectionSums::BlockPixels)
   {
     const std::size_t   pixels = std::min(ProjectionSums::BlockPixels, Pixels - first);

@@ -6,6 +6,7 @@
 #include "sensornoise/Parallel.h"
 #include "base/Simd.h"
 #include "pixels/ProjectedVariance.h"
+#include "pixels/RoughnessClasses.h"
 #include "helpers/ProjectionTestHelper.h"
 
 #include <algorithm>
@@ -126,6 +127,34 @@ TEST(SensorNoiseStaticPixels, FailingClassesAreKeptWhereTheGainNeedsThem)
   noise.line.line.gain = 0.001;
   EXPECT_EQ(noise.Test().firstBad, ProjectedVariance::Classes);
   EXPECT_NEAR(noise.Test().keptDeviation, 0.8, 0.3); // the largest of 8 classes of 40 to 100 pixels, each to 5 %
+}
+
+// Motion adds variance, and takes none: pixels that are far below the model do not move, so that the model is wrong.
+TEST(SensorNoiseStaticPixels, ClassesBelowTheModelAreKept)
+{
+  const Noise plain(Everywhere);
+  const Noise quiet([&](std::size_t p) { return plain.projected.ClassOf(p) >= 16 ? 0.1 : 1.0; });
+  EXPECT_EQ(quiet.Test().firstBad, ProjectedVariance::Classes);
+  EXPECT_TRUE(quiet.Test().isBelowModel);
+  EXPECT_FALSE(plain.Test().isBelowModel);
+  const Noise loud([&](std::size_t p) { return plain.projected.ClassOf(p) >= 16 ? 1.8 : 1.0; });
+  EXPECT_FALSE(loud.Test().isBelowModel);
+}
+
+TEST(SensorNoiseStaticPixels, RatiosOfLevelsFollowTheVarianceOfEachLevel)
+{
+  const std::vector<double> mean = WavyScene(Width, Height);
+  const auto [low, high] = std::minmax_element(mean.begin(), mean.end());
+  const double range = *high - *low;
+  Noise        noise([&, low = *low](std::size_t p) { return 0.4 + 0.6 * (mean[p] - low) / range; });
+  SetRatiosOfLevels(noise.line, noise.projected, noise.input.mask);
+  ASSERT_GE(noise.line.levels.size(), 4u);
+  for (std::size_t k = 0; k < noise.line.levels.size(); ++k)
+  {
+    const double expected = 0.4 + 0.6 * (noise.line.levels[k] - *low) / range;
+    EXPECT_NEAR(noise.line.ratios[k], expected, 0.2 * expected) << k; // 5 sqrt(2 / 26 / 50 pixels)
+  }
+  EXPECT_EQ(noise.Test().firstBad, ProjectedVariance::Classes);
 }
 
 TEST(SensorNoiseStaticPixels, ErrorOfTheModelIsAnErrorOfItsClasses)

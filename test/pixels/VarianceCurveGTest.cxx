@@ -107,7 +107,7 @@ TEST(SensorNoiseVarianceCurve, WaveInTheVarianceIsNoChance)
 {
   const VarianceCurve curve = CurveOfPixels(0.05, 0.2);
   EXPECT_GT(curve.ReducedChi2(), 3.0);
-  EXPECT_DOUBLE_EQ(curve.ReducedChi2(2.0), 0.5 * curve.ReducedChi2()); // all neighbours share a bin
+  EXPECT_DOUBLE_EQ(curve.ReducedChi2(2.0), 0.5 * curve.ReducedChi2()); // all neighbours are in one bin
   EXPECT_DOUBLE_EQ(curve.ReducedChi2(1e9), 1.0);                       // some of them do
   EXPECT_GT(curve.Nonlinearity(1.0), 0.1);
   EXPECT_LT(curve.Nonlinearity(1.0), 0.2 + 5.0 * 0.0073);
@@ -161,6 +161,47 @@ TEST(SensorNoiseVarianceCurve, HalvesOfTheInformationArePartedWhereItIs)
   // With two bright bins the brighter half of the information is at one level, which determines no slope.
   curve.bins.erase(curve.bins.begin() + 60, curve.bins.begin() + 62);
   EXPECT_EQ(curve.FitHalves().size(), 3u);
+}
+
+TEST(SensorNoiseVarianceCurve, GroupsOfLevelsHaveTheErrorOfIndependentBins)
+{
+  std::mt19937               random(43);
+  std::normal_distribution<> normal(0.0, 1.0 / std::sqrt(Weight));
+  constexpr int              curves = 400;
+  double                     sum = 0.0;
+  for (int k = 0; k < curves; ++k)
+  {
+    sum += EvenCurve([&](double) { return normal(random); }).SlopeVarianceByGroups();
+  }
+  const double information = Weight * 4.0 * (64.0 * 64.0 * 64.0 - 64.0) / 12.0; // levels 2 DN apart
+  // A jackknife of 16 groups scatters by sqrt(2 / 15), and by more where groups have unequal leverage.
+  EXPECT_NEAR(sum / curves * information, 1.0, 0.15);
+}
+
+TEST(SensorNoiseVarianceCurve, GroupsOfLevelsHoldDeviationsThatNeighboursShare)
+{
+  // The brightest eighth of the bins is 3 DN^2 above the line: its effect on the slope is nearly all in the error.
+  const auto          excess = [](double x) { return x > 47.0 ? 3.0 : 0.0; };
+  const VarianceCurve curve = EvenCurve(excess);
+  double              information = 0.0;
+  double              product = 0.0;
+  for (const CurveBin & bin : curve.bins)
+  {
+    const double x = bin.x / bin.weight;
+    information += bin.weight * x * x;
+    product += bin.weight * x * excess(x);
+  }
+  const double error = std::sqrt(curve.SlopeVarianceByGroups());
+  EXPECT_GT(error, 0.4 * product / information);
+  EXPECT_GT(error, std::sqrt(curve.ReducedChi2() / information));
+}
+
+TEST(SensorNoiseVarianceCurve, GroupsOfOneLevelHaveNoError)
+{
+  const VarianceCurve two{ MakeLine(),
+                           { BinAt(-1.0, [](double) { return 1.0; }), BinAt(1.0, [](double) { return 0.0; }) } };
+  EXPECT_EQ(two.SlopeVarianceByGroups(), 0.0);
+  EXPECT_EQ((VarianceCurve{ MakeLine(), {} }.SlopeVarianceByGroups()), 0.0);
 }
 
 TEST(SensorNoiseVarianceCurve, DarkestFractionIsARatioOfSignals)

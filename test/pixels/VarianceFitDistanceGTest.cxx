@@ -107,7 +107,7 @@ TEST(SensorNoiseVarianceFitDistance, LineOfLogNormalNoiseIsThatOfTheMean)
   EXPECT_LT(mean.trimmedFraction, 1e-3);
 }
 
-TEST(SensorNoiseVarianceFitDistance, SpreadOfThePixelsOwnNoiseIsFound)
+TEST(SensorNoiseVarianceFitDistance, DispersionOfTheNoiseOfThePixelsIsFound)
 {
   const Maps   maps(LogNormal(0.3));
   const double mean = maps.MeanReadVariance();

@@ -74,6 +74,26 @@ TEST(SensorNoiseVarianceStep, FindsLevelSizeAndTheLineBelow)
   }
 }
 
+TEST(SensorNoiseVarianceStep, IsPossibleNextToTheEnd)
+{
+  // Six bins lie above it, one of them where pixels are of either amplifier. A curve describes the others nearly as
+  // well.
+  const VarianceCurve curve = CurveOf([](double level) { return LineAt(level) + (level > 2450.0 ? 50.0 : 0.0); }, 7);
+  EXPECT_FALSE(FindVarianceStep(curve));
+  const std::optional<VarianceStep> step = FindPossibleStep(curve);
+  ASSERT_TRUE(step);
+  EXPECT_FALSE(step->isCertain);
+  EXPECT_NEAR(step->line.gain, Gain, 4.0 * std::sqrt(step->line.covariance(0, 0)));
+
+  // In one of hundreds of lines, by the significance of several tests.
+  std::size_t found = 0;
+  for (unsigned int seed = 1; seed <= 200; ++seed)
+  {
+    found += FindPossibleStep(CurveOf(LineAt, seed)) ? 1 : 0;
+  }
+  EXPECT_LE(found, 1U);
+}
+
 TEST(SensorNoiseVarianceStep, FindsNoneInALine)
 {
   for (unsigned int seed = 1; seed <= 200; ++seed)

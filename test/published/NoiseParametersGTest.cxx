@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "base/PolynomialFit.h"
-#include "published/PublishedEstimate.h"
+#include "published/PublishedPasses.h"
 #include "report/Quantities.h"
 #include "sensornoise/Report.h"
 

@@ -90,7 +90,7 @@ TEST(SensorNoisePublishedMethod, StrongFlickerAndLittleNoiseIdentifyTheOffset)
 
 TEST(SensorNoisePublishedMethod, SaturatedPixelsAreFoundAndLeftOut)
 {
-  const auto     method = Measure(FlickeringStack().Map<Codes>([](int u) { return std::min(u, 2900); }));
+  const auto     method = Measure(FlickeringStack().Map<GreyValue>([](int u) { return std::min(u, 2900); }));
   const Report & report = method.GetReport();
   EXPECT_EQ(report.clipHighDn, 2900.0);
   EXPECT_TRUE(HasWarning(report, WarningCode::ClipLevelFound));
@@ -103,10 +103,10 @@ TEST(SensorNoisePublishedMethod, StacksWithoutInformationFailWithAReason)
   const auto clipped = Measure(ConstantStack<unsigned char>(255));
   ExpectNothingMeasured(clipped.GetReport(), WarningCode::NothingToMeasure);
   EXPECT_EQ(clipped.GetReport().pixels.clipped, 320u);
-  auto changing = ConstantStack<Codes>(700);
+  auto changing = ConstantStack<GreyValue>(700);
   for (std::size_t t = 0; t < changing.frames; ++t)
   {
-    changing.pixels[t * 20 * 16] = static_cast<Codes>(700 + t); // otherwise all frames are equal
+    changing.pixels[t * 20 * 16] = static_cast<GreyValue>(700 + t); // otherwise all frames are equal
   }
   const auto constant = Measure(changing);
   ExpectNothingMeasured(constant.GetReport(), WarningCode::NothingToMeasure);
@@ -120,7 +120,7 @@ TEST(SensorNoisePublishedMethod, StacksWithoutInformationFailWithAReason)
   const std::size_t pixels = repeated.width * repeated.height;
   for (std::size_t i = pixels; i < repeated.pixels.size(); ++i)
   {
-    repeated.pixels[i] = i % pixels == 0 ? static_cast<Codes>(i / pixels) : repeated.pixels[i % pixels];
+    repeated.pixels[i] = i % pixels == 0 ? static_cast<GreyValue>(i / pixels) : repeated.pixels[i % pixels];
   }
   ExpectNothingMeasured(Measure(repeated).GetReport(), WarningCode::NothingToMeasure);
 }
@@ -138,7 +138,7 @@ TEST(SensorNoisePublishedMethod, OneIntensityIsTooSmallARange)
 
 TEST(SensorNoisePublishedMethod, WrongUseIsRefused)
 {
-  using Method = PublishedMethod<Codes>;
+  using Method = PublishedMethod<GreyValue>;
   const FrameGeometry geometry{ 20, 16, 1 };
   EXPECT_THROW(Method({}, geometry, 4), std::invalid_argument);
   EXPECT_NO_THROW(Method({}, geometry, 5));
@@ -157,13 +157,13 @@ TEST(SensorNoisePublishedMethod, WrongUseIsRefused)
 
 TEST(SensorNoisePublishedMethod, PassOfWrongLengthIsRefused)
 {
-  const auto             stack = ConstantStack<Codes>(700);
-  PublishedMethod<Codes> shortPass({}, { 20, 16, 1 }, 20);
+  const auto                 stack = ConstantStack<GreyValue>(700);
+  PublishedMethod<GreyValue> shortPass({}, { 20, 16, 1 }, 20);
   shortPass.AddFrames(stack.pixels.data(), 19);
   EXPECT_THROW(shortPass.EndPass(), std::logic_error);
   for (unsigned int pass = 0; pass < 3; ++pass)
   {
-    PublishedMethod<Codes> longPass({}, { 20, 16, 1 }, 19);
+    PublishedMethod<GreyValue> longPass({}, { 20, 16, 1 }, 19);
     for (unsigned int before = 0; before < pass; ++before)
     {
       longPass.AddFrames(stack.pixels.data(), 19);

@@ -89,8 +89,8 @@ TEST(SensorNoisePublishedMethod, TransposedFramesSwapTheAxes)
   for (const double period : { 0.0, 40.0 })
   {
     simulation.rollingShutterPeriodRows = period;
-    const auto   stack = Simulate(simulation);
-    Stack<Codes> transposed{ stack.height, stack.width, stack.frames, stack.pixels };
+    const auto       stack = Simulate(simulation);
+    Stack<GreyValue> transposed{ stack.height, stack.width, stack.frames, stack.pixels };
     for (std::size_t i = 0; i < stack.pixels.size(); ++i)
     {
       const std::size_t x = i % stack.width;
@@ -117,16 +117,16 @@ TEST(SensorNoisePublishedMethod, TransposedFramesSwapTheAxes)
 TEST(SensorNoisePublishedMethod, AddedConstantShiftsTheOffset)
 {
   const auto before = Measure(FlickeringStack(), WithGlobalShutter());
-  const auto after = Measure(FlickeringStack().Map<Codes>([](int u) { return u + 5000; }), WithGlobalShutter());
+  const auto after = Measure(FlickeringStack().Map<GreyValue>([](int u) { return u + 5000; }), WithGlobalShutter());
   // v = u / ubar is relative to the mean of each pixel. The means of S^* are up to 1 % from u^* (3 sd of a mean are
   // 3 * 25 DN of 3,000, weighted). The constant changes the weights by so much, and a flicker of 5 % by 5e-4.
   ExpectSameCamera(before.GetReport(), after.GetReport(), 1.0, 5000.0, 5e-4);
 }
 
-TEST(SensorNoisePublishedMethod, LeftAlignedCodesScaleTheCamera)
+TEST(SensorNoisePublishedMethod, LeftAlignedNumbersScaleTheCamera)
 {
-  const auto     stack = FlickeringStack().Map<Codes>([](int u) { return 16 * std::min(u, 3400); }); // saturated
-  const auto     right = Measure(FlickeringStack().Map<Codes>([](int u) { return std::min(u, 3400); }));
+  const auto     stack = FlickeringStack().Map<GreyValue>([](int u) { return 16 * std::min(u, 3400); }); // saturated
+  const auto     right = Measure(FlickeringStack().Map<GreyValue>([](int u) { return std::min(u, 3400); }));
   const auto     left = Measure(stack);
   const Report & before = right.GetReport();
   const Report & after = left.GetReport();
@@ -137,16 +137,16 @@ TEST(SensorNoisePublishedMethod, LeftAlignedCodesScaleTheCamera)
   EXPECT_EQ(after.pixels.clipped, before.pixels.clipped);
 }
 
-TEST(SensorNoisePublishedMethod, FloatingPointPixelsGiveTheSameAsCodes)
+TEST(SensorNoisePublishedMethod, FloatingPointPixelsGiveTheSameAsIntegers)
 {
-  const auto        codes = Measure(FlickeringStack(), WithGlobalShutter());
+  const auto        integers = Measure(FlickeringStack(), WithGlobalShutter());
   PublishedSettings given = WithGlobalShutter();
-  given.codes = MakeCodeSettings(12, 0.0, 4095.0, 1.0);
+  given.codes = MakeDnSettings(12, 0.0, 4095.0, 1.0);
   const auto floats = Measure(FlickeringStack().Map<float>([](int u) { return u; }), given);
-  ExpectSameCamera(codes.GetReport(), floats.GetReport());
-  EXPECT_EQ(codes.GetPixelUse(), floats.GetPixelUse());
-  const auto signedCodes = Measure(FlickeringStack().Map<short>([](int u) { return u; }), WithGlobalShutter());
-  ExpectSameCamera(codes.GetReport(), signedCodes.GetReport());
+  ExpectSameCamera(integers.GetReport(), floats.GetReport());
+  EXPECT_EQ(integers.GetPixelUse(), floats.GetPixelUse());
+  const auto signedIntegers = Measure(FlickeringStack().Map<short>([](int u) { return u; }), WithGlobalShutter());
+  ExpectSameCamera(integers.GetReport(), signedIntegers.GetReport());
 }
 
 TEST(SensorNoisePublishedMethod, MaskedPixelsTakeNoPart)
@@ -158,13 +158,13 @@ TEST(SensorNoisePublishedMethod, MaskedPixelsTakeNoPart)
     mask[p] = p / stack.width < 40 ? 7 : 0;
   }
   PublishedSettings settings = WithGlobalShutter();
-  settings.codes = MakeCodeSettings(12, 0.0, 4095.0, 1.0); // otherwise the codes of masked pixels are used
+  settings.codes = MakeDnSettings(12, 0.0, 4095.0, 1.0); // otherwise the digital numbers of masked pixels are used
   const auto expected = Measure(stack, settings, 1000, mask);
   for (std::size_t i = 0; i < stack.pixels.size(); ++i)
   {
     if (i / stack.width % stack.height > 40) // row 40 is beside the last used row
     {
-      stack.pixels[i] = static_cast<Codes>(i * 977 % 4096);
+      stack.pixels[i] = static_cast<GreyValue>(i * 977 % 4096);
     }
   }
   const auto method = Measure(stack, settings, 1000, mask);

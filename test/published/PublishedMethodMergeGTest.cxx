@@ -81,7 +81,7 @@ TEST(SensorNoisePublishedMethodMerge, PartsOfIntegerFramesGiveTheWholesBits)
 {
   SimulationSettings simulation = SettingsOf(0.05, 30);
   simulation.rollingShutterPeriodRows = 40.0;
-  const auto rolling = sensornoise::test::Simulate<Codes>(simulation, 64, 56, MakeBarsScene(64, 56));
+  const auto rolling = sensornoise::test::Simulate<GreyValue>(simulation, 64, 56, MakeBarsScene(64, 56));
   for (const auto & settings : { WithGlobalShutter(), ByRow() })
   {
     const auto & stack = settings.rollingShutter == RollingShutter::Off ? FlickeringStack() : rolling;

@@ -3,7 +3,7 @@
 #include "sensornoise/ReportText.h"
 #include "sensornoise/Simulator.h"
 #include "helpers/PublishedTestHelper.h"
-#include "published/PublishedEstimate.h"
+#include "published/PublishedPasses.h"
 
 #include <cmath>
 #include <cstddef>
@@ -29,7 +29,7 @@ ReportOfHalves(double lower)
   }
   SimulationSettings settings = SettingsOf(0.05, 40);
   settings.rollingShutterPeriodRows = 40.0;
-  return Measure(Simulate<Codes>(settings, size, size, scene)).GetReport();
+  return Measure(Simulate<GreyValue>(settings, size, size, scene)).GetReport();
 }
 
 /** Returns the report of small frames whose columns have these levels, or a ramp if there are none. */
@@ -44,7 +44,7 @@ ReportOfLevels(const std::vector<double> & levels)
     scene[p] = levels.empty() ? static_cast<double>(p % width * height + p / width) / static_cast<double>(scene.size())
                               : levels[p % width * levels.size() / width];
   }
-  return Measure(Simulate<Codes>(SettingsOf(0.05, 40), width, height, scene)).GetReport();
+  return Measure(Simulate<GreyValue>(SettingsOf(0.05, 40), width, height, scene)).GetReport();
 }
 } // namespace
 
@@ -104,14 +104,14 @@ TEST(SensorNoisePublishedWarnings, OffsetLineMisfit)
 {
   // A second lamp illuminates the dark areas.
   const SimulationSettings settings = SettingsOf(0.05, 40);
-  Stack<Codes>             stack = Simulate(settings);
+  Stack<GreyValue>         stack = Simulate(settings);
   EXPECT_FALSE(HasWarning(Measure(stack).GetReport(), WarningCode::OffsetLineMisfit));
   for (std::size_t i = 0; i < stack.pixels.size(); ++i)
   {
     const auto t = static_cast<double>(i / (stack.width * stack.height));
     if (stack.pixels[i] < 500)
     {
-      stack.pixels[i] = static_cast<Codes>(stack.pixels[i] + std::lround(20.0 + 20.0 * std::sin(2.3 * t)));
+      stack.pixels[i] = static_cast<GreyValue>(stack.pixels[i] + std::lround(20.0 + 20.0 * std::sin(2.3 * t)));
     }
   }
   const Report report = Measure(stack).GetReport();

@@ -40,7 +40,7 @@ SimulateCompanded(unsigned int bits, double gain, double readNoiseDn = 8.0)
 }
 } // namespace
 
-TEST(SensorNoiseCompandedCodes, GainIsTheSensorsAndTheSlopeHoldsTheCodes)
+TEST(SensorNoiseCompandedData, GainIsTheSensorsAndTheSlopeContainsTheQuantization)
 {
   for (const unsigned int bits : { 8U, 10U })
   {
@@ -53,14 +53,14 @@ TEST(SensorNoiseCompandedCodes, GainIsTheSensorsAndTheSlopeHoldsTheCodes)
     EXPECT_NEAR(*report.gain.value, gain, 3.0 * error) << bits;
     // The step near level v is 2 sqrt(4095 v) / (2^bits - 1): its square over 12 has this slope.
     const double top = std::exp2(bits) - 1.0;
-    const double ofCodes = 4.0 * 4095.0 / (12.0 * top * top);
-    EXPECT_GT(ofCodes, 3.0 * error); // otherwise nothing is tested
-    EXPECT_NEAR(*report.varianceSlope.value - *report.gain.value, ofCodes, 0.05 * ofCodes);
+    const double ofQuantisation = 4.0 * 4095.0 / (12.0 * top * top);
+    EXPECT_GT(ofQuantisation, 3.0 * error); // otherwise nothing is tested
+    EXPECT_NEAR(*report.varianceSlope.value - *report.gain.value, ofQuantisation, 0.05 * ofQuantisation);
     EXPECT_NEAR(*report.readNoise.value, 8.0, 4.0 * *report.readNoise.standardError);
   }
 }
 
-TEST(SensorNoiseCompandedCodes, EvenCodesHaveOneSlope)
+TEST(SensorNoiseCompandedData, EvenStepsHaveOneSlope)
 {
   const Report report = Measure(SimulateCompanded(0, 1.0), {}).GetReport();
   EXPECT_FALSE(HasWarning(report, WarningCode::Companded));
@@ -69,7 +69,7 @@ TEST(SensorNoiseCompandedCodes, EvenCodesHaveOneSlope)
   EXPECT_EQ(*report.totalIntercept.value - 1.0 / 12.0, *report.intercept.value);
 }
 
-TEST(SensorNoiseCompandedCodes, SameBitsForAnyChunksAndParts)
+TEST(SensorNoiseCompandedData, SameBitsForAnyChunksAndParts)
 {
   const auto                    stack = SimulateCompanded(8, 1.0);
   const auto                    whole = Measure(stack, {});
@@ -98,14 +98,14 @@ TEST(SensorNoiseCompandedCodes, SameBitsForAnyChunksAndParts)
   }
 }
 
-TEST(SensorNoiseCompandedCodes, TooCoarseInTheDarkIsRefused)
+TEST(SensorNoiseCompandedData, TooCoarseInTheDarkIsRefused)
 {
   const Report report = Measure(SimulateCompanded(6, 0.2), {}).GetReport();
   EXPECT_FALSE(report.gain.value);
   EXPECT_TRUE(HasWarning(report, WarningCode::CodesTooCoarse)) << ToJson(report);
 }
 
-TEST(SensorNoiseCompandedCodes, TooCoarseWhereBrightIsLeftOut)
+TEST(SensorNoiseCompandedData, TooCoarseWhereBrightIsLeftOut)
 {
   const auto   stack = SimulateCompanded(7, 0.05, 15.0);
   const auto   method = Measure(stack, {});
@@ -116,7 +116,7 @@ TEST(SensorNoiseCompandedCodes, TooCoarseWhereBrightIsLeftOut)
   for (std::size_t p = 0; p < Size * Size; ++p)
   {
     const auto use = static_cast<PixelUse>(method.GetPixelUse()[p]);
-    coarse += use == PixelUse::CoarseCodes ? 1 : 0;
+    coarse += use == PixelUse::CoarseQuantisation ? 1 : 0;
     // The step is 49 DN, and the noise 18.6 DN. The mean of the neighbours decides, so that pixels at edges are used.
     usedWhereBright += method.GetMean()[p] > 2400.0 && use == PixelUse::Used ? 1 : 0;
   }

@@ -50,6 +50,7 @@ WarningOf(const NoiseCorrelation & correlation, bool hasGain = true)
   }
   EXPECT_EQ(report.warnings.size(), 1U);
   EXPECT_LE(WordsOfLongestSentence(report.warnings[0].message), MostWords) << report.warnings[0].message;
+  EXPECT_TRUE(HasAction(report.warnings[0])) << report.warnings[0].message;
   return std::string(KindOf(report.warnings[0].code).name) + ": " + report.warnings[0].message;
 }
 
@@ -73,8 +74,9 @@ TEST(SensorNoiseCorrelationReport, FilteredFramesAreNamedWithTheLargestCoefficie
     const std::string warning = WarningOf(CorrelationOf(NoiseKind::Filtered, below));
     EXPECT_EQ(warning.rfind("noise-correlated: the camera smooths, resamples or sharpens its frames", 0), 0U)
       << warning;
-    EXPECT_TRUE(Has(warning, "pixels 1 row apart share " + std::string(below < 0.0 ? "-5" : "5"))) << warning;
-    EXPECT_TRUE(Has(warning, "+- 0.30 % of their noise")) << warning;
+    EXPECT_TRUE(Has(warning, "the noise correlation of pixels 1 row apart is " + std::string(below < 0.0 ? "-5" : "5")))
+      << warning;
+    EXPECT_TRUE(Has(warning, "+- 0.30 %")) << warning;
     EXPECT_TRUE(Has(warning, "The slope of the variance (variance_slope) is 50 % of the gain")) << warning;
     EXPECT_TRUE(Has(warning, "Set the camera to raw frames")) << warning;
   }
@@ -84,16 +86,17 @@ TEST(SensorNoiseCorrelationReport, EachKindIsSaidInItsWords)
 {
   const std::string crosstalk = WarningOf(CorrelationOf(NoiseKind::Crosstalk));
   EXPECT_EQ(crosstalk.rfind("noise-correlated: neighbours are coupled, or slightly filtered", 0), 0U) << crosstalk;
-  EXPECT_TRUE(Has(crosstalk, "share 5.00 +- 0.30 %")) << crosstalk;
+  EXPECT_TRUE(Has(crosstalk, "apart is 5.00 +- 0.30 %")) << crosstalk;
 
   const std::string fatter = WarningOf(CorrelationOf(NoiseKind::BrighterFatter));
   EXPECT_EQ(fatter.rfind("noise-correlated: charge repels charge", 0), 0U) << fatter;
   EXPECT_TRUE(Has(fatter, "brighter-fatter")) << fatter;
   EXPECT_TRUE(Has(fatter, "square of the signal")) << fatter;
+  EXPECT_TRUE(Has(fatter, "Use `gain` for electrons")) << fatter;
 
   const std::string temporal = WarningOf(CorrelationOf(NoiseKind::Temporal));
   EXPECT_EQ(temporal.rfind("noise-correlated: the camera mixes its frames", 0), 0U) << temporal;
-  EXPECT_TRUE(Has(temporal, "frames 1 apart share 20.0 +- 1.0 % of their noise")) << temporal;
+  EXPECT_TRUE(Has(temporal, "the noise correlation of frames 1 apart is 20.0 +- 1.0 %")) << temporal;
 
   const std::string notLinear = WarningOf(CorrelationOf(NoiseKind::NotLinear));
   EXPECT_EQ(notLinear.rfind("noise-not-linear: ", 0), 0U) << notLinear;
@@ -145,7 +148,7 @@ TEST(SensorNoiseCorrelationReport, WithoutAGainNothingIsSaidOfIt)
 {
   const std::string warning = WarningOf(CorrelationOf(NoiseKind::Filtered), false);
   EXPECT_FALSE(Has(warning, "of the gain")) << warning;
-  EXPECT_TRUE(Has(warning, "share 5.00 +- 0.30 % of their noise")) << warning;
+  EXPECT_TRUE(Has(warning, "apart is 5.00 +- 0.30 %")) << warning;
 }
 
 TEST(SensorNoiseCorrelationReport, RecordHoldsKindAndCoefficients)
@@ -202,7 +205,8 @@ TEST(SensorNoiseCorrelationReport, NormalNoiseThatIsNotLinearIsInterferenceOrRou
   NoiseCorrelation correlation = CorrelationOf(NoiseKind::NotLinear);
   correlation.kurtosis.fill({ 0.001, 0.002 });
   const std::string warning = WarningOf(correlation, false);
-  EXPECT_TRUE(Has(warning, "noise-not-linear: pixels 1 row apart share 5.00 +- 0.30 % of their noise")) << warning;
+  EXPECT_TRUE(Has(warning, "noise-not-linear: the noise correlation of pixels 1 row apart is 5.00 +- 0.30 %"))
+    << warning;
   EXPECT_TRUE(Has(warning, "periodic interference")) << warning;
   EXPECT_FALSE(Has(warning, "takes medians")) << warning;
 }

@@ -40,7 +40,7 @@ struct FlatMoments
   double mean{ 0.0 };
   double variance{ 0.0 };
 
-  explicit FlatMoments(const Stack<Codes> & stack)
+  explicit FlatMoments(const Stack<GreyValue> & stack)
   {
     double pixels = 0.0;
     for (std::size_t p = 0; p < stack.width * stack.height; ++p)
@@ -73,8 +73,8 @@ struct FlatMoments
 TEST(SensorNoiseDarkPoint, FlatAndDarkFramesArePhotonTransfer)
 {
   const SimulationSettings settings = FlatCamera();
-  const Stack<Codes>       flat = Simulate<Codes>(settings, Size, Size, FlatScene(Size));
-  const Stack<Codes>       dark = DarkFramesOf(settings, Size);
+  const Stack<GreyValue>   flat = Simulate<GreyValue>(settings, Size, Size, FlatScene(Size));
+  const Stack<GreyValue>   dark = DarkFramesOf(settings, Size);
   const FlatMoments        bright(flat);
   const FlatMoments        black(dark);
   const double             gain = (bright.variance - black.variance) / (bright.mean - black.mean);
@@ -101,8 +101,8 @@ TEST(SensorNoiseDarkPoint, FlickerOfAFlatIsNoNoise)
     settings.seed = seed;
     settings.conditions.flickerSd = 0.05;
     settings.camera.electrons = 2700.0;
-    const Stack<Codes> flat = Simulate<Codes>(settings, Size, Size, FlatScene(Size));
-    const Report       report = Measure(flat, WithDarkFrames(DarkFramesOf(settings, Size))).GetReport();
+    const Stack<GreyValue> flat = Simulate<GreyValue>(settings, Size, Size, FlatScene(Size));
+    const Report           report = Measure(flat, WithDarkFrames(DarkFramesOf(settings, Size))).GetReport();
     EXPECT_NEAR(ValueOf(report.gain), 1.0, 5.0 * *report.gain.standardError);
     EXPECT_LT(*report.gain.standardError, 0.003);
     EXPECT_FALSE(HasWarning(report, WarningCode::StrongVibration));
@@ -116,9 +116,9 @@ TEST(SensorNoiseDarkPoint, PixelsThatDifferDoNotBiasAFlat)
   settings.flaws.pattern = { 0.01, 0.0, 0.0, 2.0 };
   settings.dsnuSdDn = 10.0;
   settings.prnuSd = 0.01;
-  const Stack<Codes>   flat = Simulate<Codes>(settings, Size, Size, FlatScene(Size, 0.003));
-  const StackSimulator simulator(FlatScene(Size), Size, Size, settings);
-  double               offsetDn = 0.0; // with the columns of this sensor
+  const Stack<GreyValue> flat = Simulate<GreyValue>(settings, Size, Size, FlatScene(Size, 0.003));
+  const StackSimulator   simulator(FlatScene(Size), Size, Size, settings);
+  double                 offsetDn = 0.0; // with the columns of this sensor
   for (std::size_t p = 0; p < Size * Size; ++p)
   {
     offsetDn += simulator.PixelOffsetDn(p) / (Size * Size);
@@ -133,8 +133,8 @@ TEST(SensorNoiseDarkPoint, PixelsThatDifferDoNotBiasAFlat)
 TEST(SensorNoiseDarkPoint, DarkFramesOfAnotherCameraAreNoticed)
 {
   // The levels extend to the dark, so that no non-linearity can lie between them and the dark frames.
-  const Stack<Codes> stack = Simulate<Codes>(StaticCamera(40), 128, 128);
-  const auto         reportOf = [&](double varianceDn2) {
+  const Stack<GreyValue> stack = Simulate<GreyValue>(StaticCamera(40), 128, 128);
+  const auto             reportOf = [&](double varianceDn2) {
     RefinedSettings settings;
     settings.offset = KnownOffset{ 100.0, 0.02, 20, DarkVariance{ varianceDn2, 0.3 } };
     return Measure(stack, settings).GetReport();
@@ -159,14 +159,14 @@ TEST(SensorNoiseDarkPoint, DarkFramesThatHoldSignalAreNoticed)
   SimulationSettings settings = StaticCamera(40);
   settings.dsnuSdDn = 10.0;
   settings.prnuSd = 0.01;
-  const Stack<Codes> stack = Simulate<Codes>(settings, Size, Size);
-  const Report       own = Measure(stack, WithDarkFrames(DarkFramesOf(settings, Size))).GetReport();
+  const Stack<GreyValue> stack = Simulate<GreyValue>(settings, Size, Size);
+  const Report           own = Measure(stack, WithDarkFrames(DarkFramesOf(settings, Size))).GetReport();
   EXPECT_FALSE(HasWarning(own, WarningCode::DarkFramesDiffer));
   ExpectHolds(own.offset, 100.0);
   SimulationSettings dim = settings;
   dim.seed = 22;
   dim.camera.electrons *= 0.05;
-  const Report report = Measure(stack, WithDarkFrames(Simulate<Codes>(dim, Size, Size))).GetReport();
+  const Report report = Measure(stack, WithDarkFrames(Simulate<GreyValue>(dim, Size, Size))).GetReport();
   const auto   warning = std::find_if(report.warnings.begin(), report.warnings.end(), [](const Warning & w) {
     return w.code == WarningCode::DarkFramesDiffer;
   });
@@ -194,9 +194,9 @@ TEST(SensorNoiseDarkPoint, ErrorOfTheGainIsThatOfTheLevelsAndNotOfTheDarkestPixe
     settings.seed = seed;
     SimulationSettings dark = settings;
     dark.seed = 1000 + seed;
-    const Stack<Codes> stack = Simulate<Codes>(settings, 96, 96);
-    const Report       alone = Measure(stack, {}).GetReport();
-    const Report       report = Measure(stack, WithDarkFrames(DarkFramesOf(dark, 96))).GetReport();
+    const Stack<GreyValue> stack = Simulate<GreyValue>(settings, 96, 96);
+    const Report           alone = Measure(stack, {}).GetReport();
+    const Report           report = Measure(stack, WithDarkFrames(DarkFramesOf(dark, 96))).GetReport();
     ASSERT_EQ(report.gain.status, EstimateStatus::Identified) << seed;
     // Levels below a tenth of the signal give no gain by themselves, so the error may be a little larger.
     EXPECT_LT(*report.gain.standardError, 1.5 * *alone.gain.standardError) << seed;
@@ -209,7 +209,7 @@ TEST(SensorNoiseDarkPoint, NarrowRangeIsTiedToTheDarkFrames)
   // The signals are from 70 to 100 %: the line alone determines the gain within some per cent, the photon transfer
   // within some tenths of a per cent.
   const SimulationSettings settings = FlatCamera();
-  const Stack<Codes>       stack = Simulate<Codes>(settings, Size, Size, FlatScene(Size, 0.3));
+  const Stack<GreyValue>   stack = Simulate<GreyValue>(settings, Size, Size, FlatScene(Size, 0.3));
   const Report             report = Measure(stack, WithDarkFrames(DarkFramesOf(settings, Size))).GetReport();
   EXPECT_NEAR(ValueOf(report.gain), 1.0, 5.0 * *report.gain.standardError);
   EXPECT_LT(*report.gain.standardError, 0.005);
@@ -219,12 +219,12 @@ TEST(SensorNoiseDarkPoint, NarrowRangeIsTiedToTheDarkFrames)
 TEST(SensorNoiseDarkPoint, RefusedStackStillHasWhatTheDarkFramesTell)
 {
   // A gamma of 2.2 and a constant stack are no responses of a sensor.
-  SimulationSettings settings = StaticCamera(Frames);
-  const Stack<Codes> dark = DarkFramesOf(settings, Size);
+  SimulationSettings     settings = StaticCamera(Frames);
+  const Stack<GreyValue> dark = DarkFramesOf(settings, Size);
   settings.flaws.response = { ResponseShape::Gamma, 2.2 };
-  for (const Stack<Codes> & stack :
-       { Simulate<Codes>(settings, Size, Size),
-         Stack<Codes>{ Size, Size, Frames, std::vector<Codes>(Size * Size * Frames, 700) } })
+  for (const Stack<GreyValue> & stack :
+       { Simulate<GreyValue>(settings, Size, Size),
+         Stack<GreyValue>{ Size, Size, Frames, std::vector<GreyValue>(Size * Size * Frames, 700) } })
   {
     const Report report = Measure(stack, WithDarkFrames(dark)).GetReport();
     EXPECT_NE(report.gain.status, EstimateStatus::Identified);

@@ -16,7 +16,7 @@ using namespace sensornoise::test;
 
 namespace
 {
-using Codes = unsigned short;
+using GreyValue = unsigned short;
 
 constexpr std::size_t Width = 160;
 constexpr std::size_t Height = 128;
@@ -59,7 +59,7 @@ TEST(SensorNoiseDarkScene, ItsBrightPixelsDetermineTheGain)
     {
       for (const double flicker : { 0.01, 0.0 })
       {
-        const auto stack = Simulate<Codes>(DarkSettings(flicker), Width, Height, Disc(radius, 80.0, floor));
+        const auto stack = Simulate<GreyValue>(DarkSettings(flicker), Width, Height, Disc(radius, 80.0, floor));
         const auto method = Measure(stack);
         const auto gain = method.GetReport().gain;
         ASSERT_EQ(gain.status, EstimateStatus::Identified) << radius << ' ' << floor << ' ' << flicker;
@@ -80,7 +80,7 @@ TEST(SensorNoiseDarkScene, FixedPatternOfTheDarkPixelsIsNoSignal)
     {
       SimulationSettings settings = DarkSettings(0.0);
       settings.dsnuSdDn = dsnu;
-      const auto method = Measure(Simulate<Codes>(settings, Width, Height, Disc(radius, 80.0, 0.0)));
+      const auto method = Measure(Simulate<GreyValue>(settings, Width, Height, Disc(radius, 80.0, 0.0)));
       const auto gain = method.GetReport().gain;
       ASSERT_EQ(gain.status, EstimateStatus::Identified) << radius << ' ' << dsnu;
       EXPECT_NEAR(*gain.value, 0.5, 4.0 * *gain.standardError) << radius << ' ' << dsnu;
@@ -92,7 +92,7 @@ TEST(SensorNoiseDarkScene, AMovingThingInFrontOfADarkGroundIsNoSignal)
 {
   // The disc moves by half its radius over the burst: no line fits the variance against the level.
   const SimulationSettings settings = DarkSettings(0.01);
-  Stack<Codes>             stack{ Width, Height, settings.frames, {} };
+  Stack<GreyValue>         stack{ Width, Height, settings.frames, {} };
   for (std::size_t t = 0; t < settings.frames; ++t)
   {
     SimulationSettings one = settings;
@@ -100,7 +100,7 @@ TEST(SensorNoiseDarkScene, AMovingThingInFrontOfADarkGroundIsNoSignal)
     one.frames = 1;
     one.prnuSd = one.dsnuSdDn = 0.0; // these patterns depend on the seed
     const auto place = 72.0 + 16.0 * static_cast<double>(t) / static_cast<double>(settings.frames);
-    const auto frame = Simulate<Codes>(one, Width, Height, Disc(30.0, place, 0.02));
+    const auto frame = Simulate<GreyValue>(one, Width, Height, Disc(30.0, place, 0.02));
     stack.pixels.insert(stack.pixels.end(), frame.pixels.begin(), frame.pixels.end());
   }
   const auto method = Measure(stack);

@@ -20,7 +20,7 @@ using namespace sensornoise::test;
 
 namespace
 {
-using Codes = unsigned short;
+using GreyValue = unsigned short;
 
 /** Returns six exposures of four frames each, after two dark frames. */
 std::vector<double>
@@ -34,7 +34,7 @@ ExposuresOfBurst()
   return exposures;
 }
 
-Stack<Codes>
+Stack<GreyValue>
 Burst(double nonlinearity)
 {
   SimulationSettings settings;
@@ -45,7 +45,7 @@ Burst(double nonlinearity)
   settings.frames = settings.illumination.factors.size();
   settings.flaws.response = { ResponseShape::Quadratic, nonlinearity };
   settings.seed = 4;
-  return Simulate<Codes>(settings, 96, 96);
+  return Simulate<GreyValue>(settings, 96, 96);
 }
 
 /** Returns the signal u at exposure 1 [1] for its mean level [DN], the root of u + b (u - u^2) = (level - 100) / 3500.
@@ -88,7 +88,7 @@ TrueErrorPercent(double nonlinearity, double brightest)
 }
 
 Report
-MeasureWith(const Stack<Codes> & stack, const std::vector<double> & exposures)
+MeasureWith(const Stack<GreyValue> & stack, const std::vector<double> & exposures)
 {
   RefinedSettings settings;
   settings.exposures = exposures;
@@ -129,7 +129,7 @@ TEST(SensorNoiseExposuresOfFrames, NothingElseChanges)
 
 TEST(SensorNoiseExposuresOfFrames, RepeatedFramesCountOnce)
 {
-  Stack<Codes>        stack = Burst(0.04);
+  Stack<GreyValue>    stack = Burst(0.04);
   std::vector<double> exposures = ExposuresOfBurst();
   const Report        before = MeasureWith(stack, exposures);
   const std::size_t   pixels = stack.width * stack.height;
@@ -149,8 +149,8 @@ TEST(SensorNoiseExposuresOfFrames, TwoProcessesFindTheSame)
   const auto      stack = Burst(0.04);
   RefinedSettings settings;
   settings.exposures = ExposuresOfBurst();
-  RefinedMethod<Codes> first(settings, GeometryOf(stack), stack.frames);
-  RefinedMethod<Codes> second(settings, GeometryOf(stack), stack.frames);
+  RefinedMethod<GreyValue> first(settings, GeometryOf(stack), stack.frames);
+  RefinedMethod<GreyValue> second(settings, GeometryOf(stack), stack.frames);
   while (!first.IsDone())
   {
     first.AddFrames(stack.Frame(0), 11);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "correlation/FrameEnergies.h"
+#include "refined/FramePhotonTransfer.h"
 #include "helpers/CorrelationTestHelper.h"
 #include "helpers/StackTestHelper.h"
 #include "simulation/Random.h"

@@ -54,6 +54,9 @@ struct Found
   explicit Found(double gainError = 0.002)
   {
     variance.line = LineOf(1.0, gainError);
+    scene.frame.frames = 40;
+    scene.frame.usable = { 1 };
+    scene.frame.neighbourMean = { PivotDn };
     this->SetCurve([](double) { return 0.0; });
   }
   /** Sets a curve at levels from 110 to 3,090 DN, with relative deviations \a deviationOf from the line. */
@@ -165,6 +168,30 @@ TEST(SensorNoiseGainEstimate, KnownLineAndDarkPointAreWeighted)
   EXPECT_NEAR(estimate.line.intercept + estimate.line.gain * OffsetDn, ReadVarianceDn2 + 3.0 * 13.0 / 14.0, 1e-9);
   EXPECT_NEAR(estimate.line.gain, 1.0 - 3.0 / 14.0 * 4e-6 * 1500.0, 1e-12);
   EXPECT_LT(estimate.StandardError(), 0.002);
+}
+
+// Dark frames at three errors from the line may come from another camera setting, or differ by chance. With a
+// gain of 1 DN/e-, a black level that is 11 DN higher explains a variance that is 11 DN^2 larger.
+TEST(SensorNoiseGainEstimate, DarkFramesBesideTheLineWidenTheErrors)
+{
+  const double expected = 14.0; // variance of the difference [DN^4], as in the test above
+  const double differenceDn2 = 3.0 * std::sqrt(expected);
+  const double beyondChance = std::sqrt(9.0 - 4.0) / 3.0; // fraction of the difference
+  Found        alone(0.002);
+  Found        found(0.002);
+  found.settings.offset = KnownOffset{ OffsetDn, 0.0, 20, DarkVariance{ ReadVarianceDn2 + differenceDn2, 1.0 } };
+  const GainEstimate estimate = found.Estimate();
+  const double       away = std::abs(estimate.line.gain - alone.Estimate().line.gain);
+  EXPECT_GT(away, 2.0 * 0.002); // with the dark frames the gain is smaller
+  EXPECT_FALSE(estimate.isDarkRejected);
+  EXPECT_NEAR(estimate.darkDifferenceDn2, beyondChance * differenceDn2, 1e-9);
+  EXPECT_GT(estimate.StandardError(), beyondChance * away);
+  EXPECT_LT(estimate.StandardError(), std::hypot(beyondChance * away, 2.0 * 0.002));
+
+  // Within chance, there is no difference.
+  found.settings.offset->variance->valueDn2 = ReadVarianceDn2 + 1.99 * std::sqrt(expected);
+  EXPECT_EQ(found.Estimate().darkDifferenceDn2, 0.0);
+  EXPECT_LT(found.Estimate().StandardError(), 0.002);
 }
 
 TEST(SensorNoiseGainEstimate, UnknownLineHasNoDeviations)

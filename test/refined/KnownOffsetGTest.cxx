@@ -28,7 +28,7 @@ namespace
 {
 constexpr std::size_t Size = 128;
 constexpr std::size_t Frames = 40;
-using Codes = unsigned short;
+using GreyValue = unsigned short;
 
 SimulationSettings
 WithFlicker(double flickerSd)
@@ -39,12 +39,12 @@ WithFlicker(double flickerSd)
 }
 
 /** Simulates the target scene under flickering illumination, with a steady signal of \a veilElectrons electrons. */
-Stack<Codes>
+Stack<GreyValue>
 SimulateVeil(double flickerSd, double veilElectrons)
 {
   const SimulationSettings settings = WithFlicker(flickerSd);
   const StackSimulator     simulator(MakeTargetScene(Size, Size), Size, Size, settings);
-  Stack<Codes>             stack{ Size, Size, Frames, std::vector<Codes>(Size * Size * Frames) };
+  Stack<GreyValue>         stack{ Size, Size, Frames, std::vector<GreyValue>(Size * Size * Frames) };
   std::vector<double>      electrons(Size);
   for (std::size_t row = 0; row < Frames * Size; ++row)
   {
@@ -53,14 +53,14 @@ SimulateVeil(double flickerSd, double veilElectrons)
     for (std::size_t x = 0; x < Size; ++x)
     {
       const double signal = static_cast<double>(random.Poisson(electrons[x] + veilElectrons));
-      stack.pixels[row * Size + x] = static_cast<Codes>(std::lround(signal + 100.0 + 8.0 * random.Normal()));
+      stack.pixels[row * Size + x] = static_cast<GreyValue>(std::lround(signal + 100.0 + 8.0 * random.Normal()));
     }
   }
   return stack;
 }
 
 Report
-ReportOf(const Stack<Codes> & stack, const std::optional<KnownOffset> & offset = std::nullopt)
+ReportOf(const Stack<GreyValue> & stack, const std::optional<KnownOffset> & offset = std::nullopt)
 {
   RefinedSettings settings;
   settings.offset = offset;
@@ -88,8 +88,8 @@ ExpectTruth(const Quantity & quantity, double truth)
 
 TEST(SensorNoiseKnownOffset, SteadyLightIsDistinguishedFromTheOffset)
 {
-  const Stack<Codes> stack = SimulateVeil(0.05, 200.0);
-  const Report       blind = ReportOf(stack);
+  const Stack<GreyValue> stack = SimulateVeil(0.05, 200.0);
+  const Report           blind = ReportOf(stack);
   ExpectTruth(blind.offset, 300.0); // the component that does not flicker
   EXPECT_FALSE(HasWarning(blind, WarningCode::SteadyLight));
 
@@ -103,6 +103,27 @@ TEST(SensorNoiseKnownOffset, SteadyLightIsDistinguishedFromTheOffset)
   EXPECT_FALSE(HasWarning(report, WarningCode::OffsetOutOfRange));
 }
 
+// Steady illumination adds to the level that does not flicker, and never makes it smaller than the offset. The shot
+// noise of 10 DN is a sixth of the dark variance.
+TEST(SensorNoiseKnownOffset, OffsetAboveTheLevelThatDoesNotFlickerIsNotTheOffset)
+{
+  const Stack<GreyValue> stack = SimulateVeil(0.05, 0.0);
+  const Report           given = ReportOf(stack, KnownOffset{ 110.0, 0.1 });
+  EXPECT_TRUE(HasWarning(given, WarningCode::OffsetOutOfRange));
+  EXPECT_EQ(given.offset.status, EstimateStatus::Failed);
+  EXPECT_EQ(given.readNoise.status, EstimateStatus::Failed);
+  ExpectTruth(given.gain, 1.0);
+
+  KnownOffset dark = DarkOf(64.0 + 1.0 / 12.0, 0.3);
+  dark.valueDn = 110.0;
+  const Report report = ReportOf(stack, dark);
+  EXPECT_TRUE(HasWarning(report, WarningCode::DarkFramesDiffer));
+  EXPECT_FALSE(HasWarning(report, WarningCode::SteadyLight));
+  EXPECT_EQ(report.offset.status, EstimateStatus::Failed);
+  EXPECT_EQ(report.readNoise.status, EstimateStatus::Failed);
+  ExpectTruth(report.gain, 1.0);
+}
+
 TEST(SensorNoiseKnownOffset, WithoutSteadyLightThereIsNoWarning)
 {
   const Report report = ReportOf(SimulateVeil(0.05, 0.0), KnownOffset{ 100.0, 0.1 });
@@ -112,8 +133,8 @@ TEST(SensorNoiseKnownOffset, WithoutSteadyLightThereIsNoWarning)
 
 TEST(SensorNoiseKnownOffset, NoFlickerIsNeeded)
 {
-  const Stack<Codes> stack = Simulate<Codes>(WithFlicker(0.0), Size, Size);
-  const Report       blind = ReportOf(stack);
+  const Stack<GreyValue> stack = Simulate<GreyValue>(WithFlicker(0.0), Size, Size);
+  const Report           blind = ReportOf(stack);
   EXPECT_EQ(blind.offset.status, EstimateStatus::NotIdentifiable);
   EXPECT_EQ(blind.readNoise.status, EstimateStatus::NotIdentifiable);
   EXPECT_TRUE(HasWarning(blind, WarningCode::OffsetNotIdentifiable));
@@ -130,8 +151,8 @@ TEST(SensorNoiseKnownOffset, NoFlickerIsNeeded)
 
 TEST(SensorNoiseKnownOffset, DarkFramesDetermineTheReadNoise)
 {
-  const Stack<Codes> stack = Simulate<Codes>(WithFlicker(0.05), Size, Size);
-  const Report       report = ReportOf(stack, DarkOf(64.0 + 1.0 / 12.0, 0.32));
+  const Stack<GreyValue> stack = Simulate<GreyValue>(WithFlicker(0.05), Size, Size);
+  const Report           report = ReportOf(stack, DarkOf(64.0 + 1.0 / 12.0, 0.32));
   EXPECT_NEAR(ValueOf(report.readNoise), 8.0, 1e-9);
   EXPECT_NEAR(*report.readNoise.standardError, 0.32 / 16.0, 1e-9);
   ASSERT_TRUE(report.readNoise.interval95);
@@ -154,28 +175,28 @@ TEST(SensorNoiseKnownOffset, DarkFramesDetermineTheReadNoise)
 
 TEST(SensorNoiseKnownOffset, DarkFramesOfAnotherCameraAreNoticed)
 {
-  const Stack<Codes> stack = Simulate<Codes>(WithFlicker(0.05), Size, Size);
+  const Stack<GreyValue> stack = Simulate<GreyValue>(WithFlicker(0.05), Size, Size);
   EXPECT_TRUE(HasWarning(ReportOf(stack, DarkOf(81.0, 0.32)), WarningCode::DarkFramesDiffer));
 }
 
 TEST(SensorNoiseKnownOffset, ReadNoiseThatTheDarkFramesDoNotShowIsAnUpperLimit)
 {
-  const Stack<Codes> stack = Simulate<Codes>(WithFlicker(0.05), Size, Size);
-  const Report       noisy = ReportOf(stack, DarkOf(64.0, 40.0)); // 64 - 2.09 x 40 is below 0
+  const Stack<GreyValue> stack = Simulate<GreyValue>(WithFlicker(0.05), Size, Size);
+  const Report           noisy = ReportOf(stack, DarkOf(64.0, 40.0)); // 64 - 2.09 x 40 is below 0
   EXPECT_EQ(noisy.readNoise.status, EstimateStatus::UpperLimit);
   EXPECT_FALSE(noisy.readNoise.value);
   EXPECT_NEAR(*noisy.readNoise.bracket->high, std::sqrt(64.0 - 1.0 / 12.0 + StudentQuantile * 40.0), 1e-9);
   EXPECT_TRUE(HasWarning(noisy, WarningCode::ReadNoiseUpperLimit));
-  const Stack<Codes> even{ Size, Size, 20, std::vector<Codes>(Size * Size * 20, 700) }; // determines nothing
-  const Report       coarse = ReportOf(even, DarkOf(0.2, 0.001));                       // quantization step 1 DN
+  const Stack<GreyValue> even{ Size, Size, 20, std::vector<GreyValue>(Size * Size * 20, 700) }; // determines nothing
+  const Report           coarse = ReportOf(even, DarkOf(0.2, 0.001)); // quantization step 1 DN
   EXPECT_EQ(coarse.readNoise.status, EstimateStatus::UpperLimit);
   EXPECT_NEAR(*coarse.readNoise.bracket->high, 0.5, 1e-12);
 }
 
 TEST(SensorNoiseKnownOffset, OffsetThatTheDataContradictIsNoticed)
 {
-  const Stack<Codes> stack = Simulate<Codes>(WithFlicker(0.05), Size, Size);
-  const Report       low = ReportOf(stack, KnownOffset{ 10.0, 0.1 }); // sigma^2 = -36 + 10 < 0
+  const Stack<GreyValue> stack = Simulate<GreyValue>(WithFlicker(0.05), Size, Size);
+  const Report           low = ReportOf(stack, KnownOffset{ 10.0, 0.1 }); // sigma^2 = -36 + 10 < 0
   EXPECT_TRUE(HasWarning(low, WarningCode::OffsetOutOfRange));
   EXPECT_EQ(low.readNoise.status, EstimateStatus::Failed);
   EXPECT_EQ(low.readNoiseElectrons.status, EstimateStatus::Failed);
@@ -190,7 +211,7 @@ TEST(SensorNoiseKnownOffset, OffsetThatTheDataContradictIsNoticed)
   dark.darkFrames = 1;
   const std::string exchanged = MakeText(ReportOf(stack, dark));
   EXPECT_NE(exchanged.find("the mean level of the dark frames is 900 DN"), std::string::npos) << exchanged;
-  EXPECT_NE(exchanged.find("are frames and dark frames exchanged?"), std::string::npos) << exchanged;
+  EXPECT_NE(exchanged.find("check whether frames and dark frames are exchanged"), std::string::npos) << exchanged;
   EXPECT_EQ(exchanged.find("infinity"), std::string::npos) << exchanged;
 }
 
@@ -237,7 +258,7 @@ TEST(KnownOffset, ThatIsFarOutsideTheLevelsIsRefused)
   EXPECT_NO_THROW(RefinedMethod<unsigned short>(settings, { 16, 16, 1 }, 20));
 }
 
-TEST(KnownOffset, CodesAndLevelsOfNoSenseAreRefused)
+TEST(KnownOffset, DnSettingsAndLevelsOutOfRangeAreRejected)
 {
   const auto refuses = [](auto change) {
     RefinedSettings settings;

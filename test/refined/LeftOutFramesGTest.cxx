@@ -25,7 +25,7 @@ using namespace sensornoise::test::merge;
 
 namespace
 {
-using Codes = unsigned short;
+using GreyValue = unsigned short;
 
 std::string
 NamesOf(const std::vector<LeftOutFrame> & frames)
@@ -41,18 +41,18 @@ NamesOf(const std::vector<LeftOutFrame> & frames)
 constexpr double OffsetDn = 100.0;
 
 /** Returns frames that are large enough to measure the noise of a frame within 2 %. */
-Stack<Codes>
+Stack<GreyValue>
 NoisyStack(std::size_t frames)
 {
   SimulationSettings settings = FlickeringSettings(frames);
   settings.camera = { 2000.0, 0.5, OffsetDn, 3.0 };
   settings.conditions = { 0.03, 0.0, 0.0 };
-  return Simulate<Codes>(settings, 128, 96);
+  return Simulate<GreyValue>(settings, 128, 96);
 }
 
 /** Returns the first frames of a stack, and three more of another gain. */
-Stack<Codes>
-WithFramesOfAnotherGain(const Stack<Codes> & stack)
+Stack<GreyValue>
+WithFramesOfAnotherGain(const Stack<GreyValue> & stack)
 {
   const auto more = NoisyStack(stack.frames + 3);
   return Insert(stack,
@@ -63,7 +63,7 @@ WithFramesOfAnotherGain(const Stack<Codes> & stack)
 
 /** Runs one pass in two processes that read alternate frames. */
 void
-RunSharedPass(RefinedMethod<Codes> & one, RefinedMethod<Codes> & two, const Stack<Codes> & stack)
+RunSharedPass(RefinedMethod<GreyValue> & one, RefinedMethod<GreyValue> & two, const Stack<GreyValue> & stack)
 {
   AddPart(one, stack, 0, 2, InTurn);
   AddPart(two, stack, 1, 2, InTurn);
@@ -93,7 +93,7 @@ TYPED_TEST(SensorNoiseLeftOutFramesOf, AreNamedAndTheRestIsMeasuredAsWithoutThem
   const auto unlike = WithUnlikeFrames(stack);
   for (const std::size_t chunk : { 1, 4, 1000 })
   {
-    const auto method = Measure(unlike, WithCodes(), chunk, Threads(chunk % 3 + 1));
+    const auto method = Measure(unlike, WithDnSettings(), chunk, Threads(chunk % 3 + 1));
     EXPECT_EQ(NamesOf(method.GetReport().framesLeftOut), "0 no-noise; 5 no-noise; 26 other-shape; ");
     ExpectResultOfOthers(method, expected);
   }
@@ -101,10 +101,12 @@ TYPED_TEST(SensorNoiseLeftOutFramesOf, AreNamedAndTheRestIsMeasuredAsWithoutThem
 
 TEST(SensorNoiseLeftOutFrames, AreNamedInOneWarning)
 {
-  const auto method = Measure(WithUnlikeFrames(SmallStack<Codes>()));
-  EXPECT_EQ(method.GetReport().warnings.front().message,
-            "3 of 27 frames are unlike the others (frame 0: no-noise, frame 5: no-noise, frame 26: other-shape; the "
-            "first is 0): all else is measured without them");
+  const auto method = Measure(WithUnlikeFrames(SmallStack<GreyValue>()));
+  EXPECT_EQ(
+    method.GetReport().warnings.front().message,
+    "3 of 27 frames are unlike the others (frame 0: no-noise, frame 5: no-noise, frame 26: other-shape; the "
+    "first is 0) and would change the variance of all pixels: all else is measured without them. Check how they "
+    "were recorded");
 }
 
 TEST(SensorNoiseLeftOutFrames, OfFramesThatAreNotFiniteAreNamed)
@@ -118,15 +120,15 @@ TEST(SensorNoiseLeftOutFrames, OfFramesThatAreNotFiniteAreNamed)
 
 TEST(SensorNoiseLeftOutFrames, ThatAreEqualAreLeftOutTogetherAndRepeatedOnesAreCountedOnce)
 {
-  const auto & stack = SmallStack<Codes>();
+  const auto & stack = SmallStack<GreyValue>();
   Shown        shown = { 0, 0 };
   for (std::size_t t = 0; t < stack.frames; ++t)
   {
     shown.push_back(t + 1);
   }
   shown.push_back(9);
-  const Stack<Codes> first = Insert(stack, { { std::size_t{ 0 }, Mirrored(stack, 3) } });
-  Report             report = Measure(Show(first, shown)).GetReport();
+  const Stack<GreyValue> first = Insert(stack, { { std::size_t{ 0 }, Mirrored(stack, 3) } });
+  Report                 report = Measure(Show(first, shown)).GetReport();
   EXPECT_EQ(NamesOf(report.framesLeftOut), "0 other-shape; 1 other-shape; ");
   EXPECT_EQ(report.framesDistinct, stack.frames);
   EXPECT_TRUE(HasWarning(report, WarningCode::RepeatedFrames));
@@ -135,11 +137,11 @@ TEST(SensorNoiseLeftOutFrames, ThatAreEqualAreLeftOutTogetherAndRepeatedOnesAreC
 
 TEST(SensorNoiseLeftOutFrames, OfSeveralProcessesAreThoseOfOne)
 {
-  const auto &         stack = SmallStack<Codes>();
-  const auto           unlike = WithUnlikeFrames(stack);
-  RefinedMethod<Codes> one = MethodOf(unlike);
-  RefinedMethod<Codes> two = MethodOf(unlike);
-  unsigned int         passes = 0;
+  const auto &             stack = SmallStack<GreyValue>();
+  const auto               unlike = WithUnlikeFrames(stack);
+  RefinedMethod<GreyValue> one = MethodOf(unlike);
+  RefinedMethod<GreyValue> two = MethodOf(unlike);
+  unsigned int             passes = 0;
   for (; !one.IsDone(); ++passes)
   {
     RunSharedPass(one, two, unlike);
@@ -153,9 +155,9 @@ TEST(SensorNoiseLeftOutFrames, OfSeveralProcessesAreThoseOfOne)
 
 TEST(SensorNoiseLeftOutFrames, OfAPassThatIsForgottenAreReadAgain)
 {
-  const auto &         stack = SmallStack<Codes>();
-  const auto           unlike = WithUnlikeFrames(stack);
-  RefinedMethod<Codes> method = MethodOf(unlike);
+  const auto &             stack = SmallStack<GreyValue>();
+  const auto               unlike = WithUnlikeFrames(stack);
+  RefinedMethod<GreyValue> method = MethodOf(unlike);
   while (!method.IsDone())
   {
     method.AddFrames(unlike.Frame(0), 10);
@@ -168,11 +170,11 @@ TEST(SensorNoiseLeftOutFrames, OfAPassThatIsForgottenAreReadAgain)
 
 TEST(SensorNoiseLeftOutFrames, OfThePublishedMethodAreLeftOutAlike)
 {
-  const auto & stack = SmallStack<Codes>();
-  const auto   measure = [](const Stack<Codes> & frames) {
+  const auto & stack = SmallStack<GreyValue>();
+  const auto   measure = [](const Stack<GreyValue> & frames) {
     PublishedSettings settings;
-    settings.codes = WithCodes().codes;
-    PublishedMethod<Codes> method(settings, GeometryOf(frames), frames.frames);
+    settings.codes = WithDnSettings().codes;
+    PublishedMethod<GreyValue> method(settings, GeometryOf(frames), frames.frames);
     while (!method.IsDone())
     {
       method.AddFrames(frames.Frame(0), frames.frames);
@@ -185,31 +187,31 @@ TEST(SensorNoiseLeftOutFrames, OfThePublishedMethodAreLeftOutAlike)
 
 TEST(SensorNoiseLeftOutFrames, OfOnePlaneOfAMosaicAreLeftOutOfAll)
 {
-  const auto & plane = SmallStack<Codes>();
+  const auto & plane = SmallStack<GreyValue>();
   // All planes show the scene. One frame has zeros in the plane of the blue pixels alone.
   const MosaicGeometry  geometry{ { 2 * plane.width, 2 * plane.height, 1 }, BayerPattern::RGGB };
   constexpr std::size_t at = 4;
-  Stack<Codes>          mosaic{ geometry.frame.width, geometry.frame.height, plane.frames, {} };
+  Stack<GreyValue>      mosaic{ geometry.frame.width, geometry.frame.height, plane.frames, {} };
   for (std::size_t t = 0; t < plane.frames; ++t)
   {
-    std::array<std::vector<Codes>, 4> planes;
-    planes.fill(std::vector<Codes>(plane.Frame(t), plane.Frame(t) + plane.width * plane.height));
+    std::array<std::vector<GreyValue>, 4> planes;
+    planes.fill(std::vector<GreyValue>(plane.Frame(t), plane.Frame(t) + plane.width * plane.height));
     if (t == at)
     {
       planes.at(static_cast<std::size_t>(BayerPlane::B)).assign(plane.width * plane.height, 0);
     }
-    const std::vector<Codes> frame = geometry.Join(planes, Codes{ 0 }, SerialFor);
+    const std::vector<GreyValue> frame = geometry.Join(planes, GreyValue{ 0 }, SerialFor);
     mosaic.pixels.insert(mosaic.pixels.end(), frame.begin(), frame.end());
   }
-  MosaicPasses<Codes, RefinedPasses<Codes>> method(geometry, [&](BayerPlane, const ParallelFor & parallelFor) {
-    return RefinedPasses<Codes>(WithCodes(), geometry.Plane(), plane.frames, {}, parallelFor);
+  MosaicPasses<GreyValue, RefinedPasses<GreyValue>> method(geometry, [&](BayerPlane, const ParallelFor & parallelFor) {
+    return RefinedPasses<GreyValue>(WithDnSettings(), geometry.Plane(), plane.frames, {}, parallelFor);
   });
   while (!method.IsDone())
   {
     method.AddFrames(mosaic.Frame(0), mosaic.frames);
     method.EndPass();
   }
-  Stack<Codes> others = plane;
+  Stack<GreyValue> others = plane;
   others.pixels.erase(others.pixels.begin() + static_cast<std::ptrdiff_t>(at * plane.width * plane.height),
                       others.pixels.begin() + static_cast<std::ptrdiff_t>((at + 1) * plane.width * plane.height));
   --others.frames;
@@ -237,10 +239,10 @@ TEST(SensorNoiseLeftOutFrames, OfAnotherGainAreFoundByTheirNoise)
 
 TEST(SensorNoiseLeftOutFrames, OfAnotherGainInSeveralProcessesAreThoseOfOne)
 {
-  const auto           unlike = WithFramesOfAnotherGain(NoisyStack(40));
-  const FrameGeometry  geometry{ unlike.width, unlike.height };
-  RefinedMethod<Codes> one(RefinedSettings(), geometry, unlike.frames);
-  RefinedMethod<Codes> two(RefinedSettings(), geometry, unlike.frames);
+  const auto               unlike = WithFramesOfAnotherGain(NoisyStack(40));
+  const FrameGeometry      geometry{ unlike.width, unlike.height };
+  RefinedMethod<GreyValue> one(RefinedSettings(), geometry, unlike.frames);
+  RefinedMethod<GreyValue> two(RefinedSettings(), geometry, unlike.frames);
   while (!one.IsDone())
   {
     RunSharedPass(one, two, unlike);
@@ -255,7 +257,7 @@ namespace
 {
 /** Returns the report of a stack in which \a count frames, one in \a every, have another gain. */
 Report
-ReportOfMixed(Stack<Codes> stack, std::size_t every, std::size_t count, double gain)
+ReportOfMixed(Stack<GreyValue> stack, std::size_t every, std::size_t count, double gain)
 {
   for (std::size_t k = 0; k < count; ++k)
   {
@@ -301,7 +303,7 @@ TEST(SensorNoiseLeftOutFrames, OfNoiseAloneMakeNoLocalIllumination)
     {
       const double noise = static_cast<double>(others.pixels[40 * pixels + p]) -
                            static_cast<double>(others.pixels[(t == 8 ? 41 : 42) * pixels + p]);
-      stack.pixels[t * pixels + p] = static_cast<Codes>(
+      stack.pixels[t * pixels + p] = static_cast<GreyValue>(
         std::clamp(std::round(static_cast<double>(stack.pixels[t * pixels + p]) + 1.5 * noise), 0.0, 65535.0));
     }
   }
@@ -320,7 +322,7 @@ TEST(SensorNoiseLeftOutFrames, OfAnotherDarkOffsetAreNamed)
       const std::size_t first = (3 + 2 * k) * stack.width * stack.height;
       for (std::size_t p = 0; p < stack.width * stack.height; ++p)
       {
-        frames.pixels[first + p] = static_cast<Codes>(frames.pixels[first + p] + 15);
+        frames.pixels[first + p] = static_cast<GreyValue>(frames.pixels[first + p] + 15);
       }
     }
     return Measure(frames, RefinedSettings()).GetReport();

@@ -34,11 +34,11 @@ WithRange(double lowDn, double highDn)
 
 TEST(SensorNoiseLevelRange, PixelsOfOtherLevelsAreLeftOut)
 {
-  const Stack<Codes> stack = Simulate<Codes>(StaticCamera(40), Size, Size);
-  const auto         all = Measure(stack, {});
-  const auto         method = Measure(stack, WithRange(300.0, 1500.0));
-  const auto &       mean = method.GetMean();
-  std::size_t        outside = 0;
+  const Stack<GreyValue> stack = Simulate<GreyValue>(StaticCamera(40), Size, Size);
+  const auto             all = Measure(stack, {});
+  const auto             method = Measure(stack, WithRange(300.0, 1500.0));
+  const auto &           mean = method.GetMean();
+  std::size_t            outside = 0;
   for (std::size_t p = 0; p < mean.size(); ++p)
   {
     double neighbours = -mean[p];
@@ -67,9 +67,9 @@ TEST(SensorNoiseLevelRange, LinearPartOfANonlinearResponseHasItsOwnGain)
   // A shoulder from 60 % on. Below it the gain is 1.04.
   SimulationSettings settings = StaticCamera(40);
   settings.flaws.response = { ResponseShape::Shoulder, 0.04 };
-  const Stack<Codes> stack = Simulate<Codes>(settings, Size, Size);
-  const Report       all = Measure(stack, {}).GetReport();
-  const Report       part = Measure(stack, WithRange(0.0, 100.0 + 0.55 * settings.camera.electrons)).GetReport();
+  const Stack<GreyValue> stack = Simulate<GreyValue>(settings, Size, Size);
+  const Report           all = Measure(stack, {}).GetReport();
+  const Report           part = Measure(stack, WithRange(0.0, 100.0 + 0.55 * settings.camera.electrons)).GetReport();
   EXPECT_TRUE(HasWarning(all, WarningCode::ResponseNotStraight));
   EXPECT_FALSE(HasWarning(part, WarningCode::ResponseNotStraight));
   EXPECT_NEAR(ValueOf(part.gain), 1.04, 5.0 * *part.gain.standardError);
@@ -77,7 +77,8 @@ TEST(SensorNoiseLevelRange, LinearPartOfANonlinearResponseHasItsOwnGain)
 
 TEST(SensorNoiseLevelRange, RangeOfNoPixelsIsAReportWithAReason)
 {
-  const Report report = Measure(Simulate<Codes>(StaticCamera(20), Size, Size), WithRange(50000.0, 60000.0)).GetReport();
+  const Report report =
+    Measure(Simulate<GreyValue>(StaticCamera(20), Size, Size), WithRange(50000.0, 60000.0)).GetReport();
   EXPECT_FALSE(report.IsUsable());
   EXPECT_FALSE(report.warnings.empty());
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/ProjectionSums.h"
-#include "refined/MemoryNeed.h"
+#include "refined/PixelProjections.h"
 #include "sensornoise/StackMethod.h"
 #include "sensornoise/ReportText.h"
 #include "helpers/RefinedTestHelper.h"
@@ -22,7 +22,7 @@ using namespace sensornoise::test;
 
 namespace
 {
-using Codes = float; // whole numbers whose sums need 8 bytes: those of integers fit within the least memory
+using GreyValue = float; // whole numbers whose sums need 8 bytes: the sums of integers fit within the least memory
 
 constexpr std::size_t Width = 1100;
 constexpr std::size_t Height = 1000;
@@ -30,10 +30,10 @@ constexpr std::size_t Frames = 12;
 static_assert(Width * Height > 2 * ProjectionSums::SlabPixels, "the frames have three slabs");
 
 /** Returns waves with noise of 1 DN/e- and 10 DN^2, under flicker that is uniform, or differs between bands of rows. */
-Stack<Codes>
+Stack<GreyValue>
 FramesOf(bool isIlluminationLocal)
 {
-  Stack<Codes>                    stack{ Width, Height, Frames, {} };
+  Stack<GreyValue>                stack{ Width, Height, Frames, {} };
   std::minstd_rand                random(19);
   std::normal_distribution<float> normal;
   stack.pixels.reserve(Width * Height * Frames);
@@ -49,7 +49,7 @@ FramesOf(bool isIlluminationLocal)
         const double wave = static_cast<double>((x / 4 + y / 8) % 16) / 16.0;
         const double signal = (200.0 + 1400.0 * wave) * brightness;
         stack.pixels.push_back(
-          static_cast<Codes>(std::lround(200.0 + signal + std::sqrt(10.0 + signal) * normal(random))));
+          static_cast<GreyValue>(std::lround(200.0 + signal + std::sqrt(10.0 + signal) * normal(random))));
       }
     }
   }
@@ -58,16 +58,16 @@ FramesOf(bool isIlluminationLocal)
 
 struct Limited
 {
-  RefinedMethod<Codes> method;
-  unsigned int         passes{ 0 };
+  RefinedMethod<GreyValue> method;
+  unsigned int             passes{ 0 };
 };
 
 Limited
-MeasureWithin(const Stack<Codes> & stack, double bytes)
+MeasureWithin(const Stack<GreyValue> & stack, double bytes)
 {
-  RefinedSettings settings = WithCodes();
+  RefinedSettings settings = WithDnSettings();
   settings.memoryLimitBytes = bytes;
-  Limited limited{ RefinedMethod<Codes>(settings, GeometryOf(stack), Frames, {}, Threads(2)) };
+  Limited limited{ RefinedMethod<GreyValue>(settings, GeometryOf(stack), Frames, {}, Threads(2)) };
   for (; !limited.method.IsDone(); ++limited.passes)
   {
     limited.method.AddFrames(stack.Frame(0), Frames / 2);
@@ -80,11 +80,11 @@ MeasureWithin(const Stack<Codes> & stack, double bytes)
 /** Measures without merging, within the least memory. In the third pass all frames are added together, discarded, and
  * added again, \a atOnce at a time. */
 Limited
-MeasureWithSumsThatStay(const Stack<Codes> & stack, std::size_t atOnce)
+MeasureWithoutSavedSums(const Stack<GreyValue> & stack, std::size_t atOnce)
 {
-  RefinedSettings settings = WithCodes();
+  RefinedSettings settings = WithDnSettings();
   settings.memoryLimitBytes = MemoryNeed{ Width * Height, Frames }.Least();
-  Limited limited{ RefinedMethod<Codes>(settings, GeometryOf(stack), Frames, {}, Threads(2)) };
+  Limited limited{ RefinedMethod<GreyValue>(settings, GeometryOf(stack), Frames, {}, Threads(2)) };
   limited.method.DisableMerging();
   for (; !limited.method.IsDone(); ++limited.passes)
   {
@@ -117,8 +117,8 @@ class SensorNoiseMemoryLimit : public ::testing::TestWithParam<bool>
 
 TEST_P(SensorNoiseMemoryLimit, ReadsMoreOftenAndChangesNoBit)
 {
-  const Stack<Codes> stack = FramesOf(this->GetParam());
-  const Limited      free = MeasureWithin(stack, std::numeric_limits<double>::infinity());
+  const Stack<GreyValue> stack = FramesOf(this->GetParam());
+  const Limited          free = MeasureWithin(stack, std::numeric_limits<double>::infinity());
   EXPECT_EQ(free.passes, 3U);
   EXPECT_EQ(HasWarning(free.method.GetReport(), WarningCode::LocalLight), this->GetParam());
   const Limited limited = MeasureWithin(stack, MemoryNeed{ Width * Height, Frames }.Least());
@@ -128,12 +128,12 @@ TEST_P(SensorNoiseMemoryLimit, ReadsMoreOftenAndChangesNoBit)
 
 TEST_P(SensorNoiseMemoryLimit, AllFramesAtOnceNeedNoSumsAndNoMorePasses)
 {
-  const Stack<Codes> stack = FramesOf(this->GetParam());
-  const Limited      free = MeasureWithin(stack, std::numeric_limits<double>::infinity());
-  const Limited      atOnce = MeasureWithSumsThatStay(stack, Frames);
+  const Stack<GreyValue> stack = FramesOf(this->GetParam());
+  const Limited          free = MeasureWithin(stack, std::numeric_limits<double>::infinity());
+  const Limited          atOnce = MeasureWithoutSavedSums(stack, Frames);
   EXPECT_EQ(atOnce.passes, 3U);
   ExpectSameBits(atOnce, free);
-  const Limited inHalves = MeasureWithSumsThatStay(stack, Frames / 2);
+  const Limited inHalves = MeasureWithoutSavedSums(stack, Frames / 2);
   EXPECT_GT(inHalves.passes, this->GetParam() ? 4U : 3U);
   ExpectSameBits(inHalves, free);
 }
@@ -142,10 +142,10 @@ INSTANTIATE_TEST_SUITE_P(Light, SensorNoiseMemoryLimit, ::testing::Bool(), [](co
   return signal.param ? "Local" : "Common";
 });
 
-TEST(SensorNoiseMemoryLimit, SumsThatStayAreNotSavedOrMerged)
+TEST(SensorNoiseMemoryLimit, KeptSumsAreNotSavedOrMerged)
 {
-  const Stack<Codes>   stack = FramesOf(false);
-  RefinedMethod<Codes> method(WithCodes(), GeometryOf(stack), Frames, {}, Threads(2));
+  const Stack<GreyValue>   stack = FramesOf(false);
+  RefinedMethod<GreyValue> method(WithDnSettings(), GeometryOf(stack), Frames, {}, Threads(2));
   method.DisableMerging();
   std::stringstream sums;
   for (int pass = 0; pass < 2; ++pass)
@@ -159,13 +159,13 @@ TEST(SensorNoiseMemoryLimit, SumsThatStayAreNotSavedOrMerged)
 
 TEST(SensorNoiseMemoryLimit, BelowTheLeastIsRefused)
 {
-  RefinedSettings settings = WithCodes();
+  RefinedSettings settings = WithDnSettings();
   settings.memoryLimitBytes = MemoryNeed{ 640 * 480, 20 }.Least();
-  EXPECT_NO_THROW(RefinedMethod<Codes>(settings, { 640, 480, 1 }, 20));
+  EXPECT_NO_THROW(RefinedMethod<GreyValue>(settings, { 640, 480, 1 }, 20));
   settings.memoryLimitBytes -= 1.0;
   try
   {
-    RefinedMethod<Codes>(settings, { 640, 480, 1 }, 20);
+    RefinedMethod<GreyValue>(settings, { 640, 480, 1 }, 20);
     FAIL() << "no error";
   }
   catch (const std::invalid_argument & error)

@@ -18,28 +18,29 @@ using namespace sensornoise::test;
 
 namespace
 {
-using Codes = unsigned short;
+using GreyValue = unsigned short;
 
 constexpr double      GainDn = 2.0;
 constexpr std::size_t Frames = 30;
-constexpr std::size_t FramesBefore = 12; // of a recursive filter: 0.4^12 of the first frame is left
+constexpr std::size_t FramesBefore =
+  12; // frames that a recursive filter needs to settle: 0.4^12 of the first frame is left
 
-Stack<Codes>
+Stack<GreyValue>
 Unmixed(std::size_t width, std::size_t height, double vibrationPixels = 0.0)
 {
   SimulationSettings settings = FlickeringSettings(Frames + FramesBefore);
   settings.camera = { 4000.0, GainDn, 100.0, 5.0 };
   settings.conditions = { 0.01, vibrationPixels, vibrationPixels };
-  return Simulate<Codes>(settings, width, height);
+  return Simulate<GreyValue>(settings, width, height);
 }
 
 /** Returns the last frames of a stack, each (1 - weight) times itself plus weight times the frame before, which is the
  * mixed one if \a isRecursive. \a weightOf(t) is the weight of a frame. */
-Stack<Codes>
-Mix(const Stack<Codes> & stack, bool isRecursive, const std::function<double(std::size_t)> & weightOf)
+Stack<GreyValue>
+Mix(const Stack<GreyValue> & stack, bool isRecursive, const std::function<double(std::size_t)> & weightOf)
 {
   const std::size_t   pixels = stack.width * stack.height;
-  Stack<Codes>        mixed{ stack.width, stack.height, Frames, std::vector<Codes>(Frames * pixels) };
+  Stack<GreyValue>    mixed{ stack.width, stack.height, Frames, std::vector<GreyValue>(Frames * pixels) };
   std::vector<double> before(stack.pixels.begin(), stack.pixels.begin() + static_cast<std::ptrdiff_t>(pixels));
   for (std::size_t t = 1; t < stack.frames; ++t)
   {
@@ -51,7 +52,7 @@ Mix(const Stack<Codes> & stack, bool isRecursive, const std::function<double(std
       before[p] = isRecursive ? value : own;
       if (t >= FramesBefore)
       {
-        mixed.pixels[(t - FramesBefore) * pixels + p] = static_cast<Codes>(std::round(value));
+        mixed.pixels[(t - FramesBefore) * pixels + p] = static_cast<GreyValue>(std::round(value));
       }
     }
   }
@@ -59,7 +60,7 @@ Mix(const Stack<Codes> & stack, bool isRecursive, const std::function<double(std
 }
 
 Report
-ReportOf(const Stack<Codes> & stack)
+ReportOf(const Stack<GreyValue> & stack)
 {
   return Measure(stack, RefinedSettings()).GetReport();
 }
@@ -86,8 +87,8 @@ TEST(SensorNoiseMixedFrames, InterpolatedAtUnequalTimesHaveNoGain)
 // Motion hides which frames are mixed, and is itself common to mixed frames.
 TEST(SensorNoiseMixedFrames, UnderStrongVibrationHaveNoGain)
 {
-  const Stack<Codes> stack = Unmixed(128, 96, 0.6);
-  const Report       report = ReportOf(Mix(stack, false, [](std::size_t t) { return t % 2 == 0 ? 0.5 : 0.0; }));
+  const Stack<GreyValue> stack = Unmixed(128, 96, 0.6);
+  const Report           report = ReportOf(Mix(stack, false, [](std::size_t t) { return t % 2 == 0 ? 0.5 : 0.0; }));
   EXPECT_NE(report.gain.status, EstimateStatus::Identified) << *report.gain.value;
 }
 

@@ -110,7 +110,7 @@ TEST(SensorNoiseMovingObject, ResultDoesNotDependOnThreadsAndChunks)
 {
   const auto stack = TransientStack(MakeTextureScene(Size, Size), 1, false);
   const auto whole = Measure(stack);
-  const auto parts = Measure(stack, WithCodes(), 7, Threads(3));
+  const auto parts = Measure(stack, WithDnSettings(), 7, Threads(3));
   EXPECT_EQ(*whole.GetReport().gain.value, *parts.GetReport().gain.value);
   EXPECT_TRUE(HaveSameBits(whole.GetPixelUse(), parts.GetPixelUse()));
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "refined/OffsetEstimate.h"
+#include "refined/RefinedEstimate.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/SimulationSettings.h"
 #include "helpers/SensorTestHelper.h"
@@ -27,7 +27,7 @@ ReportOf(char camera, double flickerSd, std::uint64_t seed)
   SimulationSettings settings = StaticCamera(Frames, seed);
   settings.camera = PaperCamera(camera);
   settings.conditions.flickerSd = flickerSd;
-  return Measure(Simulate<Codes>(settings, Size, Size), {}).GetReport();
+  return Measure(Simulate<GreyValue>(settings, Size, Size), {}).GetReport();
 }
 } // namespace
 

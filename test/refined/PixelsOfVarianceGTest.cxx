@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/Report.h"
-#include "refined/PixelNoise.h"
+#include "refined/RefinedResults.h"
 #include "sensornoise/StackMethod.h"
 #include "helpers/SensorTestHelper.h"
 
@@ -69,7 +69,7 @@ TEST(SensorNoisePixelsOfVariance, SmoothedEdgesAreNoNonlinearity)
 {
   SimulationSettings settings = StaticCamera(50);
   const auto         edgesOf = [&settings] {
-    const auto stack = Simulate<Codes>(settings, 256, 256);
+    const auto stack = Simulate<GreyValue>(settings, 256, 256);
     const auto method = Measure(stack, {});
     EXPECT_FALSE(HasWarning(method.GetReport(), WarningCode::ResponseNotStraight));
     ExpectHolds(method.GetReport().gain, 1.0);
@@ -87,7 +87,7 @@ TEST(SensorNoisePixelsOfVariance, MeansOfNeighboursAreLeftOut)
 {
   // Every 33rd pixel of the frame is replaced, as by a camera that corrects defective pixels.
   constexpr std::size_t size = 256;
-  auto                  stack = Simulate<Codes>(StaticCamera(50), size, size);
+  auto                  stack = Simulate<GreyValue>(StaticCamera(50), size, size);
   const auto            outliersOf = [&stack](Quantity & gain) {
     const auto method = Measure(stack, {});
     gain = method.GetReport().gain;
@@ -102,10 +102,10 @@ TEST(SensorNoisePixelsOfVariance, MeansOfNeighboursAreLeftOut)
     ++replaced;
     for (std::size_t t = 0; t < 50; ++t)
     {
-      Codes * const  pixel = stack.pixels.data() + t * size * size + p;
-      const auto     sum = [pixel](std::ptrdiff_t row) { return pixel[row - 1] + pixel[row] + pixel[row + 1]; };
-      constexpr auto below = static_cast<std::ptrdiff_t>(size);
-      *pixel = static_cast<Codes>((sum(-below) + pixel[-1] + pixel[1] + sum(below) + 4) / 8);
+      GreyValue * const pixel = stack.pixels.data() + t * size * size + p;
+      const auto        sum = [pixel](std::ptrdiff_t row) { return pixel[row - 1] + pixel[row] + pixel[row + 1]; };
+      constexpr auto    below = static_cast<std::ptrdiff_t>(size);
+      *pixel = static_cast<GreyValue>((sum(-below) + pixel[-1] + pixel[1] + sum(below) + 4) / 8);
     }
   }
   EXPECT_GT(outliersOf(gain), replaced * 8 / 10);

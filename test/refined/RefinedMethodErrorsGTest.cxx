@@ -17,7 +17,7 @@ using namespace sensornoise::test::merge;
 
 namespace
 {
-using Codes = unsigned short;
+using GreyValue = unsigned short;
 
 /** Runs \a function and returns the message of its exception. */
 template <typename TError, typename TFunction>
@@ -39,7 +39,7 @@ MessageOf(TFunction function)
 
 TEST(SensorNoiseRefinedMethodErrors, SumsThatDoNotFitAreRefusedAndChangeNothing)
 {
-  const auto & stack = SmallStack<Codes>();
+  const auto & stack = SmallStack<GreyValue>();
   const auto   save = [](const auto & method) {
     std::ostringstream out;
     method.SaveSums(out);
@@ -66,11 +66,11 @@ TEST(SensorNoiseRefinedMethodErrors, SumsThatDoNotFitAreRefusedAndChangeNothing)
   }
   EXPECT_TRUE(has(complaint("some text, which is long enough to be a header of sums"), "expected \"RefinedMethod"));
   EXPECT_TRUE(has(complaint(save(MethodOf(SmallStack<float>()))), "found \"RefinedMethod float\""));
-  EXPECT_TRUE(has(complaint(save(RefinedMethod<Codes>({}, { Width, Height + 1, 1 }, Frames))), "pixels"));
-  EXPECT_TRUE(has(complaint(save(RefinedMethod<Codes>({}, { Height, Width, 1 }, Frames))), "other settings"));
-  EXPECT_TRUE(has(complaint(save(RefinedMethod<Codes>({}, { Width, Height, 1 }, Frames + 1))), "25 frames"));
+  EXPECT_TRUE(has(complaint(save(RefinedMethod<GreyValue>({}, { Width, Height + 1, 1 }, Frames))), "pixels"));
+  EXPECT_TRUE(has(complaint(save(RefinedMethod<GreyValue>({}, { Height, Width, 1 }, Frames))), "other settings"));
+  EXPECT_TRUE(has(complaint(save(RefinedMethod<GreyValue>({}, { Width, Height, 1 }, Frames + 1))), "25 frames"));
   const std::vector<std::uint8_t> mask(Width * Height, 1);
-  EXPECT_TRUE(has(complaint(save(RefinedMethod<Codes>({}, { Width, Height, 1 }, Frames, mask))), "another mask"));
+  EXPECT_TRUE(has(complaint(save(RefinedMethod<GreyValue>({}, { Width, Height, 1 }, Frames, mask))), "another mask"));
   auto second = MethodOf(stack);
   second.AddFrames(stack.Frame(0), Frames);
   second.EndPass();
@@ -84,8 +84,8 @@ TEST(SensorNoiseRefinedMethodErrors, SumsThatDoNotFitAreRefusedAndChangeNothing)
 
 TEST(SensorNoiseRefinedMethodErrors, SumsOfOtherPassesBeforeAreRefused)
 {
-  const auto & stack = SmallStack<Codes>();
-  const auto   brighter = stack.Map([](Codes u) { return u + 1; });
+  const auto & stack = SmallStack<GreyValue>();
+  const auto   brighter = stack.Map([](GreyValue u) { return u + 1; });
   auto         method = MethodOf(stack);
   auto         other = MethodOf(stack);
   method.AddFrames(stack.Frame(0), Frames);
@@ -104,7 +104,7 @@ TEST(SensorNoiseRefinedMethodErrors, SumsOfOtherPassesBeforeAreRefused)
 
 TEST(SensorNoiseRefinedMethodErrors, MissingAndRepeatedFramesAreRefused)
 {
-  const auto & stack = SmallStack<Codes>();
+  const auto & stack = SmallStack<GreyValue>();
   auto         method = MethodOf(stack);
   AddPart(method, stack, 0, 2, InRuns);
   EXPECT_THROW(method.SkipFrames(1), std::logic_error);

@@ -28,7 +28,7 @@ using namespace sensornoise::test;
 
 namespace
 {
-using Codes = unsigned short;
+using GreyValue = unsigned short;
 constexpr std::size_t Width = 128; // 12,288 pixels are two blocks
 constexpr std::size_t Height = 96;
 
@@ -69,7 +69,8 @@ TYPED_TEST(SensorNoiseRefinedMethodBits, AnyChunksAndThreadsGiveTheSameBits)
   {
     for (const std::size_t chunk : { std::size_t{ 1 }, std::size_t{ 3 }, stack.frames })
     {
-      const auto method = Measure(stack, WithCodes(), chunk, threads == 1 ? ParallelFor(SerialFor) : Threads(threads));
+      const auto method =
+        Measure(stack, WithDnSettings(), chunk, threads == 1 ? ParallelFor(SerialFor) : Threads(threads));
       EXPECT_EQ(ToJson(method.GetReport()), ToJson(expected.GetReport())) << threads << ' ' << chunk;
       EXPECT_TRUE(HaveSameBits(method.GetMean(), expected.GetMean())) << threads << ' ' << chunk;
       EXPECT_TRUE(HaveSameBits(method.GetVariance(), expected.GetVariance())) << threads << ' ' << chunk;
@@ -83,7 +84,7 @@ TYPED_TEST(SensorNoiseRefinedMethodBits, AnyChunksAndThreadsGiveTheSameBits)
 TEST(SensorNoiseRefinedMethod, RecoversTheCameraWithinItsErrors)
 {
   const auto     settings = FlickeringSettings(40);
-  const auto     method = Measure(TexturedStack<Codes>());
+  const auto     method = Measure(TexturedStack<GreyValue>());
   const Report & report = method.GetReport();
   const auto     expectNear = [](const Quantity & quantity, double truth) {
     ASSERT_TRUE(quantity.value && quantity.standardError);
@@ -109,7 +110,7 @@ TEST(SensorNoiseRefinedMethod, WithoutFlickerOffsetAndReadNoiseAreNotIdentifiabl
 {
   auto settings = FlickeringSettings(40);
   settings.conditions.flickerSd = 0.0;
-  const auto     method = Measure(Simulate<Codes>(settings, Width, Height));
+  const auto     method = Measure(Simulate<GreyValue>(settings, Width, Height));
   const Report & report = method.GetReport();
   EXPECT_NEAR(ValueOf(report.gain), 1.0, 5.0 * *report.gain.standardError);
   EXPECT_EQ(report.offset.status, EstimateStatus::NotIdentifiable);
@@ -122,14 +123,14 @@ TEST(SensorNoiseRefinedMethod, WithoutFlickerOffsetAndReadNoiseAreNotIdentifiabl
 
 TEST(SensorNoiseRefinedMethod, MaskedPixelsTakeNoPart)
 {
-  auto                      stack = TexturedStack<Codes>();
+  auto                      stack = TexturedStack<GreyValue>();
   std::vector<std::uint8_t> mask(Width * Height, 1);
   for (std::size_t p = 0; p < mask.size(); ++p)
   {
     mask[p] = p / Width < 70 ? 7 : 0;
   }
   const auto measure = [&] {
-    RefinedMethod<Codes> method(WithCodes(), GeometryOf(stack), stack.frames, mask);
+    RefinedMethod<GreyValue> method(WithDnSettings(), GeometryOf(stack), stack.frames, mask);
     while (!method.IsDone())
     {
       method.AddFrames(stack.Frame(0), stack.frames);
@@ -143,7 +144,7 @@ TEST(SensorNoiseRefinedMethod, MaskedPixelsTakeNoPart)
   {
     if (i / Width % Height >= 70)
     {
-      stack.pixels[i] = stack.pixels[i] > 5 ? static_cast<Codes>(stack.pixels[i] - 5) : stack.pixels[i];
+      stack.pixels[i] = stack.pixels[i] > 5 ? static_cast<GreyValue>(stack.pixels[i] - 5) : stack.pixels[i];
     }
   }
   const auto method = measure();
@@ -165,10 +166,10 @@ TEST(SensorNoiseRefinedMethod, StacksWithoutInformationFailWithAReason)
   const auto clipped = Measure(constant(static_cast<unsigned char>(255)), {});
   ExpectNothingMeasured(clipped.GetReport());
   EXPECT_EQ(clipped.GetReport().pixels.clipped, 320u);
-  auto frames = constant(Codes{ 700 });
+  auto frames = constant(GreyValue{ 700 });
   for (std::size_t t = 0; t < frames.frames; ++t)
   {
-    frames.pixels[t * 20 * 16] = static_cast<Codes>(700 + t); // otherwise all frames are equal
+    frames.pixels[t * 20 * 16] = static_cast<GreyValue>(700 + t); // otherwise all frames are equal
   }
   const auto measured = Measure(frames, {});
   ExpectNothingMeasured(measured.GetReport());
@@ -182,7 +183,7 @@ TEST(SensorNoiseRefinedMethod, StacksWithoutInformationFailWithAReason)
 
 TEST(SensorNoiseRefinedMethod, WrongUseIsRefused)
 {
-  using Method = RefinedMethod<Codes>;
+  using Method = RefinedMethod<GreyValue>;
   const FrameGeometry geometry{ 20, 16, 1 };
   EXPECT_THROW(Method({}, geometry, 4), std::invalid_argument);
   EXPECT_NO_THROW(Method({}, geometry, 5));
@@ -192,15 +193,15 @@ TEST(SensorNoiseRefinedMethod, WrongUseIsRefused)
   settings.codes.bitDepth = 17;
   EXPECT_THROW(Method(settings, geometry, 20), std::invalid_argument);
   settings.codes.bitDepth = 10;
-  EXPECT_THROW(Measure(TexturedStack<Codes>(), settings), std::invalid_argument); // the data exceed 1,023
+  EXPECT_THROW(Measure(TexturedStack<GreyValue>(), settings), std::invalid_argument); // the data exceed 1,023
 }
 
 // The sums of the second pass point to the scene of the first pass, whose address must not change with a move.
 TEST(SensorNoiseRefinedMethod, MayBeMovedBetweenAndWithinPasses)
 {
-  const auto & stack = TexturedStack<Codes>();
-  using Method = RefinedMethod<Codes>;
-  auto method = std::make_unique<Method>(WithCodes(), GeometryOf(stack), stack.frames);
+  const auto & stack = TexturedStack<GreyValue>();
+  using Method = RefinedMethod<GreyValue>;
+  auto method = std::make_unique<Method>(WithDnSettings(), GeometryOf(stack), stack.frames);
   while (!method->IsDone())
   {
     method = std::make_unique<Method>(std::move(*method));
@@ -215,7 +216,7 @@ TEST(SensorNoiseRefinedMethod, MayBeMovedBetweenAndWithinPasses)
 // Only NothingToMeasure becomes a report. Other exceptions, as of a thread that cannot be started, are not caught.
 TEST(SensorNoiseRefinedMethod, OtherErrorsPassThrough)
 {
-  const auto & stack = TexturedStack<Codes>();
+  const auto & stack = TexturedStack<GreyValue>();
   bool         isBroken = false;
   const auto   parallelFor = [&isBroken](std::size_t count, const std::function<void(std::size_t)> & function) {
     if (isBroken)
@@ -224,7 +225,7 @@ TEST(SensorNoiseRefinedMethod, OtherErrorsPassThrough)
     }
     SerialFor(count, function);
   };
-  RefinedMethod<Codes> method(WithCodes(), GeometryOf(stack), stack.frames, {}, parallelFor);
+  RefinedMethod<GreyValue> method(WithDnSettings(), GeometryOf(stack), stack.frames, {}, parallelFor);
   method.AddFrames(stack.Frame(0), stack.frames);
   isBroken = true;
   EXPECT_THROW(method.EndPass(), std::system_error);
@@ -232,14 +233,14 @@ TEST(SensorNoiseRefinedMethod, OtherErrorsPassThrough)
 
 TEST(SensorNoiseRefinedMethod, PassOfWrongLengthIsRefused)
 {
-  const auto &         stack = TexturedStack<Codes>();
-  const FrameGeometry  geometry{ Width, Height, 1 };
-  RefinedMethod<Codes> shortPass({}, geometry, 40);
+  const auto &             stack = TexturedStack<GreyValue>();
+  const FrameGeometry      geometry{ Width, Height, 1 };
+  RefinedMethod<GreyValue> shortPass({}, geometry, 40);
   shortPass.AddFrames(stack.Frame(0), 39);
   EXPECT_THROW(shortPass.EndPass(), std::logic_error);
   shortPass.AddFrames(stack.Frame(39), 1);
   EXPECT_NO_THROW(shortPass.EndPass());
-  RefinedMethod<Codes> longPass({}, geometry, 39);
+  RefinedMethod<GreyValue> longPass({}, geometry, 39);
   longPass.AddFrames(stack.Frame(0), 30);
   EXPECT_THROW(longPass.AddFrames(stack.Frame(30), 10), std::logic_error);
 }

@@ -19,20 +19,21 @@ using namespace sensornoise::test;
 
 namespace
 {
-using Codes = unsigned short;
+using GreyValue = unsigned short;
 constexpr std::size_t Width = 128;
 constexpr std::size_t Height = 96;
 constexpr std::size_t Frames = 40;
 
 /** Burst with flicker and vibrations along both axes, of a calibration target or a textured scene. */
-const std::array<Stack<Codes>, 2> &
+const std::array<Stack<GreyValue>, 2> &
 Stacks()
 {
   static const auto stacks = [] {
     SimulationSettings settings = FlickeringSettings(Frames);
     settings.conditions = { 0.05, 0.15, 0.08 };
-    return std::array<Stack<Codes>, 2>{ Simulate<Codes>(settings, Width, Height),
-                                        Simulate<Codes>(settings, Width, Height, MakeTextureScene(Width, Height)) };
+    return std::array<Stack<GreyValue>, 2>{ Simulate<GreyValue>(settings, Width, Height),
+                                            Simulate<GreyValue>(
+                                              settings, Width, Height, MakeTextureScene(Width, Height)) };
   }();
   return stacks;
 }
@@ -89,8 +90,11 @@ ExpectSame(const std::map<std::string, Scalar> & before, const std::map<std::str
 void
 Scale(std::map<std::string, Scalar> & scalars, const std::string & name, double factor)
 {
-  scalars.at(name).value *= factor;
-  scalars.at(name + " se").value *= factor;
+  for (const auto & key : { name, name + " se" })
+  {
+    scalars.at(key).value *= factor;
+    scalars.at(key).tolerance *= factor;
+  }
 }
 } // namespace
 
@@ -121,7 +125,7 @@ TEST(SensorNoiseRefinedMethodInvariance, TransposedFramesSwapTheAxes)
 {
   for (const auto & stack : Stacks())
   {
-    Stack<Codes> transposed{ Height, Width, Frames, stack.pixels };
+    Stack<GreyValue> transposed{ Height, Width, Frames, stack.pixels };
     for (std::size_t i = 0; i < stack.pixels.size(); ++i)
     {
       const std::size_t x = i % Width;
@@ -148,7 +152,7 @@ TEST(SensorNoiseRefinedMethodInvariance, AddedConstantShiftsTheOffset)
   for (const auto & stack : Stacks())
   {
     const auto method = Measure(stack);
-    const auto shifted = Measure(stack.Map([](int u) { return u + added; }), WithCodes(1.0, added));
+    const auto shifted = Measure(stack.Map([](int u) { return u + added; }), WithDnSettings(1.0, added));
     auto       before = ScalarsOf(method.GetReport());
     auto       after = ScalarsOf(shifted.GetReport());
     after.at("offset").value -= added;
@@ -172,7 +176,7 @@ TEST(SensorNoiseRefinedMethodInvariance, DoubledSamplesDoubleTheCamera)
   {
     const auto method = Measure(stack);
     // With twice the step the quantization noise, step^2 / 12, grows by a factor of 4, as all variances.
-    const auto doubled = Measure(stack.Map([](int u) { return 2 * u; }), WithCodes(2.0));
+    const auto doubled = Measure(stack.Map([](int u) { return 2 * u; }), WithDnSettings(2.0));
     auto       before = ScalarsOf(method.GetReport());
     const auto after = ScalarsOf(doubled.GetReport());
     ASSERT_EQ(doubled.GetReport().quantisationStepDn, 2.0);
@@ -192,15 +196,37 @@ TEST(SensorNoiseRefinedMethodInvariance, DoubledSamplesDoubleTheCamera)
   }
 }
 
-TEST(SensorNoiseRefinedMethodInvariance, FloatingPointPixelsGiveTheSameAsCodes)
+TEST(SensorNoiseRefinedMethodInvariance, FloatingPointPixelsGiveTheSameAsIntegers)
 {
   for (const auto & stack : Stacks())
   {
     Stack<float> floats{ Width, Height, Frames, { stack.pixels.begin(), stack.pixels.end() } };
-    Stack<short> signedCodes{ Width, Height, Frames, { stack.pixels.begin(), stack.pixels.end() } };
+    Stack<short> signedIntegers{ Width, Height, Frames, { stack.pixels.begin(), stack.pixels.end() } };
     const auto   expected = ScalarsOf(Measure(stack).GetReport());
     ExpectSame(expected, ScalarsOf(Measure(floats).GetReport()), 1e-9);
-    ExpectSame(expected, ScalarsOf(Measure(signedCodes).GetReport()), 1e-9);
+    ExpectSame(expected, ScalarsOf(Measure(signedIntegers).GetReport()), 1e-9);
+  }
+}
+
+TEST(SensorNoiseRefinedMethodInvariance, SamplesMayBeFractionsOfFullScale)
+{
+  for (const auto & stack : Stacks())
+  {
+    const auto expected = ScalarsOf(Measure(stack).GetReport());
+    for (const double unit : { std::exp2(-16), std::exp2(-40), std::exp2(20) })
+    {
+      const auto scaled = stack.Map<float>([unit](int u) { return unit * u; });
+      auto       before = expected;
+      for (const char * name : { "gain", "offset", "read noise" })
+      {
+        Scale(before, name, unit);
+      }
+      for (const char * name : { "intercept", "total intercept" })
+      {
+        Scale(before, name, unit * unit);
+      }
+      ExpectSame(before, ScalarsOf(Measure(scaled, WithDnSettings(unit)).GetReport()), 1e-9);
+    }
   }
 }
 
@@ -208,7 +234,7 @@ TEST(SensorNoiseRefinedMethodInvariance, MirroredFramesMirrorTheShifts)
 {
   for (const auto & stack : Stacks())
   {
-    Stack<Codes> mirrored = stack;
+    Stack<GreyValue> mirrored = stack;
     for (std::size_t y = 0; y < Height * Frames; ++y)
     {
       const auto row = mirrored.pixels.begin() + static_cast<std::ptrdiff_t>(y * Width);

@@ -19,7 +19,7 @@ using namespace sensornoise::test::merge;
 
 namespace
 {
-using Codes = unsigned short;
+using GreyValue = unsigned short;
 
 /** Measures with several processes. Each reads a part of the frames and merges the sums of the others in another order.
  */
@@ -30,7 +30,7 @@ MeasureInParts(const Stack<TPixel> & stack, std::size_t count, Reader of)
   std::vector<std::unique_ptr<RefinedMethod<TPixel>>> processes;
   for (std::size_t i = 0; i < count; ++i)
   {
-    processes.push_back(std::make_unique<RefinedMethod<TPixel>>(WithCodes(), GeometryOf(stack), stack.frames));
+    processes.push_back(std::make_unique<RefinedMethod<TPixel>>(WithDnSettings(), GeometryOf(stack), stack.frames));
   }
   while (!processes[0]->IsDone())
   {
@@ -77,7 +77,7 @@ ExpectNear(const Quantity & a, const Quantity & b, double relative)
 
 TEST(SensorNoiseRefinedMethodMerge, PartsOfIntegerFramesGiveTheWholesBits)
 {
-  const auto & stack = SmallStack<Codes>();
+  const auto & stack = SmallStack<GreyValue>();
   const auto   whole = Measure(stack);
   ASSERT_EQ(whole.GetReport().gain.status, EstimateStatus::Identified);
   ASSERT_TRUE(whole.GetReport().noiseCorrelation); // every digit is compared
@@ -152,7 +152,7 @@ TEST(SensorNoiseRefinedMethodMerge, SavedSumsHoldTheMergedOnes)
 
 TEST(SensorNoiseRefinedMethodMerge, SumsThatAreForgottenLeaveNothingAndFramesMayComeInAnyOrder)
 {
-  const auto & stack = SmallStack<Codes>();
+  const auto & stack = SmallStack<GreyValue>();
   const auto   whole = Measure(stack);
   auto         method = MethodOf(stack);
   while (!method.IsDone())
@@ -197,7 +197,7 @@ TEST(SensorNoiseRefinedMethodMerge, FoldedPartsOfFloatingPointFramesAreThoseInOr
 
 TEST(SensorNoiseRefinedMethodMerge, ProcessWithoutFramesMayTakePart)
 {
-  const auto & stack = SmallStack<Codes>();
+  const auto & stack = SmallStack<GreyValue>();
   const auto   whole = Measure(stack);
   auto         reader = MethodOf(stack);
   auto         idle = MethodOf(stack);

@@ -34,12 +34,12 @@ NonlinearCamera(ResponseShape shape, double nonlinearity, std::size_t frames)
 
 /** Returns a target whose darkest level has the fraction \a low of the signal of the brightest. One pixel without
  * signal spans the range. */
-Stack<Codes>
+Stack<GreyValue>
 SimulateLevels(double low)
 {
   std::vector<double> scene = ScaleToRange(MakeTargetScene(Size, Size), low, 1.0);
   scene[0] = 0.0;
-  return Simulate<Codes>(StaticCamera(40), Size, Size, scene);
+  return Simulate<GreyValue>(StaticCamera(40), Size, Size, scene);
 }
 } // namespace
 
@@ -49,7 +49,7 @@ TEST(SensorNoiseRefinedReport, FlatIsOneIntensityAndNotAThingThatMoves)
   {
     SimulationSettings settings = StaticCamera(40);
     settings.conditions.flickerSd = flickerSd;
-    const Report report = Measure(Simulate<Codes>(settings, Size, Size, FlatScene(Size)), {}).GetReport();
+    const Report report = Measure(Simulate<GreyValue>(settings, Size, Size, FlatScene(Size)), {}).GetReport();
     EXPECT_FALSE(report.gain.value);
     EXPECT_EQ(report.gain.status, EstimateStatus::NotIdentifiable);
     EXPECT_EQ(report.offset.status, EstimateStatus::NotIdentifiable);
@@ -77,7 +77,7 @@ TEST(SensorNoiseRefinedReport, NonlinearResponseHasTheMeanGainInItsInterval)
   {
     const SimulationSettings settings = NonlinearCamera(ResponseShape::Quadratic, nonlinearity, 40);
     const StackSimulator     simulator(MakeTargetScene(size, size), size, size, settings);
-    const Report             report = Measure(Simulate<Codes>(settings, size, size), {}).GetReport();
+    const Report             report = Measure(Simulate<GreyValue>(settings, size, size), {}).GetReport();
     EXPECT_TRUE(HasWarning(report, WarningCode::ResponseNotStraight)) << nonlinearity;
     EXPECT_FALSE(HasWarning(report, WarningCode::VarianceNotAffine)) << nonlinearity;
     EXPECT_FALSE(HasWarning(report, WarningCode::NotStatic)) << nonlinearity;
@@ -97,9 +97,9 @@ TEST(SensorNoiseRefinedReport, VerdictOnANonlinearityDoesNotDependOnTheSizeOfThe
 {
   // With sixteen times the pixels the non-linearity is more significant, not larger.
   const SimulationSettings settings = NonlinearCamera(ResponseShape::Quadratic, 0.04, 20);
-  const Report             small = Measure(Simulate<Codes>(settings, 128, 128), {}).GetReport();
+  const Report             small = Measure(Simulate<GreyValue>(settings, 128, 128), {}).GetReport();
   const StackSimulator     simulator(MakeTargetScene(512, 512), 512, 512, settings);
-  const Report             large = Measure(Simulate<Codes>(settings, 512, 512), {}).GetReport();
+  const Report             large = Measure(Simulate<GreyValue>(settings, 512, 512), {}).GetReport();
   EXPECT_EQ(small.gain.status, large.gain.status);
   EXPECT_TRUE(HasWarning(small, WarningCode::ResponseNotStraight));
   EXPECT_TRUE(HasWarning(large, WarningCode::ResponseNotStraight));
@@ -112,7 +112,7 @@ TEST(SensorNoiseRefinedReport, ToneCurveIsRefusedWithItsLine)
 {
   for (const auto & [shape, size] : { std::pair{ ResponseShape::Gamma, 1.3 }, std::pair{ ResponseShape::Gamma, 2.2 } })
   {
-    const Report report = Measure(Simulate<Codes>(NonlinearCamera(shape, size, 40), Size, Size), {}).GetReport();
+    const Report report = Measure(Simulate<GreyValue>(NonlinearCamera(shape, size, 40), Size, Size), {}).GetReport();
     EXPECT_EQ(report.gain.status, EstimateStatus::Failed) << size;
     EXPECT_FALSE(report.gain.value || report.offset.value || report.readNoise.value) << size;
     EXPECT_TRUE(HasWarning(report, WarningCode::VarianceNotAffine)) << size;
@@ -128,17 +128,18 @@ TEST(SensorNoiseRefinedReport, ToneCurveIsNotTakenForSharpEdges)
   SimulationSettings settings; // it flickers and vibrates
   settings.frames = 60;
   settings.flaws.response = { ResponseShape::Gamma, 0.6 };
-  const Report report = Measure(Simulate<Codes>(settings, 256, 192), {}).GetReport();
+  const Report report = Measure(Simulate<GreyValue>(settings, 256, 192), {}).GetReport();
   EXPECT_EQ(report.gain.status, EstimateStatus::Failed);
 }
 
-TEST(SensorNoiseRefinedReport, ToneCurveOfTheCodesIsRefusedHoweverManyPixelsTellIt)
+TEST(SensorNoiseRefinedReport, ToneCurveIsRefusedHoweverManyPixelsShowIt)
 {
   // With more pixels the roughness classes differ beyond chance. This must not hide the curve.
-  Stack<Codes> stack = Simulate<Codes>(SimulationSettings(), 512, 512); // 100 frames
-  for (Codes & code : stack.pixels)
+  Stack<GreyValue> stack = Simulate<GreyValue>(SimulationSettings(), 512, 512); // 100 frames
+  for (GreyValue & greyValue : stack.pixels)
   {
-    code = static_cast<Codes>(std::lround(4095.0 * std::pow(static_cast<double>(code) / 4095.0, 1.0 / 1.3)));
+    greyValue =
+      static_cast<GreyValue>(std::lround(4095.0 * std::pow(static_cast<double>(greyValue) / 4095.0, 1.0 / 1.3)));
   }
   const Report report = Measure(stack, {}).GetReport();
   EXPECT_EQ(report.gain.status, EstimateStatus::Failed);
@@ -149,9 +150,9 @@ TEST(SensorNoiseRefinedReport, FloatingPointFramesThatSaturateAreMeasuredAsTheir
 {
   SimulationSettings settings = StaticCamera(40);
   settings.clipHighDn = 2000.0; // the largest levels are about 3,100
-  const Stack<Codes> codes = Simulate<Codes>(settings, Size, Size);
-  const Report       integer = Measure(codes, {}).GetReport();
-  const Report       floating = Measure(codes.Map<float>([](Codes u) { return u; }), {}).GetReport();
+  const Stack<GreyValue> greyValues = Simulate<GreyValue>(settings, Size, Size);
+  const Report           integer = Measure(greyValues, {}).GetReport();
+  const Report           floating = Measure(greyValues.Map<float>([](GreyValue u) { return u; }), {}).GetReport();
   EXPECT_TRUE(HasWarning(floating, WarningCode::ClipLevelFound));
   EXPECT_NEAR(ValueOf(integer.gain), 1.0, 5.0 * *integer.gain.standardError);
   EXPECT_NEAR(ValueOf(floating.gain), ValueOf(integer.gain), 0.5 * *integer.gain.standardError);

@@ -22,18 +22,18 @@ using namespace sensornoise::test::merge;
 
 namespace
 {
-using Codes = unsigned short;
+using GreyValue = unsigned short;
 
 /** Returns the small stack with each frame twice. */
-Stack<Codes>
+Stack<GreyValue>
 Doubled(Shown & shown)
 {
   shown = WaysToRepeat(Frames).front().second;
-  return Show(SmallStack<Codes>(), shown);
+  return Show(SmallStack<GreyValue>(), shown);
 }
 
 std::string
-SumsOf(const RefinedMethod<Codes> & method)
+SumsOf(const RefinedMethod<GreyValue> & method)
 {
   std::ostringstream out;
   method.SaveSums(out);
@@ -41,7 +41,7 @@ SumsOf(const RefinedMethod<Codes> & method)
 }
 
 void
-MergeText(RefinedMethod<Codes> & method, const std::string & sums)
+MergeText(RefinedMethod<GreyValue> & method, const std::string & sums)
 {
   std::istringstream in(sums);
   method.MergeSums(in);
@@ -50,7 +50,10 @@ MergeText(RefinedMethod<Codes> & method, const std::string & sums)
 /** Measures with two processes. The first reads frame t if \a isFirst(t). */
 template <typename TIsFirst>
 void
-RunPass(RefinedMethod<Codes> & one, RefinedMethod<Codes> & two, const Stack<Codes> & stack, TIsFirst isFirst)
+RunPass(RefinedMethod<GreyValue> & one,
+        RefinedMethod<GreyValue> & two,
+        const Stack<GreyValue> &   stack,
+        TIsFirst                   isFirst)
 {
   for (std::size_t t = 0; t < stack.frames; ++t)
   {
@@ -98,7 +101,7 @@ TYPED_TEST(SensorNoiseRepeatedFramesOf, AnyChunksAndThreadsGiveTheSameBits)
   const auto   repeated = Show(stack, shown);
   for (const std::size_t chunk : { 1, 2, 7 })
   {
-    ExpectResultOfDistinct(Measure(repeated, WithCodes(), chunk, Threads(chunk)), expected, shown);
+    ExpectResultOfDistinct(Measure(repeated, WithDnSettings(), chunk, Threads(chunk)), expected, shown);
   }
 }
 
@@ -109,12 +112,14 @@ TEST(SensorNoiseRepeatedFrames, AreNamedInOneWarning)
   EXPECT_EQ(
     twice.GetReport().warnings.front().message,
     "24 of 48 frames are equal to an earlier one (frame 1 equals frame 0, frame 3 equals frame 2, ...; the first "
-    "is 0): each is counted once");
-  const auto last = Measure(Show(SmallStack<Codes>(), WaysToRepeat(Frames)[2].second));
-  EXPECT_EQ(
-    last.GetReport().warnings.front().message,
-    "1 of 25 frames is equal to an earlier one (frame 24 equals frame 0; the first is 0): each is counted once");
-  EXPECT_FALSE(HasWarning(Measure(SmallStack<Codes>()).GetReport(), WarningCode::RepeatedFrames));
+    "is 0): each is counted once, because a repetition has no new noise. Set the recorder to the frame rate of the "
+    "camera");
+  const auto last = Measure(Show(SmallStack<GreyValue>(), WaysToRepeat(Frames)[2].second));
+  EXPECT_EQ(last.GetReport().warnings.front().message,
+            "1 of 25 frames is equal to an earlier one (frame 24 equals frame 0; the first is 0): each is counted "
+            "once, because "
+            "a repetition has no new noise. Set the recorder to the frame rate of the camera");
+  EXPECT_FALSE(HasWarning(Measure(SmallStack<GreyValue>()).GetReport(), WarningCode::RepeatedFrames));
 }
 
 TEST(SensorNoiseRepeatedFrames, ThatOneProcessReadsAreCountedOnceByAll)
@@ -166,7 +171,7 @@ TEST(SensorNoiseRepeatedFrames, OfSumsThatWereMergedBeforeAreNotCountedAgain)
   {
     shown[t] = t % Frames;
   }
-  const auto stack = Show(SmallStack<Codes>(), shown);
+  const auto stack = Show(SmallStack<GreyValue>(), shown);
   auto       one = MethodOf(stack);
   auto       two = MethodOf(stack);
   two.SkipFrames(Frames);
@@ -179,7 +184,7 @@ TEST(SensorNoiseRepeatedFrames, OfSumsThatWereMergedBeforeAreNotCountedAgain)
     one.AddFrames(stack.Frame(0), stack.frames);
     one.EndPass();
   }
-  ExpectResultOfDistinct(one, Measure(SmallStack<Codes>()), shown);
+  ExpectResultOfDistinct(one, Measure(SmallStack<GreyValue>()), shown);
 }
 
 TEST(SensorNoiseRepeatedFrames, ThatOneProcessLeavesToTheOtherAreCountedOnce)
@@ -214,7 +219,7 @@ TEST(SensorNoiseRepeatedFrames, TooFewDistinctOnesAreRefused)
     {
       shown[t] = t % distinct;
     }
-    const Report report = Measure(Show(SmallStack<Codes>(), shown)).GetReport();
+    const Report report = Measure(Show(SmallStack<GreyValue>(), shown)).GetReport();
     EXPECT_FALSE(report.IsUsable());
     EXPECT_EQ(report.frames, 40U);
     EXPECT_EQ(report.framesDistinct, distinct);
@@ -227,6 +232,7 @@ TEST(SensorNoiseRepeatedFrames, TooFewDistinctOnesAreRefused)
   }
   // Five distinct frames are measured, as five frames without repetition.
   Shown shown{ 0, 1, 2, 3, 4, 0, 1, 2, 3, 4 };
-  ExpectResultOfDistinct(
-    Measure(Show(SmallStack<Codes>(), shown)), Measure(Show(SmallStack<Codes>(), Shown{ 0, 1, 2, 3, 4 })), shown);
+  ExpectResultOfDistinct(Measure(Show(SmallStack<GreyValue>(), shown)),
+                         Measure(Show(SmallStack<GreyValue>(), Shown{ 0, 1, 2, 3, 4 })),
+                         shown);
 }

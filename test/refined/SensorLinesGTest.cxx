@@ -11,7 +11,7 @@ using namespace sensornoise;
 namespace
 {
 constexpr double BlackDn = 100.0;
-constexpr double CodesDn2 = 0.5;
+constexpr double QuantisationDn2 = 0.5;
 constexpr double Gain = 0.4;
 constexpr double InterceptDn2 = 30.0;
 
@@ -91,7 +91,7 @@ Sharing(CovarianceShape shape, double coefficient, double standardError = 0.0)
 TEST(SensorNoiseSensorLines, WithoutSharingTheyAreThoseOfThePixels)
 {
   const SensorLines lines = StraightLines();
-  const SensorLines sensor = AddCovariances(lines, {}, BlackDn, CodesDn2);
+  const SensorLines sensor = AddCovariances(lines, {}, BlackDn, QuantisationDn2);
   EXPECT_DOUBLE_EQ(sensor.all.gain, lines.all.gain);
   EXPECT_DOUBLE_EQ(sensor.all.intercept, lines.all.intercept);
   EXPECT_DOUBLE_EQ(sensor.instrumentalLine.gain, lines.instrumentalLine.gain);
@@ -105,23 +105,23 @@ TEST(SensorNoiseSensorLines, WithoutSharingTheyAreThoseOfThePixels)
   EXPECT_EQ(FilterFactor({}), 1.0);
 }
 
-TEST(SensorNoiseSensorLines, AFilterScalesTheVarianceWithoutTheCodesNoise)
+TEST(SensorNoiseSensorLines, AFilterScalesTheVarianceWithoutTheQuantizationNoise)
 {
   constexpr double  shared = 1.5;
   const SensorLines lines = StraightLines();
   const auto        correlation = Sharing(CovarianceShape::Variance, shared);
-  const SensorLines sensor = AddCovariances(lines, correlation, BlackDn, CodesDn2);
+  const SensorLines sensor = AddCovariances(lines, correlation, BlackDn, QuantisationDn2);
   constexpr double  factor = 1.0 + shared;
   EXPECT_DOUBLE_EQ(FilterFactor(correlation), factor);
   EXPECT_NEAR(sensor.all.gain, factor * Gain, 1e-12);
-  EXPECT_NEAR(sensor.all.intercept, factor * (InterceptDn2 - CodesDn2) + CodesDn2, 1e-12);
-  EXPECT_NEAR(sensor.all.intercept, VarianceOfSensor(InterceptDn2, correlation, CodesDn2), 1e-12);
+  EXPECT_NEAR(sensor.all.intercept, factor * (InterceptDn2 - QuantisationDn2) + QuantisationDn2, 1e-12);
+  EXPECT_NEAR(sensor.all.intercept, VarianceOfSensor(InterceptDn2, correlation, QuantisationDn2), 1e-12);
   EXPECT_LT((sensor.all.covariance - factor * factor * lines.all.covariance).norm(), 1e-12);
   EXPECT_NEAR(sensor.instrumentalLine.gain, factor * lines.instrumentalLine.gain, 1e-12);
   for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
   {
     const double variance = VarianceOf(lines.curve, b);
-    EXPECT_NEAR(VarianceOf(sensor.curve, b), factor * (variance - CodesDn2) + CodesDn2, 1e-9);
+    EXPECT_NEAR(VarianceOf(sensor.curve, b), factor * (variance - QuantisationDn2) + QuantisationDn2, 1e-9);
     EXPECT_NEAR(sensor.curve.LevelOf(sensor.curve.bins[b]), lines.curve.LevelOf(lines.curve.bins[b]), 1e-9);
     EXPECT_NEAR(sensor.curve.bins[b].weight * factor * factor, lines.curve.bins[b].weight, 1e-12);
   }
@@ -132,16 +132,16 @@ TEST(SensorNoiseSensorLines, FramesThatAreMixedScaleItToo)
   auto correlation = Sharing(CovarianceShape::Variance, 0.5);
   correlation.timeShapes = Sharing(CovarianceShape::Variance, 2.0).shapes;
   EXPECT_DOUBLE_EQ(FilterFactor(correlation), 4.5);
-  const SensorLines sensor = AddCovariances(StraightLines(), correlation, BlackDn, CodesDn2);
+  const SensorLines sensor = AddCovariances(StraightLines(), correlation, BlackDn, QuantisationDn2);
   EXPECT_NEAR(sensor.all.gain, 4.5 * Gain, 1e-12);
-  EXPECT_NEAR(sensor.all.intercept, 4.5 * (InterceptDn2 - CodesDn2) + CodesDn2, 1e-12);
+  EXPECT_NEAR(sensor.all.intercept, 4.5 * (InterceptDn2 - QuantisationDn2) + QuantisationDn2, 1e-12);
 }
 
 TEST(SensorNoiseSensorLines, CoupledChargeAddsASlopeAboutBlack)
 {
   constexpr double  shared = 0.05;
   const SensorLines lines = StraightLines();
-  const SensorLines sensor = AddCovariances(lines, Sharing(CovarianceShape::Signal, shared), BlackDn, CodesDn2);
+  const SensorLines sensor = AddCovariances(lines, Sharing(CovarianceShape::Signal, shared), BlackDn, QuantisationDn2);
   EXPECT_NEAR(sensor.all.gain, Gain + shared, 1e-12);
   EXPECT_NEAR(sensor.all.intercept + sensor.all.gain * BlackDn, InterceptDn2 + Gain * BlackDn, 1e-9); // same read noise
   EXPECT_LT((sensor.all.covariance - lines.all.covariance).norm(), 1e-15);
@@ -160,7 +160,7 @@ TEST(SensorNoiseSensorLines, ChargeThatRepelsChargeLeavesALineBehind)
     const double z = level - BlackDn;
     return 30.0 + 0.4 * z - shared * z * z;
   });
-  const SensorLines sensor = AddCovariances(lines, Sharing(CovarianceShape::Square, shared), BlackDn, CodesDn2);
+  const SensorLines sensor = AddCovariances(lines, Sharing(CovarianceShape::Square, shared), BlackDn, QuantisationDn2);
   for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
   {
     const double z = lines.curve.LevelOf(lines.curve.bins[b]) - BlackDn;
@@ -190,7 +190,7 @@ TEST(SensorNoiseSensorLines, TheLineThroughALossIsMadeTheSensorsOwn)
   const Eigen::Vector2d fitted = square.inverse() * product;
   lines.all.gain = fitted(0);
   lines.all.intercept = fitted(1);
-  const SensorLines sensor = AddCovariances(lines, Sharing(CovarianceShape::Square, shared), BlackDn, CodesDn2);
+  const SensorLines sensor = AddCovariances(lines, Sharing(CovarianceShape::Square, shared), BlackDn, QuantisationDn2);
   EXPECT_NEAR(sensor.all.gain, 0.4, 1e-9);
   EXPECT_NEAR(sensor.all.intercept + sensor.all.gain * BlackDn, 30.0, 1e-6);
 }
@@ -198,13 +198,13 @@ TEST(SensorNoiseSensorLines, TheLineThroughALossIsMadeTheSensorsOwn)
 TEST(SensorNoiseSensorLines, WhatIsNotKnownOfTheSharingIsAnErrorOfGainAndIntercept)
 {
   const SensorLines lines = StraightLines();
-  const auto        filtered =
-    AddCovariances(lines, Sharing(CovarianceShape::Variance, 1.5, 0.02), BlackDn, CodesDn2).covarianceOfCorrelation;
+  const auto filtered = AddCovariances(lines, Sharing(CovarianceShape::Variance, 1.5, 0.02), BlackDn, QuantisationDn2)
+                          .covarianceOfCorrelation;
   EXPECT_NEAR(std::sqrt(filtered(0, 0)), 0.02 * Gain, 1e-12);
-  EXPECT_NEAR(std::sqrt(filtered(1, 1)), 0.02 * (InterceptDn2 - CodesDn2), 1e-12);
-  EXPECT_NEAR(filtered(0, 1), 4e-4 * Gain * (InterceptDn2 - CodesDn2), 1e-12);
-  const auto coupled =
-    AddCovariances(lines, Sharing(CovarianceShape::Signal, 0.05, 0.002), BlackDn, CodesDn2).covarianceOfCorrelation;
+  EXPECT_NEAR(std::sqrt(filtered(1, 1)), 0.02 * (InterceptDn2 - QuantisationDn2), 1e-12);
+  EXPECT_NEAR(filtered(0, 1), 4e-4 * Gain * (InterceptDn2 - QuantisationDn2), 1e-12);
+  const auto coupled = AddCovariances(lines, Sharing(CovarianceShape::Signal, 0.05, 0.002), BlackDn, QuantisationDn2)
+                         .covarianceOfCorrelation;
   EXPECT_NEAR(std::sqrt(coupled(0, 0)), 0.002, 1e-12);
   EXPECT_NEAR(coupled(0, 1), -4e-6 * BlackDn, 1e-12);
 
@@ -212,34 +212,35 @@ TEST(SensorNoiseSensorLines, WhatIsNotKnownOfTheSharingIsAnErrorOfGainAndInterce
   NoiseCorrelation both;
   SetShape(both, CovarianceShape::Variance, { 0.2, 0.0 }, 0.5);
   SetShape(both, CovarianceShape::Signal, { 0.06, 0.0 }, 0.5);
-  const SensorLines sensor = AddCovariances(lines, both, BlackDn, CodesDn2);
+  const SensorLines sensor = AddCovariances(lines, both, BlackDn, QuantisationDn2);
   EXPECT_NEAR(sensor.all.gain, Gain + 0.5 * (0.2 * Gain + 0.06), 1e-12);
   EXPECT_NEAR(std::sqrt(sensor.covarianceOfCorrelation(0, 0)), 0.5 * (0.2 * Gain - 0.06), 1e-12);
 
   // Half of the dark noise is added after the filter, or all of it: the gain is the same, the intercepts differ.
   NoiseCorrelation part;
   SetShape(part, CovarianceShape::Variance, { 1.0, 0.0 }, 0.5);
-  const double darkDn2 = InterceptDn2 + Gain * BlackDn - CodesDn2;
+  const double darkDn2 = InterceptDn2 + Gain * BlackDn - QuantisationDn2;
   part.Shape(CovarianceShape::FirstPart) = { { 1.0, 0.0 }, 0.5, 1.0, 0.0, 0.0, -0.5 * darkDn2 };
-  const SensorLines between = AddCovariances(lines, part, BlackDn, CodesDn2);
+  const SensorLines between = AddCovariances(lines, part, BlackDn, QuantisationDn2);
   EXPECT_NEAR(between.all.gain, 2.0 * Gain, 1e-12);
-  EXPECT_NEAR(between.all.At(BlackDn), 1.75 * darkDn2 + CodesDn2, 1e-9);
+  EXPECT_NEAR(between.all.At(BlackDn), 1.75 * darkDn2 + QuantisationDn2, 1e-9);
   const Eigen::Vector2d atBlack(BlackDn, 1.0);
   EXPECT_NEAR(std::sqrt(atBlack.dot(between.covarianceOfCorrelation * atBlack)), 0.25 * darkDn2, 1e-9);
-  EXPECT_NEAR(VarianceOfSensor(darkDn2 + CodesDn2, part, CodesDn2), between.all.At(BlackDn), 1e-9);
-  EXPECT_NEAR(StandardDeviationOfShapes(darkDn2 + CodesDn2, part, CodesDn2), 0.25 * darkDn2, 1e-9);
+  EXPECT_NEAR(VarianceOfSensor(darkDn2 + QuantisationDn2, part, QuantisationDn2), between.all.At(BlackDn), 1e-9);
+  EXPECT_NEAR(StandardDeviationOfShapes(darkDn2 + QuantisationDn2, part, QuantisationDn2), 0.25 * darkDn2, 1e-9);
 
   NoiseCorrelation mixed;
   mixed.timeShapes = Sharing(CovarianceShape::Variance, 2.0, 0.06).shapes;
-  EXPECT_NEAR(
-    std::sqrt(AddCovariances(lines, mixed, BlackDn, CodesDn2).covarianceOfCorrelation(0, 0)), 0.06 * Gain, 1e-12);
+  EXPECT_NEAR(std::sqrt(AddCovariances(lines, mixed, BlackDn, QuantisationDn2).covarianceOfCorrelation(0, 0)),
+              0.06 * Gain,
+              1e-12);
   mixed.beyondTimeLags = 0.08; // fraction of the variance
   EXPECT_NEAR(
-    std::sqrt(AddCovariances(lines, mixed, BlackDn, CodesDn2).covarianceOfCorrelation(0, 0)), 0.1 * Gain, 1e-12);
+    std::sqrt(AddCovariances(lines, mixed, BlackDn, QuantisationDn2).covarianceOfCorrelation(0, 0)), 0.1 * Gain, 1e-12);
   NoiseCorrelation wide;
   wide.beyondReach = 0.01; // fraction of the variance, not of the total covariance
   EXPECT_NEAR(
-    std::sqrt(AddCovariances(lines, wide, BlackDn, CodesDn2).covarianceOfCorrelation(0, 0)), 0.01 * Gain, 1e-12);
+    std::sqrt(AddCovariances(lines, wide, BlackDn, QuantisationDn2).covarianceOfCorrelation(0, 0)), 0.01 * Gain, 1e-12);
 }
 
 TEST(SensorNoiseSensorLines, NoiseOfWholeRowsIsNotThePixelsOwn)
@@ -248,10 +249,11 @@ TEST(SensorNoiseSensorLines, NoiseOfWholeRowsIsNotThePixelsOwn)
   correlation.rowsDn2 = { 4.0, 0.1 };
   correlation.columnsDn2 = { 0.3, 0.1 }; // not significant
   const SensorLines lines = StraightLines();
-  const SensorLines sensor = AddCovariances(lines, correlation, BlackDn, CodesDn2);
+  const SensorLines sensor = AddCovariances(lines, correlation, BlackDn, QuantisationDn2);
   EXPECT_NEAR(sensor.all.gain, 2.5 * Gain, 1e-12);
-  EXPECT_NEAR(sensor.all.intercept, 2.5 * (InterceptDn2 - CodesDn2 - 4.0) + CodesDn2, 1e-12);
-  EXPECT_NEAR(VarianceOfSensor(InterceptDn2, correlation, CodesDn2), sensor.all.intercept, 1e-12);
-  EXPECT_NEAR(VarianceOf(sensor.curve, 5), 2.5 * (VarianceOf(lines.curve, 5) - CodesDn2 - 4.0) + CodesDn2, 1e-9);
+  EXPECT_NEAR(sensor.all.intercept, 2.5 * (InterceptDn2 - QuantisationDn2 - 4.0) + QuantisationDn2, 1e-12);
+  EXPECT_NEAR(VarianceOfSensor(InterceptDn2, correlation, QuantisationDn2), sensor.all.intercept, 1e-12);
+  EXPECT_NEAR(
+    VarianceOf(sensor.curve, 5), 2.5 * (VarianceOf(lines.curve, 5) - QuantisationDn2 - 4.0) + QuantisationDn2, 1e-9);
   EXPECT_NEAR(std::sqrt(sensor.covarianceOfCorrelation(1, 1)), 2.5 * 0.1, 1e-12);
 }

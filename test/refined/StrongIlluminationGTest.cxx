@@ -24,7 +24,7 @@ using namespace sensornoise::test;
 
 namespace
 {
-using Codes = unsigned short;
+using GreyValue = unsigned short;
 
 SimulationSettings
 StrongSettings(const std::string & illumination)
@@ -38,16 +38,16 @@ StrongSettings(const std::string & illumination)
   return settings;
 }
 
-const Stack<Codes> &
+const Stack<GreyValue> &
 StrongStack()
 {
-  static const auto stack = Simulate<Codes>(StrongSettings("pulses:0.3:4"), 96, 80);
+  static const auto stack = Simulate<GreyValue>(StrongSettings("pulses:0.3:4"), 96, 80);
   return stack;
 }
 
 template <typename TMethod>
 std::size_t
-RunPasses(TMethod & method, const Stack<Codes> & stack, std::size_t chunk)
+RunPasses(TMethod & method, const Stack<GreyValue> & stack, std::size_t chunk)
 {
   std::size_t passes = 0;
   for (; !method.IsDone(); ++passes)
@@ -61,14 +61,14 @@ RunPasses(TMethod & method, const Stack<Codes> & stack, std::size_t chunk)
   return passes;
 }
 
-RefinedMethod<Codes>
-MethodOf(const Stack<Codes> & stack, const ParallelFor & parallelFor = SerialFor)
+RefinedMethod<GreyValue>
+MethodOf(const Stack<GreyValue> & stack, const ParallelFor & parallelFor = SerialFor)
 {
-  return RefinedMethod<Codes>(RefinedSettings(), GeometryOf(stack), stack.frames, {}, parallelFor);
+  return RefinedMethod<GreyValue>(RefinedSettings(), GeometryOf(stack), stack.frames, {}, parallelFor);
 }
 
 void
-ExpectSameBits(const RefinedMethod<Codes> & a, const RefinedMethod<Codes> & b)
+ExpectSameBits(const RefinedMethod<GreyValue> & a, const RefinedMethod<GreyValue> & b)
 {
   EXPECT_EQ(ToJson(a.GetReport()), ToJson(b.GetReport()));
   EXPECT_TRUE(HaveSameBits(a.GetMean(), b.GetMean()));
@@ -82,7 +82,7 @@ TEST(SensorNoiseStrongIllumination, IsReadOnceMoreAndSmallFlickerIsNot)
 {
   auto strong = MethodOf(StrongStack());
   EXPECT_EQ(RunPasses(strong, StrongStack(), 40), 4U);
-  const auto steady = Simulate<Codes>(StrongSettings("steady"), 96, 80);
+  const auto steady = Simulate<GreyValue>(StrongSettings("steady"), 96, 80);
   auto       ordinary = MethodOf(steady);
   EXPECT_EQ(RunPasses(ordinary, steady, 40), 3U);
 }
@@ -91,7 +91,7 @@ TEST(SensorNoiseStrongIllumination, GainOffsetAndReadNoiseAreTheCameras)
 {
   for (const char * const shape : { "pulses:0.3:4", "sine:0:7.3", "uniform:0", "decay:0.3" })
   {
-    const auto     stack = Simulate<Codes>(StrongSettings(shape), 160, 128);
+    const auto     stack = Simulate<GreyValue>(StrongSettings(shape), 160, 128);
     const auto     method = Measure(stack);
     const Report & report = method.GetReport();
     ASSERT_EQ(report.gain.status, EstimateStatus::Identified) << shape;
@@ -105,26 +105,26 @@ TEST(SensorNoiseStrongIllumination, GainOffsetAndReadNoiseAreTheCameras)
   }
 }
 
-TEST(SensorNoiseStrongIllumination, FramesWithoutLightAreNotUnlikeTheOthers)
+TEST(SensorNoiseStrongIllumination, FramesWithoutIlluminationAreNotUnlikeTheOthers)
 {
   // The variance without light is a thousandth of the others, and less than what the line knows of it.
   SimulationSettings settings = StrongSettings("pulses:0:2");
   settings.camera = { 12000.0, 0.18, 350.0, 0.45 };
   settings.conditions = { 0.0, 0.0, 0.0 };
   settings.frames = 20;
-  const Report report = Measure(Simulate<Codes>(settings, 160, 128)).GetReport();
+  const Report report = Measure(Simulate<GreyValue>(settings, 160, 128)).GetReport();
   ASSERT_EQ(report.gain.status, EstimateStatus::Identified);
   EXPECT_NEAR(*report.gain.value, 0.18, 4.0 * *report.gain.standardError);
   EXPECT_TRUE(report.framesLeftOut.empty());
 }
 
-TEST(SensorNoiseStrongIllumination, RoundingIsAnErrorOfAnOffsetByFramesWithoutLight)
+TEST(SensorNoiseStrongIllumination, RoundingIsAnErrorOfAnOffsetByFramesWithoutIllumination)
 {
   // With a noise of 0.18 steps, rounding shifts a level of 147.2 DN by -0.15 DN in all pixels alike.
   SimulationSettings settings = StrongSettings("pulses:0:4");
   settings.camera = { 1500.0, 0.1, 147.2, 0.18 };
   settings.conditions = { 0.0, 0.0, 0.0 };
-  const Report report = Measure(Simulate<Codes>(settings, 160, 128)).GetReport();
+  const Report report = Measure(Simulate<GreyValue>(settings, 160, 128)).GetReport();
   ASSERT_EQ(report.offset.status, EstimateStatus::Identified);
   EXPECT_NEAR(*report.offset.value, 147.2, 3.0 * *report.offset.standardError);
   EXPECT_GT(std::abs(*report.offset.value - 147.2), 0.05);
@@ -139,7 +139,7 @@ TEST(SensorNoiseStrongIllumination, OfAFlatFieldDeterminesGainAndInterceptButNoO
       SimulationSettings settings = StrongSettings(shape);
       settings.camera.offsetDn = offset;
       settings.bitDepth = 16;
-      const auto   stack = Simulate<Codes>(settings, 160, 128, std::vector<double>(160 * 128, 1.0));
+      const auto   stack = Simulate<GreyValue>(settings, 160, 128, std::vector<double>(160 * 128, 1.0));
       const Report report = Measure(stack, RefinedSettings()).GetReport();
       ASSERT_EQ(report.gain.status, EstimateStatus::Identified) << shape << " " << offset << ToJson(report);
       EXPECT_NEAR(*report.gain.value, 0.5, 4.0 * *report.gain.standardError) << shape;
@@ -172,7 +172,7 @@ TEST(SensorNoiseStrongIllumination, FewIlluminatedFramesAreNoLocalIllumination)
       settings.conditions.flickerSd = 0.02;
       settings.frames = 60;
       settings.seed = seed;
-      const auto     stack = Simulate<Codes>(settings, 160, 128);
+      const auto     stack = Simulate<GreyValue>(settings, 160, 128);
       const auto     method = Measure(stack);
       const Report & report = method.GetReport();
       const bool     isRolling = periodRows > 0.0;
@@ -189,7 +189,7 @@ TEST(SensorNoiseStrongIllumination, FewIlluminatedFramesAreNoLocalIllumination)
 
 TEST(SensorNoiseStrongIllumination, DarkFramesHaveNoShift)
 {
-  const auto     stack = Simulate<Codes>(StrongSettings("pulses:0:4"), 160, 128);
+  const auto     stack = Simulate<GreyValue>(StrongSettings("pulses:0:4"), 160, 128);
   const auto     method = Measure(stack);
   const Report & report = method.GetReport();
   ASSERT_EQ(report.motion.size(), 40U);
@@ -209,7 +209,8 @@ TEST(SensorNoiseStrongIllumination, WithoutGammaTheShiftsHaveEqualWeights)
   SimulationSettings settings;
   settings.frames = 60;
   settings.prnuSd = 0.3; // the contrast of a flat field, whose offset is not known
-  const Report report = Measure(Simulate<Codes>(settings, 160, 128, std::vector<double>(160 * 128, 1.0))).GetReport();
+  const Report report =
+    Measure(Simulate<GreyValue>(settings, 160, 128, std::vector<double>(160 * 128, 1.0))).GetReport();
   ASSERT_FALSE(report.flickerSd.value);
   ASSERT_TRUE(report.vibrationSdX.interval95 || report.vibrationSdX.bracket);
   const Interval limits = report.vibrationSdX.interval95.value_or(report.vibrationSdX.bracket.value_or(Interval{}));
@@ -272,7 +273,7 @@ TEST(SensorNoiseStrongIllumination, ProcessesThatExchangeSumsHaveTheBitsOfTheWho
   const auto & stack = StrongStack();
   auto         whole = MethodOf(stack);
   RunPasses(whole, stack, stack.frames);
-  std::vector<RefinedMethod<Codes>> parts;
+  std::vector<RefinedMethod<GreyValue>> parts;
   parts.push_back(MethodOf(stack));
   parts.push_back(MethodOf(stack));
   std::size_t passes = 0;
@@ -301,7 +302,7 @@ TEST(SensorNoiseStrongIllumination, SumsOfAnotherReadingAreRefused)
 {
   // Another stack has other means: the component onto which pixels are projected differs.
   const auto & stack = StrongStack();
-  const auto   other = stack.Map([](Codes u) { return u + 1; });
+  const auto   other = stack.Map([](GreyValue u) { return u + 1; });
   auto         method = MethodOf(stack);
   auto         another = MethodOf(other);
   method.AddFrames(stack.Frame(0), stack.frames);
@@ -319,7 +320,7 @@ TEST(SensorNoiseStrongIllumination, PlanesOfAMosaicFindWhatTheyFindAlone)
 {
   SimulationSettings settings = StrongSettings("sine:0.1:9");
   settings.flaws.filters.pattern = BayerPattern::RGGB;
-  Stack<Codes>         stack = Simulate<Codes>(settings, 128, 128);
+  Stack<GreyValue>     stack = Simulate<GreyValue>(settings, 128, 128);
   const MosaicGeometry geometry{ { stack.width, stack.height, 1 }, BayerPattern::RGGB };
   const std::size_t    pixels = stack.width * stack.height;
   // The last plane has steady illumination and needs no additional pass: the planes are not in step.
@@ -330,25 +331,25 @@ TEST(SensorNoiseStrongIllumination, PlanesOfAMosaicFindWhatTheyFindAlone)
       for (std::size_t x = 1; x < stack.width; x += 2)
       {
         const std::size_t p = y * stack.width + x;
-        stack.pixels[t * pixels + p] = static_cast<Codes>(400 + 3 * (x + y) + (7 * t + 5 * p + t * p) % 23);
+        stack.pixels[t * pixels + p] = static_cast<GreyValue>(400 + 3 * (x + y) + (7 * t + 5 * p + t * p) % 23);
       }
     }
   }
   const auto make = [&](BayerPlane, const ParallelFor & parallelFor) {
-    return RefinedPasses<Codes>(RefinedSettings(), geometry.Plane(), stack.frames, {}, parallelFor);
+    return RefinedPasses<GreyValue>(RefinedSettings(), geometry.Plane(), stack.frames, {}, parallelFor);
   };
   for (const std::size_t chunk : { std::size_t{ 9 }, stack.frames })
   {
-    MosaicPasses<Codes, RefinedPasses<Codes>> mosaic(geometry, make, Threads(3), 3);
-    mosaic.DisableMerging(MosaicPasses<Codes, RefinedPasses<Codes>>::ManySums{ 0, 0 });
+    MosaicPasses<GreyValue, RefinedPasses<GreyValue>> mosaic(geometry, make, Threads(3), 3);
+    mosaic.DisableMerging(MosaicPasses<GreyValue, RefinedPasses<GreyValue>>::ManySums{ 0, 0 });
     RunPasses(mosaic, stack, chunk);
     for (std::size_t k = 0; k < BayerPlanes.size(); ++k)
     {
-      Stack<Codes> alone{ geometry.Plane().width, geometry.Plane().height, stack.frames, {} };
+      Stack<GreyValue> alone{ geometry.Plane().width, geometry.Plane().height, stack.frames, {} };
       for (std::size_t t = 0; t < stack.frames; ++t)
       {
         const auto frame =
-          geometry.Take(std::vector<Codes>(stack.Frame(t), stack.Frame(t) + pixels), BayerPlanes.at(k));
+          geometry.Take(std::vector<GreyValue>(stack.Frame(t), stack.Frame(t) + pixels), BayerPlanes.at(k));
         alone.pixels.insert(alone.pixels.end(), frame.begin(), frame.end());
       }
       auto method = MethodOf(alone);

@@ -146,7 +146,7 @@ TEST(ChannelReports, RecordHasFourNamedReports)
   channels[1].bitDepth = 12;
   const ChannelReports reports = Join(channels, BayerSource::Levels);
   EXPECT_TRUE(Warns(reports, WarningCode::RedOrBlue));
-  EXPECT_EQ(reports.Of(BayerPlane::R).bitDepth, 12); // of one converter
+  EXPECT_EQ(reports.Of(BayerPlane::R).bitDepth, 12); // bit depth of one converter
   EXPECT_FALSE(reports.Of(BayerPlane::B).bitDepth);
   const std::string text = ToJson(reports);
   std::size_t       place = text.find(R"("bayer": {"pattern": "GBRG", "source": "levels"})");

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/StackSettings.h"
+#include "report/StackReport.h"
 #include "report/Quantities.h"
 
 #include <cmath>

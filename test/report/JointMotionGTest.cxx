@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/JointChannels.h"
+#include "report/ReportParts.h"
 
 #include "sensornoise/FrameGeometry.h"
 #include "report/Quantities.h"
@@ -12,8 +12,8 @@
 #include <random>
 
 /** \file
- * What squares of the shift pretend in each plane, with opposite signs in R and B, is not in their mean; nor is noise.
- */
+ * Squares of the shift add an apparent shift to each plane, with opposite signs in R and B. The mean of the planes
+ * contains neither this shift nor most of the noise. */
 
 using namespace sensornoise;
 
@@ -100,7 +100,7 @@ TEST(JointMotion, NoiseOfThePlanesIsInTheErrorAlone)
   const double truth = std::sqrt(VarianceOf(PlanesOf(1.0, 0.0, 0.0), 0, 0));
   // Each half has the noise 0.03 / sqrt 2: the square's error is sqrt((s^2 + n^2 / 4) n^2 / 199), n^2 = 0.03^2.
   const double expected = std::sqrt((truth * truth + 0.25 * 9e-4) * 9e-4 / 199.0) / (2.0 * truth);
-  EXPECT_NEAR(*joint->sdX.standardError, expected, 0.15 * expected); // 200 frames tell n^2 to 10 %
+  EXPECT_NEAR(*joint->sdX.standardError, expected, 0.15 * expected); // 200 frames determine n^2 to 10 %
   EXPECT_NEAR(*joint->sdX.value, truth, 4.0 * expected);
   EXPECT_EQ(JoinMotion(PlanesOf(0.0, 0.0, 0.03))->sdX.status, EstimateStatus::UpperLimit);
 }

@@ -20,13 +20,13 @@ using namespace sensornoise::test;
 
 namespace
 {
-using Codes = unsigned short;
+using GreyValue = unsigned short;
 constexpr std::size_t Width = 160;
 constexpr std::size_t Height = 128;
 
 template <typename TMethod, typename TSettings>
 Report
-ReportBy(const Stack<Codes> & stack)
+ReportBy(const Stack<GreyValue> & stack)
 {
   TMethod method(TSettings{}, FrameGeometry{ stack.width, stack.height, 1 }, stack.frames);
   while (!method.IsDone())
@@ -39,15 +39,15 @@ ReportBy(const Stack<Codes> & stack)
 
 /** Returns the reports of the refined and of the published method. */
 std::vector<Report>
-ReportsOf(const Stack<Codes> & stack)
+ReportsOf(const Stack<GreyValue> & stack)
 {
-  return { ReportBy<RefinedMethod<Codes>, RefinedSettings>(stack),
-           ReportBy<PublishedMethod<Codes>, PublishedSettings>(stack) };
+  return { ReportBy<RefinedMethod<GreyValue>, RefinedSettings>(stack),
+           ReportBy<PublishedMethod<GreyValue>, PublishedSettings>(stack) };
 }
 
 /** It is the first of the warnings, and no other error names another cause. */
 void
-ExpectScenesChange(const Stack<Codes> & stack)
+ExpectScenesChange(const Stack<GreyValue> & stack)
 {
   for (const Report & report : ReportsOf(stack))
   {
@@ -69,7 +69,7 @@ ExpectScenesChange(const Stack<Codes> & stack)
 }
 
 void
-ExpectOneScene(const Stack<Codes> & stack)
+ExpectOneScene(const Stack<GreyValue> & stack)
 {
   for (const Report & report : ReportsOf(stack))
   {
@@ -78,10 +78,10 @@ ExpectOneScene(const Stack<Codes> & stack)
 }
 
 /** The pixels (t, y, x) as (y, x, t), or as (y, t, x). */
-Stack<Codes>
-WithTimeElsewhere(const Stack<Codes> & stack, bool isLast)
+Stack<GreyValue>
+WithTimeElsewhere(const Stack<GreyValue> & stack, bool isLast)
 {
-  Stack<Codes> other{ isLast ? stack.frames : stack.width, isLast ? stack.width : stack.frames, stack.height, {} };
+  Stack<GreyValue> other{ isLast ? stack.frames : stack.width, isLast ? stack.width : stack.frames, stack.height, {} };
   other.pixels.resize(stack.pixels.size());
   for (std::size_t t = 0; t < stack.frames; ++t)
   {
@@ -114,8 +114,8 @@ class SensorNoiseSceneChanges : public testing::TestWithParam<std::tuple<std::st
 TEST_P(SensorNoiseSceneChanges, TimeOnAnotherAxisIsSaid)
 {
   const auto & [reference, camera, frames] = GetParam();
-  const auto         scene = reference == "target" ? MakeTargetScene(Width, Height) : MakeTextureScene(Width, Height);
-  const Stack<Codes> stack = Simulate<Codes>(SettingsOf(camera, frames), Width, Height, scene);
+  const auto scene = reference == "target" ? MakeTargetScene(Width, Height) : MakeTextureScene(Width, Height);
+  const Stack<GreyValue> stack = Simulate<GreyValue>(SettingsOf(camera, frames), Width, Height, scene);
   ExpectOneScene(stack);
   ExpectScenesChange(WithTimeElsewhere(stack, true));
   ExpectScenesChange(WithTimeElsewhere(stack, false));
@@ -129,10 +129,10 @@ INSTANTIATE_TEST_SUITE_P(Bursts,
 
 TEST(SensorNoiseSceneChanges, ScenesOfTheirOwnAreSaid)
 {
-  Stack<Codes> stack{ Width, Height, 20, {} };
+  Stack<GreyValue> stack{ Width, Height, 20, {} };
   for (std::size_t t = 0; t < stack.frames; ++t)
   {
-    const auto frame = Simulate<Codes>(SettingsOf('B', 1), Width, Height, MakeTextureScene(Width, Height, 50 + t));
+    const auto frame = Simulate<GreyValue>(SettingsOf('B', 1), Width, Height, MakeTextureScene(Width, Height, 50 + t));
     stack.pixels.insert(stack.pixels.end(), frame.pixels.begin(), frame.pixels.end());
   }
   ExpectScenesChange(stack);
@@ -145,13 +145,13 @@ TEST(SensorNoiseSceneChanges, ACameraThatMovesByManyPixelsIsSaid)
   constexpr std::size_t frames = 30;
   constexpr std::size_t width = Width + travel * frames;
   const auto            wide = MakeTextureScene(width, Height);
-  const auto            unmoved = Simulate<Codes>(SettingsOf('B', frames), width, Height, wide);
-  Stack<Codes>          stack{ Width, Height, frames, {} };
+  const auto            unmoved = Simulate<GreyValue>(SettingsOf('B', frames), width, Height, wide);
+  Stack<GreyValue>      stack{ Width, Height, frames, {} };
   for (std::size_t t = 0; t < frames; ++t)
   {
     for (std::size_t y = 0; y < Height; ++y)
     {
-      const Codes * const first = unmoved.Frame(t) + y * width + travel * t;
+      const GreyValue * const first = unmoved.Frame(t) + y * width + travel * t;
       stack.pixels.insert(stack.pixels.end(), first, first + Width);
     }
   }
@@ -164,13 +164,13 @@ TEST(SensorNoiseSceneChanges, VibrationAndARollingShutterAreNone)
   {
     SimulationSettings settings = SettingsOf('B', 30);
     settings.conditions.vibrationSdXPixels = settings.conditions.vibrationSdYPixels = shift;
-    ExpectOneScene(Simulate<Codes>(settings, Width, Height, MakeTextureScene(Width, Height)));
+    ExpectOneScene(Simulate<GreyValue>(settings, Width, Height, MakeTextureScene(Width, Height)));
   }
   for (const double period : { 40.0, 200.0 })
   {
     SimulationSettings settings = SettingsOf('B', 30);
     settings.rollingShutterPeriodRows = period;
-    ExpectOneScene(Simulate<Codes>(settings, Width, Height, MakeFlatScene(Width, Height)));
-    ExpectOneScene(Simulate<Codes>(settings, Width, Height));
+    ExpectOneScene(Simulate<GreyValue>(settings, Width, Height, MakeFlatScene(Width, Height)));
+    ExpectOneScene(Simulate<GreyValue>(settings, Width, Height));
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/StackSettings.h"
+#include "report/StackReport.h"
 
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Settings.h"
@@ -29,18 +29,18 @@ OfMask(const FrameGeometry & geometry, const std::vector<std::uint8_t> & mask)
 }
 } // namespace
 
-TEST(SensorNoiseStackSettings, CodesAreNotedWhereTheyWereGiven)
+TEST(SensorNoiseStackSettings, DnSettingsAreNotedWhereGiven)
 {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Report           report;
-  NoteCodes(report, MakeCodeSettings(0, nan, nan, 0.0));
+  NoteDnSettings(report, MakeDnSettings(0, nan, nan, 0.0));
   EXPECT_EQ(report.settings, Settings{});
-  NoteCodes(report, MakeCodeSettings(14, nan, 3000.5, 2.0));
+  NoteDnSettings(report, MakeDnSettings(14, nan, 3000.5, 2.0));
   EXPECT_EQ(report.settings,
             (Settings{ { "bit_depth", 14.0 }, { "clip_high", 3000.5 }, { "quantisation_step", 2.0 } }));
 }
 
-// The numbers are those of Python: zlib.crc32(b"3x2:" + bytes([0, 1, 1, 0, 0, 1])).
+// The numbers are from Python: zlib.crc32(b"3x2:" + bytes([0, 1, 1, 0, 0, 1])).
 TEST(SensorNoiseStackSettings, AMaskIsNotedByTheChecksumOfItsShapeAndPixels)
 {
   const std::vector<std::uint8_t> mask = { 0, 1, 1, 0, 0, 1 };

@@ -132,7 +132,10 @@ TEST(SensorNoiseStatuses, EveryPositiveQuantityThatMayBeZeroIsWithdrawn)
 
 TEST(SensorNoiseStatuses, WarningsAgainstTheDarkLevelFailOffsetAndReadNoise)
 {
-  for (const WarningCode code : { WarningCode::DarkFramesDiffer, WarningCode::OffsetOutOfRange })
+  for (const WarningCode code : { WarningCode::DarkFramesDiffer,
+                                  WarningCode::OffsetOutOfRange,
+                                  WarningCode::OffsetAboveDarkest,
+                                  WarningCode::OffsetLineMisfit })
   {
     Report report = Consistent();
     report.readNoiseMedian = WithError(3.0, 0.1);

@@ -56,7 +56,7 @@ MapsOf(double fullDn, double spreadDn, const std::function<double(double)> & var
 constexpr double NoWellDn = 1e5;
 } // namespace
 
-TEST(SensorNoiseFullWells, LevelAndSpreadAreFound)
+TEST(SensorNoiseFullWells, LevelAndDispersionAreFound)
 {
   for (const double spreadDn : { 2.0, 10.0, 25.0 })
   {
@@ -104,6 +104,27 @@ TEST(SensorNoiseFullWells, QuietAreasUnderSteadyIlluminationAreNoSaturation)
   EXPECT_FALSE(FindFullWells(MapsOf(NoWellDn, 0.0, variance), Geometry));
 }
 
+TEST(SensorNoiseFullWells, PaperBesideThingsThatMoveIsNoSaturation)
+{
+  // The left two thirds rise to the level of the paper in the right third. Motion adds more to them than noise.
+  StackMaps                  maps = MapsOf(NoWellDn, 0.0);
+  std::mt19937               random(13);
+  std::normal_distribution<> normal(0.0, 2.0);
+  for (std::size_t p = 0; p < maps.mean.size(); ++p)
+  {
+    const double place = 1.5 * static_cast<double>(p % Geometry.width) / static_cast<double>(Geometry.width);
+    const double own = SensorVariance(maps.mean[p]);
+    maps.mean[p] = OffsetDn + 1300.0 * std::min(1.0, place) + normal(random);
+    maps.variance[p] *= (SensorVariance(1600.0) + (place < 1.0 ? 1e4 : 0.0)) / own;
+  }
+  EXPECT_TRUE(FindFullWells(maps, Geometry)); // by the fall of the variance alone
+  maps.summary.codes.clipLowDn = 0.0;
+  EXPECT_FALSE(FindFullWells(maps, Geometry));
+  StackMaps full = MapsOf(1200.0, 10.0);
+  full.summary.codes.clipLowDn = 0.0;
+  EXPECT_TRUE(FindFullWells(full, Geometry));
+}
+
 TEST(SensorNoiseFullWells, TooFewPixelsShowNothing)
 {
   StackMaps maps = MapsOf(1200.0, 10.0);
@@ -113,14 +134,14 @@ TEST(SensorNoiseFullWells, TooFewPixelsShowNothing)
 
 TEST(SensorNoiseFullWells, BecomeTheUpperClipLevelOfTheScene)
 {
-  StackMaps   maps = MapsOf(1200.0, 10.0);
-  CodeRange & codes = maps.summary.codes;
-  codes.quantisationStepDn = 1.0;
-  codes.clipLowDn = 0.0;
-  codes.clipHighDn = 4095.0;
+  StackMaps maps = MapsOf(1200.0, 10.0);
+  DnRange & dnRange = maps.summary.codes;
+  dnRange.quantisationStepDn = 1.0;
+  dnRange.clipLowDn = 0.0;
+  dnRange.clipHighDn = 4095.0;
   for (const bool isFound : { false, true })
   {
-    codes.SetClipSources(isFound ? "pile-up" : "code range", "code range");
+    dnRange.SetClipSources(isFound ? "pile-up" : "code range", "code range");
     const StaticScene scene = MakeStaticScene(maps, {}, Geometry, 32, std::vector<double>(32, 900.0), {}).scene;
     ASSERT_FALSE(scene.failureReason);
     ASSERT_TRUE(scene.fullWells);
@@ -137,6 +158,6 @@ TEST(SensorNoiseFullWells, BecomeTheUpperClipLevelOfTheScene)
       EXPECT_FALSE(scene.frame.usable[p] != 0 && isClipped);
     }
     EXPECT_EQ(scene.summary.clipped, clipped);
-    EXPECT_NEAR(scene.model.slopeDn, GainDn, 0.05); // of the pixels that are not full
+    EXPECT_NEAR(scene.model.slopeDn, GainDn, 0.05); // slope of the pixels that are not full
   }
 }

@@ -24,7 +24,7 @@ constexpr std::size_t Height = 50;
 struct Scene
 {
   SyntheticFrames frames{ Width, Height, std::vector<FrameChange>(20) };
-  CodeRange       codes;
+  DnRange         dnRange;
 
   /** Returns the guard band of frames whose means lie in this range about their average [DN], with a known offset. */
   std::vector<std::uint8_t>
@@ -35,7 +35,7 @@ struct Scene
   std::vector<std::uint8_t>
   Guarded(const IlluminationRange & range) const
   {
-    return FindGuardBand(frames.reference, frames.model, codes, range, SerialFor, 3.0);
+    return FindGuardBand(frames.reference, frames.model, dnRange, range, SerialFor, 3.0);
   }
 };
 
@@ -55,9 +55,9 @@ TEST(SensorNoiseGuardBand, ExtremesOfTheNoiseDecide)
 {
   // Steady illumination without motion: level ± 3 sd is compared with the clip levels, half a step inside.
   Scene scene;
-  scene.codes.clipLowDn = 700.0;
-  scene.codes.clipHighDn = 1400.0;
-  scene.codes.quantisationStepDn = 4.0;
+  scene.dnRange.clipLowDn = 700.0;
+  scene.dnRange.clipHighDn = 1400.0;
+  scene.dnRange.quantisationStepDn = 4.0;
   const auto guarded = scene.Guarded(0.0, 0.0);
   ASSERT_GT(Count(guarded), 0u);
   for (std::size_t p = 0; p < guarded.size(); ++p)
@@ -72,7 +72,7 @@ TEST(SensorNoiseGuardBand, ExtremesOfTheNoiseDecide)
 TEST(SensorNoiseGuardBand, BrighterFramesAndMotionWidenTheBand)
 {
   Scene scene;
-  scene.codes.clipHighDn = 1500.0;
+  scene.dnRange.clipHighDn = 1500.0;
   const auto steady = scene.Guarded(0.0, 0.0);
   const auto flickering = scene.Guarded(-50.0, 50.0);
   scene.frames.model.vibrationXPixels2 = 0.5;
@@ -90,9 +90,9 @@ TEST(SensorNoiseGuardBand, LevelsThatAreReachedDecide)
 {
   // With the known offset of 500 the darkest frame has a tenth of the signal, and the brightest frame twice the signal.
   Scene scene;
-  scene.codes.clipLowDn = 505.0;
-  scene.codes.clipHighDn = 2200.0;
-  scene.codes.quantisationStepDn = 4.0;
+  scene.dnRange.clipLowDn = 505.0;
+  scene.dnRange.clipHighDn = 2200.0;
+  scene.dnRange.quantisationStepDn = 4.0;
   const InitialNoiseModel & model = scene.frames.model;
   const double              signal = model.centreDn - 500.0;
   const auto                guarded = scene.Guarded(-0.9 * signal, signal);

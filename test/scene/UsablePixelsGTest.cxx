@@ -29,12 +29,12 @@ struct Scene
 {
   SyntheticFrames           frames{ Width, Height, std::vector<FrameChange>(Frames) };
   std::vector<std::uint8_t> pixelUse = std::vector<std::uint8_t>(Width * Height, 0);
-  CodeRange                 codes;
+  DnRange                   dnRange;
 
   UsablePixels
   Find(const std::vector<double> & frameMeans = std::vector<double>(Frames, 950.0)) const
   {
-    return ExcludeCoarseAndGuarded(frames.reference, frames.model, codes, frameMeans, pixelUse, SerialFor);
+    return ExcludeCoarseAndGuarded(frames.reference, frames.model, dnRange, frameMeans, pixelUse, SerialFor);
   }
 };
 
@@ -68,7 +68,7 @@ TEST(SensorNoiseUsablePixels, UseSaysWhyAPixelCannotServe)
   ExpectUse(FindPixelUse(frame, valid, {}), 10 * Width + 40, PixelUse::Used);
 }
 
-TEST(SensorNoiseUsablePixels, WithoutCodesAllServe)
+TEST(SensorNoiseUsablePixels, WithoutDnRangeAllServe)
 {
   const Scene        scene;
   const UsablePixels found = scene.Find();
@@ -81,8 +81,8 @@ TEST(SensorNoiseUsablePixels, WithoutCodesAllServe)
 TEST(SensorNoiseUsablePixels, GuardedAndCoarsePixelsAreLeftOut)
 {
   Scene scene;
-  scene.codes.clipHighDn = 1400.0;
-  scene.codes.quantisationStepDn = 30.0; // too coarse below 225 DN^2, at 300 + (225 - 30) / 0.5 DN
+  scene.dnRange.clipHighDn = 1400.0;
+  scene.dnRange.quantisationStepDn = 30.0; // too coarse below 225 DN^2, at 300 + (225 - 30) / 0.5 DN
   const UsablePixels found = scene.Find();
   std::size_t        count = 0;
   for (std::size_t p = 0; p < found.usable.size(); ++p)
@@ -90,7 +90,7 @@ TEST(SensorNoiseUsablePixels, GuardedAndCoarsePixelsAreLeftOut)
     if (scene.frames.reference.usable[p] != 0)
     {
       const bool isCoarse = scene.frames.reference.neighbourMean[p] < 300.0 + 195.0 / 0.5;
-      ASSERT_EQ(found.pixelUse[p] == static_cast<std::uint8_t>(PixelUse::CoarseCodes), isCoarse) << p;
+      ASSERT_EQ(found.pixelUse[p] == static_cast<std::uint8_t>(PixelUse::CoarseQuantisation), isCoarse) << p;
       ASSERT_EQ(found.usable[p] == 0, found.pixelUse[p] != 0) << p;
       count += found.usable[p];
     }
@@ -105,7 +105,7 @@ TEST(SensorNoiseUsablePixels, GuardedAndCoarsePixelsAreLeftOut)
   EXPECT_GT(scene.Find(frameMeans).nearClip, found.nearClip);
 }
 
-TEST(SensorNoiseUsablePixels, CoarseCodesAreRefusedAboveAFifth)
+TEST(SensorNoiseUsablePixels, CoarseQuantizationIsRefusedAboveAFifth)
 {
   UsablePixels found;
   found.count = 700.0;

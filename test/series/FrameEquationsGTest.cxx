@@ -153,7 +153,7 @@ TEST(SensorNoiseFrameEquations, MotionIsPartialledOutOfTheIllumination)
   EXPECT_LT((equations.illumination - expected).norm(), 1e-9 * expected.norm());
 }
 
-TEST(SensorNoiseFrameEquations, NoiseOfTheRegressorsIsTakenOffTheGramMatrix)
+TEST(SensorNoiseFrameEquations, NoiseOfTheRegressorsIsSubtractedFromTheGramMatrix)
 {
   // White noise of variance V / T in the mean adds the inner products of the stencils; the mean is a stencil of one
   // pixel.
@@ -180,7 +180,7 @@ TEST(SensorNoiseFrameEquations, NoiseOfTheRegressorsIsTakenOffTheGramMatrix)
   }
 }
 
-TEST(SensorNoiseFrameEquations, FlickeringNoiseIsTakenOffTheRightHandSide)
+TEST(SensorNoiseFrameEquations, FlickeringNoiseIsSubtractedFromTheRightHandSide)
 {
   const RegressorNoise noise = SomeNoise();
   std::vector<double>  gamma;

@@ -13,7 +13,7 @@
 
 using namespace sensornoise;
 
-// All compilers and processors compute the same bits: plain loops, those of AVX2, and one product after the other.
+// All compilers and processors compute the same bits: plain loops, loops for AVX2, and one product after the other.
 TEST(SensorNoiseGroupProducts, AreTheSameAnywhere)
 {
   constexpr std::size_t                         pixels = 97;

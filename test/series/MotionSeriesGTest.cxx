@@ -150,7 +150,7 @@ TEST(SensorNoiseMotionSeries, InstrumentsFindTheShiftsOfNoiseFreeFrames)
 }
 
 // At edges that are sharper than the pixels, least squares finds larger third differences than a derivative has.
-TEST(SensorNoiseMotionSeries, ThirdDifferencesBeyondADerivativeAreNotTakenOff)
+TEST(SensorNoiseMotionSeries, ThirdDifferencesBeyondADerivativeAreNotSubtracted)
 {
   const Fit             fit(0.0, ChangesWithThird(-0.5));
   const auto            shifts = SolveShifts(fit.sums, fit.equations, fit.motion, {}, Flicker(), fit.offset);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "series/ProductNoise.h"
+#include "series/FrameEquations.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Settings.h"
 #include "series/FrameEquations.h"

@@ -34,7 +34,7 @@ TEST(SensorNoiseSceneSeries, SquaresOfTheShiftsAreNoFlicker)
   motion.stencils = { StencilX, StencilY };
   motion.coefficients.resize(count, 2);
   std::vector<double> ofShifts(count);
-  std::vector<double> ofLamp(count);
+  std::vector<double> ofIllumination(count);
   for (std::size_t t = 0; t < count; ++t)
   {
     CounterSeededRandom random(9, t, 0, 0);
@@ -42,13 +42,13 @@ TEST(SensorNoiseSceneSeries, SquaresOfTheShiftsAreNoFlicker)
     const double        y = random.Normal();
     motion.coefficients.row(static_cast<Eigen::Index>(t)) << x, y;
     ofShifts[t] = -1e-3 * (x * x + 0.5 * y * y - 0.3 * x * y) + 1e-4 * random.Normal();
-    ofLamp[t] = 1e-3 * random.Normal();
+    ofIllumination[t] = 1e-3 * random.Normal();
   }
   const Eigen::MatrixXd squares = SquaresThatExplain(ofShifts, motion);
   ASSERT_EQ(squares.cols(), 3);
   EXPECT_LT((squares.transpose() * squares - Eigen::MatrixXd::Identity(3, 3)).norm(), 1e-12);
   EXPECT_LT(squares.colwise().sum().norm(), 1e-12);
-  EXPECT_EQ(SquaresThatExplain(ofLamp, motion).cols(), 0);
+  EXPECT_EQ(SquaresThatExplain(ofIllumination, motion).cols(), 0);
 }
 
 TEST(SensorNoiseSceneSeries, FlickerDeterminesTheOffset)

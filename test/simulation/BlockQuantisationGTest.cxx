@@ -49,9 +49,9 @@ TEST(SensorNoiseBlockQuantisation, ASecondTimeChangesNothing)
 {
   const BlockStepsDn steps = StepsOfQuality({ 75 }, 8);
   DoubleFrame        noise = NormalFrame(64, 48, 4);
-  for (double & code : noise.values)
+  for (double & greyValue : noise.values)
   {
-    code = 120.0 + 25.0 * code;
+    greyValue = 120.0 + 25.0 * greyValue;
   }
   const DoubleFrame once = QuantiseBlocks(noise, steps, SerialFor);
   EXPECT_GT(LargestDifference(once, noise), 5.0);
@@ -125,7 +125,7 @@ TEST(SensorNoiseBlockQuantisation, StepsAreThoseOfLibjpeg)
   EXPECT_EQ(StepsOfQuality({ 10 }, 8)[63], 255.0);
   const BlockStepsDn best = StepsOfQuality({ 100 }, 8);
   EXPECT_EQ(std::set<double>(best.begin(), best.end()), std::set<double>{ 1.0 });
-  // Of 12 bits: the whole range of codes is that of 8 bits.
+  // For 12 bits, the whole DN range becomes the range of 8 bits.
   EXPECT_DOUBLE_EQ(StepsOfQuality({ 50 }, 12)[0], 16.0 * 4095.0 / 255.0);
 }
 

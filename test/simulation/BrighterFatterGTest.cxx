@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "helpers/FrameNoiseTestHelper.h"
-#include "simulation/CollectedCharge.h"
+#include "simulation/SimulatedSensor.h"
 
 #include <cmath>
 #include <cstddef>

@@ -15,11 +15,13 @@
 using namespace sensornoise;
 using namespace sensornoise::test;
 
-// What a camera does to the codes of one frame: smoothing, resampling, correction of defects, companding.
+// Processing of the digital numbers of one frame in the camera: smoothing, resampling, correction of defects,
+// companding.
 
 namespace
 {
-constexpr double FiveErrors = 5.0 * 1.4142136 / 547.0; ///< of a variance 1 over 600 x 500 pixels
+constexpr double FiveErrors =
+  5.0 * 1.4142136 / 547.0; ///< five standard errors of a variance of 1 over 600 x 500 pixels
 } // namespace
 
 TEST(SensorNoiseCameraProcessing, SmoothingLeavesTheSquareOfItsKernel)
@@ -147,27 +149,27 @@ TEST(SensorNoiseCameraProcessing, ALowThresholdTakesTheTailsAway)
   EXPECT_NEAR(untouched.second, 0.0, 5.0 * std::sqrt(24.0 / 300000.0));
 }
 
-TEST(SensorNoiseCameraProcessing, CompandedCodesLieOnSquares)
+TEST(SensorNoiseCameraProcessing, CompandedNumbersLieOnSquares)
 {
-  std::vector<double> codes(4096);
-  for (std::size_t i = 0; i < codes.size(); ++i)
+  std::vector<double> greyValues(4096);
+  for (std::size_t i = 0; i < greyValues.size(); ++i)
   {
-    codes[i] = static_cast<double>(i);
+    greyValues[i] = static_cast<double>(i);
   }
-  std::vector<double> companded = codes;
+  std::vector<double> companded = greyValues;
   Compand(companded.data(), companded.size(), { 8 }, 12);
   EXPECT_EQ(companded.front(), 0.0);
   EXPECT_EQ(companded.back(), 4095.0);
   const std::set<double> levels(companded.begin(), companded.end());
   EXPECT_LE(levels.size(), 256u);
-  EXPECT_GE(levels.size(), 240u); // the steps at the dark end are narrower than a code
-  for (std::size_t i = 0; i < codes.size(); ++i)
+  EXPECT_GE(levels.size(), 240u); // the steps at the dark end are narrower than a DN
+  for (std::size_t i = 0; i < greyValues.size(); ++i)
   {
     const double root = std::sqrt(companded[i] / 4095.0) * 255.0;
     EXPECT_NEAR(root, std::round(root), 1e-9);
-    // Half a step of the root, 1/510, is a change of the code by half of 2 sqrt(v top) / 255.
-    const double halfStep = std::sqrt(std::max(codes[i], companded[i]) * 4095.0) / 255.0;
-    EXPECT_LE(std::abs(companded[i] - codes[i]), halfStep + 0.02);
+    // Half a step of the root, 1/510, is a change of the digital number by half of 2 sqrt(v top) / 255.
+    const double halfStep = std::sqrt(std::max(greyValues[i], companded[i]) * 4095.0) / 255.0;
+    EXPECT_LE(std::abs(companded[i] - greyValues[i]), halfStep + 0.02);
   }
   double outside[] = { -5.0, 5000.0 };
   Compand(outside, 2, { 8 }, 12);

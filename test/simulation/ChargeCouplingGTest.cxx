@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/CollectedCharge.h"
+#include "simulation/SimulatedSensor.h"
 #include "simulation/Random.h"
 #include "helpers/FrameNoiseTestHelper.h"
 #include "helpers/StackTestHelper.h"

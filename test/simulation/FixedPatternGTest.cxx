@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/FixedPattern.h"
+#include "simulation/SimulatedSensor.h"
 #include "helpers/SimulatorTestHelper.h"
 
 #include <cstddef>

@@ -56,7 +56,7 @@ TEST(SensorNoiseFrameBinning, LinearLiesBetweenTheCentresOfTheSquares)
       EXPECT_DOUBLE_EQ(out.Row(y)[x], frame.Row(y)[x]);
     }
   }
-  EXPECT_DOUBLE_EQ(out.Row(0)[0], 1.5 + 3.5); // that of the outermost square
+  EXPECT_DOUBLE_EQ(out.Row(0)[0], 1.5 + 3.5); // sum of the outermost square
 }
 
 TEST(SensorNoiseFrameBinning, TheMeanIsKept)

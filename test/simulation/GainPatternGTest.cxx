@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/FixedPattern.h"
+#include "simulation/SimulatedSensor.h"
 #include "helpers/SimulatorTestHelper.h"
 
 #include <cmath>
@@ -37,7 +37,7 @@ MeanOfColumns(const std::vector<double> & map)
 }
 } // namespace
 
-TEST(SensorNoiseGainPattern, GainHasItsSpreadAndMeanOne)
+TEST(SensorNoiseGainPattern, GainHasItsStandardDeviationAndMeanOne)
 {
   PatternSettings settings;
   settings.gainSd = 0.02;
@@ -46,7 +46,7 @@ TEST(SensorNoiseGainPattern, GainHasItsSpreadAndMeanOne)
   EXPECT_NEAR(std::sqrt(moments.variance), 0.02, FiveErrors(0.02, Width * Height));
 }
 
-TEST(SensorNoiseGainPattern, ColumnsHaveASpreadOfTheirOwn)
+TEST(SensorNoiseGainPattern, ColumnsHaveAStandardDeviationOfTheirOwn)
 {
   PatternSettings settings;
   settings.columnGainSd = 0.03;

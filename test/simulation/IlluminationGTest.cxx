@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/Simulator.h"
 #include "sensornoise/SimulationSettings.h"
-#include "simulation/CollectedCharge.h"
+#include "simulation/SimulatedSensor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -110,8 +110,8 @@ TEST(SensorNoiseIllumination, BadSettingsGetOneSentence)
   EXPECT_THROW(CheckSettings(factors, 2), std::invalid_argument);
 }
 
-// The expected electrons of a frame are those of a steady one times its factor, whatever the flicker; where the factor
-// is 1, and only there, the bits of the frame are those of a steady stack.
+// The expected electrons of a frame are the electrons of a steady frame times its factor, whatever the flicker; where
+// the factor is 1, and only there, the bits of the frame are the bits of a steady stack.
 TEST(SensorNoiseIllumination, FramesAreBrightenedByTheirFactors)
 {
   constexpr std::size_t size = 32;

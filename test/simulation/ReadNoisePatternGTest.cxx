@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/FixedPattern.h"
+#include "simulation/SimulatedSensor.h"
 #include "base/Quantiles.h"
 #include "helpers/SimulatorTestHelper.h"
 
@@ -39,7 +39,7 @@ TEST(SensorNoiseReadNoisePattern, CoreIsLogNormalWithMedianOne)
   const Moments moments = MomentsOf(LogarithmOf(factors));
   EXPECT_NEAR(moments.mean, 0.0, 5.0 * 0.25 / std::sqrt(Pixels));
   EXPECT_NEAR(std::sqrt(moments.variance), 0.25, 5.0 * 0.25 / std::sqrt(2.0 * Pixels));
-  // Standard error of a median: sqrt(pi / 2) of that of the mean.
+  // Standard error of a median: sqrt(pi / 2) of the standard error of the mean.
   EXPECT_NEAR(QuantileOf(factors, 0.5), 1.0, 5.0 * 1.2533 * 0.25 / std::sqrt(Pixels));
   // E[f^2] = exp(2 s^2); its relative standard error is sqrt(exp(4 s^2) - 1) / sqrt(n).
   const double error = std::sqrt(std::expm1(4.0 * 0.0625) / Pixels);
@@ -61,7 +61,7 @@ TEST(SensorNoiseReadNoisePattern, TailHoldsItsFractionAndItsSquare)
   EXPECT_NEAR(MeanSquare(factors), square, 5.0 * std::sqrt((fourth - square * square) / Pixels));
 }
 
-TEST(SensorNoiseReadNoisePattern, MoreSpreadLeavesTheSamePixelsNoisy)
+TEST(SensorNoiseReadNoisePattern, MoreDispersionLeavesTheSamePixelsNoisy)
 {
   const auto narrow = LogarithmOf(DrawReadNoisePattern({ 0.1, 0.0, 1.0 }, 3, 1000));
   const auto wide = LogarithmOf(DrawReadNoisePattern({ 0.3, 0.0, 1.0 }, 3, 1000));

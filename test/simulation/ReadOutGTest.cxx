@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/ReadOut.h"
-#include "simulation/FixedPattern.h"
+#include "simulation/SimulatedSensor.h"
 #include "helpers/SimulatorTestHelper.h"
 
 #include <algorithm>
@@ -31,16 +30,16 @@ PatternedSettings()
 }
 
 double
-CodeOf(const ReadOut & readOut, std::size_t pixel, double electrons, double normal)
+OutputOf(const ReadOut & readOut, std::size_t pixel, double electrons, double normal)
 {
   std::vector<double> charge(Width, electrons);
-  std::vector<double> codes(Width, normal);
-  readOut.ReadRow(0, pixel / Width, charge.data(), codes.data(), codes.data());
-  return codes[pixel % Width];
+  std::vector<double> greyValues(Width, normal);
+  readOut.ReadRow(0, pixel / Width, charge.data(), greyValues.data(), greyValues.data());
+  return greyValues[pixel % Width];
 }
 } // namespace
 
-TEST(SensorNoiseReadOut, CodeIsOffsetGainAndReadNoiseOfThePixel)
+TEST(SensorNoiseReadOut, OutputIsOffsetGainAndReadNoiseOfThePixel)
 {
   const SimulationSettings settings = PatternedSettings();
   const ReadOut            readOut(settings, Width, Height);
@@ -51,16 +50,17 @@ TEST(SensorNoiseReadOut, CodeIsOffsetGainAndReadNoiseOfThePixel)
   {
     const double g = settings.camera.gainDnPerElectron * gain[pixel];
     const double offset = settings.camera.offsetDn + offsetDn[pixel];
-    EXPECT_NEAR(CodeOf(readOut, pixel, 0.0, 0.0), offset, 1e-12);
-    EXPECT_NEAR(CodeOf(readOut, pixel, 400.0, 0.0), offset + g * 400.0, 1e-11);
-    EXPECT_NEAR(CodeOf(readOut, pixel, 400.0, 1.5), offset + g * 400.0 + 1.5 * gain[pixel] * readNoiseDn[pixel], 1e-11);
+    EXPECT_NEAR(OutputOf(readOut, pixel, 0.0, 0.0), offset, 1e-12);
+    EXPECT_NEAR(OutputOf(readOut, pixel, 400.0, 0.0), offset + g * 400.0, 1e-11);
+    EXPECT_NEAR(
+      OutputOf(readOut, pixel, 400.0, 1.5), offset + g * 400.0 + 1.5 * gain[pixel] * readNoiseDn[pixel], 1e-11);
     EXPECT_NEAR(readOut.LocalGainAt(pixel, 400.0), g, 1e-14);
     EXPECT_NEAR(readOut.PixelOffsetDn(pixel), offset, 1e-12);
     EXPECT_NEAR(readOut.PixelReadNoiseDn(pixel), gain[pixel] * readNoiseDn[pixel], 1e-13);
   }
 }
 
-TEST(SensorNoiseReadOut, NonlinearCodeFollowsTheCurve)
+TEST(SensorNoiseReadOut, NonlinearOutputFollowsTheCurve)
 {
   SimulationSettings settings = PatternedSettings();
   settings.flaws.response = { ResponseShape::Quadratic, 0.04, 800.0 };
@@ -68,20 +68,21 @@ TEST(SensorNoiseReadOut, NonlinearCodeFollowsTheCurve)
   const ResponseCurve curve(settings.flaws.response);
   for (std::size_t pixel = 0; pixel < Width * Height; pixel += 37)
   {
-    const double offset = CodeOf(readOut, pixel, 0.0, 0.0);
-    const double full = CodeOf(readOut, pixel, 800.0, 0.0) - offset; // g_p S, for R(1) = 1
+    const double offset = OutputOf(readOut, pixel, 0.0, 0.0);
+    const double full = OutputOf(readOut, pixel, 800.0, 0.0) - offset; // g_p S, for R(1) = 1
     for (const double electrons : { 100.0, 400.0, 790.0, 850.0 })
     {
-      EXPECT_NEAR(CodeOf(readOut, pixel, electrons, 0.0) - offset, full * curve.Value(electrons / 800.0), 1e-10);
-      const double difference = CodeOf(readOut, pixel, electrons + 0.01, 0.0) - CodeOf(readOut, pixel, electrons, 0.0);
+      EXPECT_NEAR(OutputOf(readOut, pixel, electrons, 0.0) - offset, full * curve.Value(electrons / 800.0), 1e-10);
+      const double difference =
+        OutputOf(readOut, pixel, electrons + 0.01, 0.0) - OutputOf(readOut, pixel, electrons, 0.0);
       // One-sided difference: error h R'' / 2 = 0.01 * 2 * 0.04 / 800 / 2 of the gain.
       EXPECT_NEAR(difference / 0.01, readOut.LocalGainAt(pixel, electrons), 1e-5);
     }
-    EXPECT_NEAR((CodeOf(readOut, pixel, 0.0, 1e-3) - offset) / 1e-3, readOut.PixelReadNoiseDn(pixel), 1e-3);
+    EXPECT_NEAR((OutputOf(readOut, pixel, 0.0, 1e-3) - offset) / 1e-3, readOut.PixelReadNoiseDn(pixel), 1e-3);
   }
 }
 
-TEST(SensorNoiseReadOut, LineNoiseIsAddedToTheCode)
+TEST(SensorNoiseReadOut, LineNoiseIsAddedToTheOutput)
 {
   SimulationSettings settings = PatternedSettings();
   const ReadOut      quiet(settings, Width, Height);
@@ -92,7 +93,7 @@ TEST(SensorNoiseReadOut, LineNoiseIsAddedToTheCode)
   for (std::size_t x = 0; x < Width; ++x)
   {
     const std::size_t pixel = 3 * Width + x;
-    EXPECT_NEAR(CodeOf(noisy, pixel, 200.0, 0.5) - CodeOf(quiet, pixel, 200.0, 0.5), expected[x], 1e-11);
+    EXPECT_NEAR(OutputOf(noisy, pixel, 200.0, 0.5) - OutputOf(quiet, pixel, 200.0, 0.5), expected[x], 1e-11);
     EXPECT_EQ(noisy.PixelReadNoiseDn(pixel), quiet.PixelReadNoiseDn(pixel));
   }
 }
@@ -118,7 +119,7 @@ TEST(SensorNoiseReadOut, SummaryIsThatOfThePixels)
   EXPECT_EQ(plain.medianDn, 15.0);
 }
 
-TEST(SensorNoiseReadOut, GammaInTheDarkHasTheMomentsOfItsCodes)
+TEST(SensorNoiseReadOut, GammaInTheDarkHasTheMomentsOfItsOutput)
 {
   SimulationSettings settings = StaticSettings('B', 1);
   settings.isDark = true;

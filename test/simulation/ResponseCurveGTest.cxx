@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "simulation/Random.h"
-#include "simulation/ReadOut.h"
+#include "simulation/SimulatedSensor.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -109,7 +109,7 @@ TEST(SensorNoiseResponseCurve, BeyondItsEndsACurveIsStraight)
   EXPECT_EQ(gamma.Slope(-0.1), 0.0);
 }
 
-TEST(SensorNoiseResponseCurve, InTheDarkTheNoiseHasTheMomentsOfItsCodes)
+TEST(SensorNoiseResponseCurve, InTheDarkTheNoiseHasTheMomentsOfItsOutput)
 {
   constexpr double sd = 0.003;
   constexpr int    count = 200000;
@@ -129,8 +129,8 @@ TEST(SensorNoiseResponseCurve, InTheDarkTheNoiseHasTheMomentsOfItsCodes)
     }
     const double mean = sum / count;
     const double found = std::sqrt(squares / count - mean * mean);
-    // 5 standard errors, that of the sd for a normal law, which is wider than that of a cut one; and the curve's second
-    // order, R''(0) sd^2 / 2 with |R''| below 3.
+    // 5 standard errors. The error of the standard deviation is the error for a normal law, which is wider than for a
+    // truncated law. The second order of the curve adds R''(0) sd^2 / 2, with |R''| below 3.
     EXPECT_NEAR(mean, expected.mean, 5.0 * expected.sd / std::sqrt(count) + 1.5 * sd * sd);
     EXPECT_NEAR(found, expected.sd, 5.0 * expected.sd / std::sqrt(2.0 * count) + 1.5 * sd * sd);
   }
@@ -154,7 +154,8 @@ TEST(SensorNoiseResponseCurve, NamesReadBack)
 TEST(SensorNoiseResponseCurve, BadSettingsAreRefused)
 {
   EXPECT_EQ(ErrorOf({ ResponseShape::Straight, 77.0 }), "no error");
-  EXPECT_EQ(ErrorOf({ ResponseShape::Quadratic, 1.0 }), "the bend of the response is 1; expected above -1 and below 1");
+  EXPECT_EQ(ErrorOf({ ResponseShape::Quadratic, 1.0 }),
+            "the non-linearity of the response is 1; expected above -1 and below 1");
   EXPECT_EQ(ErrorOf({ ResponseShape::Gamma, 0.0 }), "the exponent of the response is 0; expected 0.1 to 10");
   EXPECT_EQ(ErrorOf({ ResponseShape::SCurve, -0.1 }), "the weight of the response's s-curve is -0.1; expected 0 to 1");
   EXPECT_EQ(ErrorOf({ ResponseShape::Wave, 0.1, -3.0 }), "the full scale of the response is -3; expected 0 to 1e9");

@@ -18,7 +18,7 @@ using namespace sensornoise;
 TEST(SensorNoiseScenes, TargetHoldsSixteenEqualPatchesOnItsSurround)
 {
   const auto                  image = MakeTargetScene(512, 400);
-  std::map<long, std::size_t> counts; // of the levels in units of 1/1500
+  std::map<long, std::size_t> counts; // pixels at each level, in units of 1/1500
   for (const double value : image)
   {
     ++counts[std::lround(value * 1500.0)];

@@ -15,7 +15,7 @@
 using namespace sensornoise;
 using namespace sensornoise::test::simulator;
 
-// What a real sensor adds to the model: rolling shutter, clipping, fixed patterns.
+// Effects of real sensors beyond the model: rolling shutter, clipping, fixed patterns.
 
 TEST(SensorNoiseSimulator, RollingShutterFlickersWithItsPeriod)
 {
@@ -56,20 +56,20 @@ TEST(SensorNoiseSimulator, IntegerPixelsAreClippedToTheBitDepthAndTheSensorsLeve
   auto       values = RenderAll<std::uint16_t>(StackSimulator(scene, 64, 16, settings));
   EXPECT_EQ(*std::min_element(values.begin(), values.end()), 0.0);
   EXPECT_EQ(*std::max_element(values.begin(), values.end()), 255.0);
-  // The sensor's own levels lie inside, or are cut to the codes.
+  // The clip levels of the sensor are within the DN range, or are cut to it.
   settings.bitDepth = 12;
   settings.clipLowDn = 17.5;
   settings.clipHighDn = 2400.5;
   values = RenderAll<std::uint16_t>(StackSimulator(scene, 64, 16, settings));
   EXPECT_EQ(*std::min_element(values.begin(), values.end()), 18.0);
   EXPECT_EQ(*std::max_element(values.begin(), values.end()), 2400.0);
-  EXPECT_EQ(StackSimulator::CodeRange<std::uint16_t>(settings), std::make_pair(18.0, 2400.0));
+  EXPECT_EQ(StackSimulator::PixelRangeDn<std::uint16_t>(settings), std::make_pair(18.0, 2400.0));
   settings.clipHighDn = 1e6;
-  EXPECT_EQ(StackSimulator::CodeRange<std::uint16_t>(settings), std::make_pair(18.0, 4095.0));
+  EXPECT_EQ(StackSimulator::PixelRangeDn<std::uint16_t>(settings), std::make_pair(18.0, 4095.0));
   // No bit depth: the range of the type.
   settings = StaticSettings('B', 1);
   settings.bitDepth = 0;
-  EXPECT_EQ(StackSimulator::CodeRange<std::int16_t>(settings), std::make_pair(-32768.0, 32767.0));
+  EXPECT_EQ(StackSimulator::PixelRangeDn<std::int16_t>(settings), std::make_pair(-32768.0, 32767.0));
 }
 
 TEST(SensorNoiseSimulator, FloatingPixelsAreClippedAtGivenLevelsOnly)
@@ -89,7 +89,7 @@ TEST(SensorNoiseSimulator, FloatingPixelsAreClippedAtGivenLevelsOnly)
   EXPECT_EQ(*std::max_element(values.begin(), values.end()), 900.5);
 }
 
-TEST(SensorNoiseSimulator, FixedPatternsHaveTheirSpreadAndStayFromFrameToFrame)
+TEST(SensorNoiseSimulator, FixedPatternsHaveTheirStandardDeviationAndStayFromFrameToFrame)
 {
   constexpr std::size_t size = 100;
   SimulationSettings    settings = StaticSettings('B', 2);

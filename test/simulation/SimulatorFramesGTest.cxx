@@ -57,14 +57,14 @@ MakeSimulator(const SimulationSettings & settings)
   return StackSimulator(MakeTargetScene(Width, Height), Width, Height, settings);
 }
 
-/** FNV-1a of whole codes. */
+/** Returns the FNV-1a hash of whole digital numbers. */
 std::uint64_t
-HashOf(const std::vector<double> & codes)
+HashOf(const std::vector<double> & greyValues)
 {
   std::uint64_t hash = 1469598103934665603ULL;
-  for (const double code : codes)
+  for (const double greyValue : greyValues)
   {
-    hash = (hash ^ static_cast<std::uint64_t>(code)) * 1099511628211ULL;
+    hash = (hash ^ static_cast<std::uint64_t>(greyValue)) * 1099511628211ULL;
   }
   return hash;
 }
@@ -126,7 +126,7 @@ TEST(SensorNoiseSimulatorFrames, RowsThatNeedOthersAreRefused)
   EXPECT_THROW(FrameOf<std::uint16_t>(MakeSimulator(settings), 5), std::invalid_argument);
 }
 
-TEST(SensorNoiseSimulatorFrames, RepeatedFramesAreEqualInCodesAndTruth)
+TEST(SensorNoiseSimulatorFrames, RepeatedFramesAreEqualInGreyValuesAndTruth)
 {
   for (const bool isMixed : { false, true })
   {
@@ -139,7 +139,7 @@ TEST(SensorNoiseSimulatorFrames, RepeatedFramesAreEqualInCodesAndTruth)
     const auto & gamma = simulator.GetTruth().series.gamma;
     EXPECT_EQ(gamma[3], gamma[5]);
     EXPECT_NE(gamma[2], gamma[3]);
-    // The exposures are those of the stack without repetition.
+    // The exposures are the exposures of the stack without repetition.
     SimulationSettings once = settings;
     once.flaws.repetition.count = 1;
     EXPECT_EQ(FrameOf<double>(MakeSimulator(once), 1), FrameOf<double>(simulator, 3));
@@ -184,13 +184,13 @@ TEST(SensorNoiseSimulatorFrames, TheCameraFiltersThenBinsThenMovesThenCompresses
   // Within a square the half pixel changes nothing, between two it halves the variance: 3/4 of it stay.
   flaws.resampling.shiftXPixels = 0.5;
   EXPECT_NEAR(varianceWith(flaws), 0.75 * 2500.0, 5.0 * 2500.0 * std::sqrt(2.0 / 40000.0));
-  // The blocks come last: all steps of quality 1 are 255 codes of 8 bits, and no noise is left, nor an interpolation of
-  // what differs between blocks.
+  // The blocks come last: all steps of quality 1 are 255 numbers of 8 bits, and no noise is left, nor an interpolation
+  // of what differs between blocks.
   flaws.blocks.quality = 1;
   EXPECT_LT(varianceWith(flaws), 1e-6);
 }
 
-TEST(SensorNoiseSimulatorFrames, ChargeIsMovedBeforeReadNoiseAndCodesAreSmoothedAfterIt)
+TEST(SensorNoiseSimulatorFrames, ChargeIsMovedBeforeReadNoiseAndOutputIsSmoothedAfterIt)
 {
   // An even scene: shot noise g^2 A and read noise sigma^2.
   SimulationSettings settings = StaticSettings('B', 1);
@@ -256,10 +256,10 @@ TEST(SensorNoiseSimulatorFrames, DarkNoiseIsNotThatOfDarkPixels)
   EXPECT_NE(bright[0], dark[0]);
 }
 
-TEST(SensorNoiseSimulatorFrames, WithoutFlawsTheCodesAreThoseOfEarlierVersions)
+TEST(SensorNoiseSimulatorFrames, WithoutFlawsTheGreyValuesEqualEarlierVersions)
 {
   // Drawn before there were flaws to set. The last digit of log and exp may differ from platform to platform, which
-  // changes one code in 1e12.
+  // changes one grey value in 1e12.
   const SimulationSettings plain = FlickeringSettings(3);
   EXPECT_EQ(HashOf(RenderAll<std::uint16_t>(MakeSimulator(plain))), 14289988999828458610ULL);
   SimulationSettings patterned = plain;

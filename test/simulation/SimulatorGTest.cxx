@@ -30,7 +30,7 @@ Ramp(std::size_t width, std::size_t height, double perColumn, double perRow)
 }
 
 /** A constant scene has mean g A + mu and variance g mean + sigma^2 - g mu = g^2 A + sigma^2 (Sur and Grediac (2.20),
- * all still), and 1/12 more if it is rounded to whole codes. */
+ * all still), and 1/12 more if it is rounded to whole DN. */
 template <typename TPixel>
 void
 CheckNoiseOfConstantScene(char camera, double roundingVariance)
@@ -42,7 +42,7 @@ CheckNoiseOfConstantScene(char camera, double roundingVariance)
   const double         g = model.gainDnPerElectron;
   const double         mean = g * model.electrons + model.offsetDn;
   const double variance = g * mean + model.readNoiseDn * model.readNoiseDn - g * model.offsetDn + roundingVariance;
-  // Fourth central moment: that of a normal law, 3 V^2, and the Poisson law's excess g^4 A. 5 standard errors.
+  // Fourth central moment: the moment of a normal law, 3 V^2, and the Poisson law's excess g^4 A. 5 standard errors.
   const double varianceOfVariance = (2.0 * variance * variance + std::pow(g, 4) * model.electrons) / found.count;
   EXPECT_NEAR(found.mean, mean, 5.0 * std::sqrt(variance / found.count));
   EXPECT_NEAR(found.variance, variance, 5.0 * std::sqrt(varianceOfVariance));
@@ -171,7 +171,7 @@ TEST(SensorNoiseSimulator, RowsAreAPureFunctionOfFrameAndRow)
   EXPECT_NE(first, again);
 }
 
-TEST(SensorNoiseSimulator, PublishedSeedsKeepTheirCodes)
+TEST(SensorNoiseSimulator, PublishedSeedsKeepTheirGreyValues)
 {
   // Written down from the first version: whoever quotes a seed can count on the stack.
   const StackSimulator       simulator(MakeBarsScene(16, 4), 16, 4, SimulationSettings{});
@@ -182,7 +182,7 @@ TEST(SensorNoiseSimulator, PublishedSeedsKeepTheirCodes)
               1325, 1785, 2672, 2910, 1991, 791, 302, 361, 107, 1923, 426, 1551, 3001, 1441, 2325, 3211 }));
 }
 
-TEST(SensorNoiseSimulator, RealisedSpreadsAreThoseOfTheSeries)
+TEST(SensorNoiseSimulator, RealisedStandardDeviationsAreThoseOfTheSeries)
 {
   SimulationSettings settings;
   settings.conditions = PaperConditions(1);

@@ -63,7 +63,7 @@ TEST(SensorNoiseTemporalFilter, WhiteNoiseKeepsItsVarianceFractionAndFramesCorre
     lagTwo += frames.size() > 2 ? MeanProduct(frames.back(), frames[frames.size() - 3]) / 38.0 : 0.0;
   }
   const double expected = (1.0 - a) / (1.0 + a);
-  // 320000 numbers, of which frames next to each other correlate: (1 + a^2) / (1 - a^2) = 1.67 times the variance.
+  // 320000 numbers, whose neighbouring frames correlate: (1 + a^2) / (1 - a^2) = 1.67 times the variance.
   const double error = 5.0 * expected * std::sqrt(2.0 * 1.67 / 320000.0);
   EXPECT_NEAR(variance, expected, error);
   EXPECT_NEAR(lagOne, a * expected, error);

@@ -139,8 +139,8 @@ TEST(SensorNoiseBandTile, WhiteNoiseHasItsVarianceInEveryBand)
   std::mt19937_64                  random(5);
   std::normal_distribution<double> normal(0.0, 2.0);
   const BandTile                   tile = TileOf([&](double, double) { return 50.0 + normal(random); });
-  // n independent squares have a relative standard error of sqrt(2 / n); those of windows are correlated, but are made
-  // of as many coefficients. Five errors.
+  // n independent squares have a relative standard error of sqrt(2 / n); squares of windows are correlated, but there
+  // are as many coefficients. Five errors.
   const double tolerance = 4.0 * 5.0 * std::sqrt(2.0 / static_cast<double>(tile.Positions()));
   EXPECT_NEAR(MeanOf(tile.diagonal), 4.0, tolerance);
   EXPECT_NEAR(MeanOf(tile.horizontal), 4.0, tolerance);

@@ -54,7 +54,7 @@ TEST(SensorNoiseClippedNormal, MomentsAreThoseOfTheIntegral)
 
 TEST(SensorNoiseClippedNormal, HalfOfTheNoiseAtALevelHasTheClosedForm)
 {
-  // Of max(0, z): mean 1/sqrt(2 pi), variance 1/2 - 1/(2 pi).
+  // max(0, z) has the mean 1/sqrt(2 pi) and the variance 1/2 - 1/(2 pi).
   const double         pi = std::acos(-1.0);
   const ClippedMoments moments = MomentsOfClipped(5.0, 2.0, { 5.0, 1e9 });
   EXPECT_NEAR(moments.meanDn, 5.0 + 2.0 / std::sqrt(2.0 * pi), 1e-12);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "single/DetailCorrelation.h"
+#include "single/LevelSums.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
+#include "base/ChiSquare.h"
 #include "single/Constants.h"
 #include "single/LevelSums.h"
 #include "single/NoiseLine.h"
@@ -42,7 +43,7 @@ TEST(SensorNoiseNoiseLine, ErrorsAreThoseOfWeightedLeastSquares)
   double                      wxx = 0.0;
   for (const LevelSet & set : sets)
   {
-    const double weight = set.details / (InSingle.truncatedVariance * set.varianceDn2 * set.varianceDn2);
+    const double weight = set.details / (TruncatedVariance * set.varianceDn2 * set.varianceDn2);
     w += weight;
     wx += weight * set.levelDn;
     wxx += weight * set.levelDn * set.levelDn;

@@ -118,7 +118,7 @@ TEST(SensorNoiseSingleImageWarnings, FilteredFramesGiveNoGain)
   EXPECT_TRUE(HasWarning(report, WarningCode::NothingToMeasure));
 }
 
-TEST(SensorNoiseSingleImageWarnings, ARefusalSaysTheCountThatWasFound)
+TEST(SensorNoiseSingleImageWarnings, AFailedEstimateSaysTheCountThatWasFound)
 {
   const Report report = Measure(Simulate<unsigned short>(PaperSettings('B'), 320, 320, MakeTextureScene(320, 320)));
   ASSERT_FALSE(report.gain.value) << MakeText(report);
@@ -144,7 +144,7 @@ TEST(SensorNoiseSingleImageWarnings, FramesWithoutLevelsGiveNoGain)
   EXPECT_NE(flat.gain.status, EstimateStatus::Identified) << MakeText(flat);
 }
 
-TEST(SensorNoiseSingleImageWarnings, CoarseCodesGiveNoGain)
+TEST(SensorNoiseSingleImageWarnings, CoarseQuantizationGivesNoGain)
 {
   const auto   stack = Simulate<double>(PaperSettings('C'), 256, 256);
   const Report report = Measure(stack.Map<unsigned char>([](double u) { return std::floor(u / 100.0); }));

@@ -108,7 +108,7 @@ TEST(NoiseModelCheck, ModelWithoutVarianceAtALevelDoesNotFitThere)
 }
 
 // Bins that differ by +-3 % in turn: squares of differences of 0.06 over 2 * 0.0045^2 make the errors 9.4 times as
-// large; their median over that of chi-square with one degree of freedom is 1 / 0.45 of that.
+// large; their median over the median of chi-square with one degree of freedom is 1 / 0.45 of them.
 TEST(NoiseModelCheck, WhatBinsDifferByIsInTheError)
 {
   int        number = 0;
@@ -125,8 +125,8 @@ TEST(NoiseModelCheck, WhatBinsDifferByIsInTheError)
 TEST(NoiseModelCheck, FewPixelsAreNotTested)
 {
   const NoiseModelCheck check = CheckNoiseModel(FramesOfModel(1.0, 1), Model);
-  EXPECT_EQ(check.verdict, Verdict::NotTold);
-  EXPECT_NE(check.sentence.find("too few frames or pixels to tell"), std::string::npos) << check.sentence;
+  EXPECT_EQ(check.verdict, Verdict::NotDetermined);
+  EXPECT_NE(check.sentence.find("too few frames or pixels to test"), std::string::npos) << check.sentence;
 }
 
 TEST(NoiseModelCheck, FramesThatCannotBeMeasuredSayWhy)
@@ -134,7 +134,7 @@ TEST(NoiseModelCheck, FramesThatCannotBeMeasuredSayWhy)
   Report frames;
   frames.Warn(WarningCode::NothingToMeasure, "all pixels are clipped");
   const NoiseModelCheck check = CheckNoiseModel(frames, Model);
-  EXPECT_EQ(check.verdict, Verdict::NotTold);
+  EXPECT_EQ(check.verdict, Verdict::NotDetermined);
   EXPECT_EQ(check.sentence, "the variance of these frames could not be measured: all pixels are clipped");
   EXPECT_EQ(ToJson(check),
             "{\"schema\": \"itk-sensornoise-check/1\", \"verdict\": \"not-told\", \"sentence\": \"" + check.sentence +

@@ -107,20 +107,6 @@ TEST(PoissonGaussianLaw, HasVarianceOneAboveTenElectrons)
   }
 }
 
-TEST(PoissonGaussianLaw, ExactInverseLeadsBack)
-{
-  for (const double electrons : { 0.0, 0.01, 0.5, 3.0, 40.0, 900.0, 10000.0 })
-  {
-    for (const double readNoise : { 0.0, 0.2, 1.0, 4.0, 30.0 })
-    {
-      const double mean = MomentsOfStabilised(electrons, readNoise).mean;
-      EXPECT_NEAR(ExactUnbiasedInverse(mean, readNoise), electrons, 1e-8 * (1.0 + electrons))
-        << electrons << ' ' << readNoise;
-    }
-  }
-  EXPECT_EQ(ExactUnbiasedInverse(0.3, 1.0), 0.0);
-}
-
 TEST(PoissonGaussianLaw, RefusesWhatIsNoLaw)
 {
   EXPECT_THROW(MomentsOfStabilised(-1.0, 1.0), std::invalid_argument);

@@ -22,8 +22,8 @@ struct SimulatedCamera
   double scale{ 0.002 };        // DN/e- per unit of ISO
   double pixelNoise{ 2.0 };     // e-, before the switch
   double amplifierNoise{ 6.0 }; // e- at ISO 100
-  double drop{ 1.0 };           // of the pixel noise, from ISO switchIso on
-  double gainStep{ 1.0 };       // of gain / ISO, from ISO switchIso on
+  double drop{ 1.0 };           // factor on the pixel noise, from ISO switchIso on
+  double gainStep{ 1.0 };       // factor on gain / ISO, from ISO switchIso on
   double switchIso{ 800 };
   double highestAnalogue{ 1e9 };  // ISO above which the gain is digital
   double gainError{ 0.004 };      // relative
@@ -184,7 +184,8 @@ TEST(GainSwitch, IsNotFoundWhereThereIsNone)
   EXPECT_LE(Found(camera, std::nullopt), 3);
 }
 
-// Closed form: without errors of the numbers, the step of the read noise is that of the model at the geometric mean.
+// Closed form: without errors of the numbers, the step of the read noise is the step of the model at the geometric
+// mean.
 TEST(GainSwitch, MeasuresItsSteps)
 {
   SimulatedCamera camera;

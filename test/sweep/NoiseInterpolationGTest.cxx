@@ -119,7 +119,7 @@ TEST(NoiseInterpolation, GivesTheCameraBetweenItsSettings)
   EXPECT_EQ(made.noise.blackLevelDn, 100.0);
   EXPECT_EQ(made.below, 200.0);
   EXPECT_EQ(made.above, 800.0);
-  EXPECT_NE(SentenceOf(made).find("between the measured settings 200 and 800: gain 0.8000 +- 0.0057 DN/e-"),
+  EXPECT_NE(SentenceOf(made).find("between the measured settings 200 and 800: gain 0.8000 \u00B1 0.0057 DN/e\u207B"),
             std::string::npos)
     << SentenceOf(made);
 }

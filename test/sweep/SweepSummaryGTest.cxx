@@ -104,6 +104,43 @@ TEST(SweepSummary, FitsAndroidsModelToIsoSpeeds)
   EXPECT_EQ(SummariseSweep(range).androidReason, "");
 }
 
+TEST(SweepSummary, HasThePresetsOfDarktable)
+{
+  MeasuredRange range = MosaicRange();
+  for (std::size_t i = 0; i < range.noise.size(); ++i)
+  {
+    CameraNoise & noise = range.noise[i];
+    noise.isoSpeed = range.settings[i];
+    noise.blackLevelDn = 64.0;
+    for (ChannelNoise & channel : noise.channels)
+    {
+      channel.varianceSlope = channel.gain;
+      channel.totalIntercept.value = std::pow(*channel.readNoise.value, 2.0) - *channel.gain.value * 64.0;
+    }
+    noise.channels = { noise.channels[1] };
+    noise.channels[0].channel = "mono";
+  }
+  // Both programs need the white level: one sentence says so.
+  EXPECT_TRUE(Contains(SummariseSweep(range).darktableReason, "no white level"));
+  EXPECT_FALSE(Contains(MakeText(SummariseSweep(range)), "darktable"));
+  for (CameraNoise & noise : range.noise)
+  {
+    noise.whiteLevelDn = 4064.0;
+  }
+  EXPECT_EQ(SummariseSweep(range).darktable->files[0].bytes, ExportNoise("darktable", range.noise).files[0].bytes);
+  EXPECT_TRUE(Contains(MakeText(SummariseSweep(range)), "darktable's presets are in the passport: export-noise-model"));
+  EXPECT_TRUE(Contains(ToJson(SummariseSweep(range)), "noiseprofiles"));
+  for (CameraNoise & noise : range.noise)
+  {
+    noise.channels[0].channel = "R"; // red alone is no mosaic
+  }
+  EXPECT_TRUE(Contains(MakeText(SummariseSweep(range)), "darktable's presets are not made: "))
+    << MakeText(SummariseSweep(range));
+  range.kind = SettingKind::Gain;
+  EXPECT_FALSE(SummariseSweep(range).darktable);
+  EXPECT_EQ(SummariseSweep(range).darktableReason, "");
+}
+
 // The geometric mean of 0.4 and 0.2 DN/e- at ISO 100; a channel that is missing at one setting is left out of all.
 TEST(SweepSummary, AveragesTheChannelsThatAllSettingsHave)
 {
@@ -136,12 +173,44 @@ TEST(SweepSummary, SaysWhatItFound)
   const std::string page = ToHtml(summary);
   EXPECT_TRUE(Contains(page, "the frames &lt;differ&gt;"));
   EXPECT_TRUE(Contains(page, "gain is 100 % above it"));
-  EXPECT_TRUE(Contains(page, "gain [DN/e⁻] of every setting") && Contains(page, "read noise [e⁻] of every setting"));
+  for (const char * const name :
+       { "gain [DN/e⁻]", "read noise [e⁻]", "read noise [DN]", "full well [e⁻]", "dynamic range [dB]", "offset [DN]" })
+  {
+    EXPECT_TRUE(Contains(page, std::string(name) + " of every setting with its 95 % interval")) << name;
+  }
   test::ExpectSound(page);
   for (const char * const tick : { ">100<", ">500<", ">10000<", ">1.5<", ">4<" }) // ISO speeds; electrons
   {
     EXPECT_TRUE(Contains(page, tick)) << tick;
   }
+}
+
+// The offset is 64 at all settings, within an interval of 62 to 66: its axis is linear. The full well is 1e6 / ISO, or
+// half of it: its axis is logarithmic.
+TEST(SweepSummary, DrawsEachNumberOnItsAxis)
+{
+  const std::string page = ToHtml(SummariseSweep(MosaicRange()));
+  const auto        figureOf = [&page](const std::string & name) {
+    const std::size_t begin = page.find(name + " of every setting");
+    return page.substr(std::min(begin, page.size()), page.find("</svg>", begin) - begin);
+  };
+  EXPECT_TRUE(Contains(figureOf("offset [DN]"), ">64.0<")) << figureOf("offset [DN]");
+  EXPECT_TRUE(Contains(figureOf("full well [e⁻]"), ">1000<")) << figureOf("full well [e⁻]");
+  EXPECT_TRUE(Contains(figureOf("dynamic range [dB]"), ">60<")) << figureOf("dynamic range [dB]");
+  EXPECT_TRUE(Contains(figureOf("read noise [DN]"), ">10<")) << figureOf("read noise [DN]");
+
+  MeasuredRange range = MosaicRange();
+  for (CameraNoise & noise : range.noise)
+  {
+    for (ChannelNoise & channel : noise.channels)
+    {
+      channel.offset = { -3.0, 0.5, "identified" };
+      channel.clipHighDn.reset();
+    }
+  }
+  const std::string other = ToHtml(SummariseSweep(range));
+  EXPECT_TRUE(Contains(other, "offset [DN] of every setting") && Contains(other, ">−3.0<")) << other;
+  EXPECT_TRUE(Contains(other, "full well [e⁻]: no setting has a value"));
 }
 
 TEST(SweepSummary, SaysWhyThereIsNoLine)
@@ -154,7 +223,7 @@ TEST(SweepSummary, SaysWhyThereIsNoLine)
   EXPECT_TRUE(Contains(MakeText(SummariseSweep(range)), "The gains do not follow the settings"));
   EXPECT_TRUE(Contains(MakeText(SummariseSweep({})), "0 of 0 settings measured"));
   EXPECT_TRUE(Contains(MakeText(SummariseSweep({})), "there are 0"));
-  EXPECT_TRUE(Contains(ToHtml(SummariseSweep({})), "No setting has a value"));
+  EXPECT_TRUE(Contains(ToHtml(SummariseSweep({})), "gain [DN/e⁻]: no setting has a value"));
 }
 
 } // namespace sensornoise

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "browser/BurstMemory.h"
 #include "browser/ToolArguments.h"
-#include "files/RawLayout.h"
+#include "files/FrameFormats.h"
 #include "helpers/CheckoutTestHelper.h"
 
 #include <fstream>
@@ -74,7 +74,7 @@ TEST(BrowserPage, ManyFilesAreNamedTogether)
   EXPECT_EQ(arguments({ "1.tif", "2.png", "3.tif", "4.tif", "5.tif" }), "FRAMES");
 }
 
-TEST(BrowserPage, ARefusalForMemoryRepeatsFilesAndOptions)
+TEST(BrowserPage, AnErrorForMemoryRepeatsFilesAndOptions)
 {
   using namespace sensornoise::browser;
   Burst burst;

@@ -23,19 +23,19 @@ protected:
     const auto                   burst = MakeBurst();
     const itk::Size<3>           size = burst->GetLargestPossibleRegion().GetSize();
     const unsigned short * const first = burst->GetBufferPointer();
-    const Codes                  codes(first, first + size[0] * size[1] * size[2]);
+    const GreyValues             greyValues(first, first + size[0] * size[1] * size[2]);
     const std::string            raw = " --raw 64x64:";
-    WriteText("a.ser", SerText(codes));
+    WriteText("a.ser", SerText(greyValues));
     CihxOf header;
     header.width = header.height = 64;
     header.frames = 24;
     WriteText("a.cihx", header.Bytes());
-    WriteText("a.mraw", BitStream(codes, 12, true));
-    WriteText("whole", "head" + BytesOfCodes(codes, 2));
-    WriteText("big", BytesOfCodes(codes, 2, true));
-    WriteText("p12", BitStream(codes, 12, false));
-    WriteText("gige", GigEPacked(codes, 12));
-    WriteText("mipi", MipiPacked(codes, 12));
+    WriteText("a.mraw", BitStream(greyValues, 12, true));
+    WriteText("whole", "head" + BytesOfGreyValues(greyValues, 2));
+    WriteText("big", BytesOfGreyValues(greyValues, 2, true));
+    WriteText("p12", BitStream(greyValues, 12, false));
+    WriteText("gige", GigEPacked(greyValues, 12));
+    WriteText("mipi", MipiPacked(greyValues, 12));
     return { Write("a.mha", burst.GetPointer()),
              Write("a.tif", burst.GetPointer()),
              "a.ser",
@@ -59,12 +59,12 @@ protected:
   }
 
   static std::string
-  SerText(const Codes & codes)
+  SerText(const GreyValues & greyValues)
   {
     SerOf ser;
     ser.width = ser.height = 64;
     ser.frames = 24;
-    ser.pixels = BytesOfCodes(codes, 2);
+    ser.pixels = BytesOfGreyValues(greyValues, 2);
     return ser.Bytes();
   }
 };
@@ -85,7 +85,7 @@ TEST_F(BurstFormatsTool, RawIsOfDarkFramesAndThoseToBeCheckedToo)
   WriteAll();
   const std::string expected = JsonTextOf("a.mha --dark a.mha --check a.mha --bit-depth 12", 0);
   EXPECT_EQ(MeasuredOf("p12 --dark p12 --check p12 --raw 64x64:Mono12p --bit-depth 12"), expected);
-  // What the file says counts as given.
+  // Settings in the file count as given.
   EXPECT_EQ(MeasuredOf("p12 --raw 64x64:Mono12p"), JsonTextOf("a.mha --bit-depth 12"));
 }
 

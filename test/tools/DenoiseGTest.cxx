@@ -103,7 +103,7 @@ protected:
   HasOpenCV()
   {
     Denoise("--help");
-    std::istringstream words(m_Output); // of lines that are wrapped anywhere
+    std::istringstream words(m_Output); // lines may be wrapped anywhere
     std::string        before;
     for (std::string word; words >> word; before = word)
     {
@@ -260,7 +260,7 @@ TEST_F(DenoiseToolTest, OtherScalesAreRefused)
     std::transform(frame->GetBufferPointer(),
                    frame->GetBufferPointer() + 96 * 96,
                    other->GetBufferPointer(),
-                   [factor](unsigned short code) { return static_cast<unsigned short>(code * factor); });
+                   [factor](unsigned short greyValue) { return static_cast<unsigned short>(greyValue * factor); });
     return Write<FrameType>(name, other);
   };
   IsRefusedBy("--report report.json " + scaled("by16.tif", 16.0) + " clean.tif", { "by16.tif", "multiples of 16" });
@@ -308,7 +308,7 @@ TEST_F(DenoiseToolTest, WrongUseIsRefused)
   IsRefusedBy(use + "half.tif clean.tif", { "half.tif" });
 }
 
-// What one of the names that end alike would overwrite is said before anything is written.
+// An output that another output of the same name would overwrite is an error before anything is written.
 TEST_F(DenoiseToolTest, NothingIsWrittenTwice)
 {
   WriteFrame("frame.tif");

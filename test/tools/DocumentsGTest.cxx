@@ -13,7 +13,7 @@
 #include <set>
 #include <string>
 
-// What the documentation and the tests say of every warning and of every quantity.
+// The documentation and the tests mention every warning and every quantity.
 
 using namespace sensornoise;
 
@@ -91,7 +91,7 @@ TEST(SensorNoiseDocuments, DocumentationHasTheTableOfExportFormats)
 
 TEST(SensorNoiseDocuments, EveryWarningOccursInATest)
 {
-  // By its name in C++, or by that of the record in tests of the tools and of Python.
+  // By its name in C++, or by the name of the record in tests of the tools and of Python.
   std::string tests;
   for (const char * folder : { "/test", "/wrapping/test" })
   {

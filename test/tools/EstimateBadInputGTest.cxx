@@ -67,7 +67,7 @@ TEST_F(EstimateBadInputTool, AColourTruncatedOrMissingFileAmongGoodOnesIsRefused
   for (const std::string extension : { ".tif", ".png", ".mha", ".nrrd" })
   {
     std::vector<std::string> names = WriteSmallList(extension);
-    // behind the pixels of a TIFF file there are tags, without some of which it is complete
+    // a TIFF file has tags behind its pixels; without some of them it is still complete
     const auto size = std::filesystem::file_size(Path(names[6]));
     std::filesystem::resize_file(Path(names[6]), extension == ".tif" ? size / 3 : size - 20);
     IsRefused(Joined(names), { names[6] });

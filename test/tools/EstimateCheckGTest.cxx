@@ -36,7 +36,7 @@ TEST_F(EstimateCheckTool, ModelIsHeldAgainstOtherFrames)
   EXPECT_GE(same["check"]["bands"].size(), 5U);
   const auto other = ReportOf(frames + " --check " + Burst("c.mha", 2, "--gain 1.2"));
   EXPECT_EQ(other["check"]["verdict"], "does-not-fit") << other["check"];
-  EXPECT_EQ(other["gain"], same["gain"]); // of the first frames
+  EXPECT_EQ(other["gain"], same["gain"]); // gain of the first frames
 }
 
 TEST_F(EstimateCheckTool, WithoutANameOfTheFramesThemselves)
@@ -58,7 +58,7 @@ TEST_F(EstimateCheckTool, ReportOfThePublishedMethodIsHeldAgainstTheSameVariance
   const std::string frames = Burst("a.mha", 3, "--camera B --condition 3");
   const auto        published = ReportOf(frames + " --method published --check");
   EXPECT_EQ(published["check"], ReportOf(frames + " --method published --check " + frames)["check"]);
-  // same frames, same bands as those of the refined report's check, and the models' quotient between the ratios
+  // same frames, the bands of the check of the refined report, and the models' quotient between the ratios
   const auto   refined = ReportOf(frames + " --check");
   const auto & bands = published["check"]["bands"];
   const auto & others = refined["check"]["bands"];

@@ -95,7 +95,7 @@ protected:
   std::string
   WriteFits(std::size_t t, double exposure) const
   {
-    constexpr std::size_t block = 2880; // of a file [byte]
+    constexpr std::size_t block = 2880; // block of a file [byte]
     const auto            stack = Read<StackType>(Path("stack.mha"));
     std::string           text;
     const auto            add = [&text](std::string card) {

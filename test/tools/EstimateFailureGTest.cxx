@@ -12,7 +12,7 @@
 namespace
 {
 
-/** Stacks of which nothing can be estimated, wrong use, and output that cannot be written. */
+/** Stacks from which nothing can be estimated, wrong use, and output that cannot be written. */
 class EstimateFailureTool : public EstimateToolTest
 {};
 } // namespace
@@ -71,7 +71,7 @@ TEST_F(EstimateFailureTool, OneIntensityGivesNoEstimate)
   GivesNoEstimate("s.mha --method published", { "the even areas span", "expected more than", "dark and bright" });
 }
 
-TEST_F(EstimateFailureTool, CodesThatHideTheNoiseGiveNoEstimate)
+TEST_F(EstimateFailureTool, QuantizationThatHidesTheNoiseGivesNoEstimate)
 {
   const auto stack = MakeBurst();
   std::for_each(stack->GetBufferPointer(), stack->GetBufferPointer() + 64 * 64 * 24, [](unsigned short & pixel) {

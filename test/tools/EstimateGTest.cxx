@@ -140,7 +140,7 @@ TEST_P(EstimateToolWith, TheSimulatedCameraIsRecoveredAndItsFlickerIsNotMistaken
   EXPECT_NEAR(report["gain"]["value"], 1.0, 0.04);
   // The offset's spread is about 3 DN for a burst as short as this.
   EXPECT_NEAR(report["offset"]["value"], 100.0, 12.0);
-  // sigma^2 = intercept + g mu, so that of the read noise is about 12 / (2 x 8) DN.
+  // sigma^2 = intercept + g mu, so that the error of the read noise is about 12 / (2 x 8) DN.
   EXPECT_NEAR(report["read_noise"]["value"], 8.0, 1.0);
   EXPECT_NEAR(report["read_noise_electrons"]["value"],
               report["read_noise"]["value"].get<double>() / report["gain"]["value"].get<double>(),
@@ -291,7 +291,7 @@ TEST_F(EstimateTool, HelpNamesEveryOptionAndTheExitCodes)
   }
 }
 
-TEST_P(EstimateToolWith, CompandedCodesAreNamed)
+TEST_P(EstimateToolWith, CompandedDataAreNamed)
 {
   ASSERT_EQ(RunCommand("\"" + ToolFolder() +
                        "/simulate-sensor-noise\" --output companded.mha --companding 8 --size 96x96 "

@@ -61,7 +61,8 @@ TEST_F(EstimateLevelRangeTool, PixelsAtOtherLevelsAreLeftOutAndSaidToBe)
       {
         EXPECT_NE(use, PixelUse::OutsideRange) << x << ' ' << y;
       }
-      // What was used before is used, or outside: nothing else changes but the tails' few outliers.
+      // A pixel that was used before is used, or outside of the range. Nothing else changes but the few outliers of the
+      // tails.
       if (static_cast<PixelUse>(before->GetPixel({ { x, y } })) == PixelUse::Used && (level < 500.0 || level > 2500.0))
       {
         EXPECT_EQ(use, PixelUse::OutsideRange) << x << ' ' << y;

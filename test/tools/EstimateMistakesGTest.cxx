@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-// What people type and hold by mistake: the sentence says what was found and what to do.
+// Mistakes of users on the command line and in files: the message says what was found and what to do.
 
 namespace
 {
@@ -142,7 +142,7 @@ TEST_F(EstimateMistakes, ExchangedDarkFramesAreAskedFor)
             0);
   EXPECT_EQ(Run("d.mha --dark bright.mha"), 3);
   EXPECT_NE(m_Message.find("The dark frames are brighter than the frames, with "), std::string::npos) << m_Message;
-  EXPECT_NE(m_Message.find("are they exchanged?"), std::string::npos) << m_Message;
+  EXPECT_NE(m_Message.find("Check whether they are exchanged"), std::string::npos) << m_Message;
 }
 
 TEST_F(EstimateMistakes, SwappedBytesAreNamed)

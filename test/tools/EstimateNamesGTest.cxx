@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-// What is named on the command line: frames and dark frames, folders, patterns, help.
+// Names on the command line: frames and dark frames, folders, patterns, help.
 
 namespace
 {

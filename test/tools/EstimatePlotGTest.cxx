@@ -92,7 +92,7 @@ TEST_F(EstimatePlotTool, TheHashHasHeaderAndPixels)
   }
   const std::string known = m_Output.substr(0, 64);
   EXPECT_EQ(ReportOf(stack + " --hash")["input"]["sha256"], known);
-  // of a mosaic it stands beside the channels
+  // in the report of a mosaic it stands beside the channels
   const auto mosaic = ReportOf(stack + " --hash --bayer RGGB");
   EXPECT_EQ(mosaic["input"]["sha256"], known);
   EXPECT_FALSE(mosaic["channels"][0].contains("input"));

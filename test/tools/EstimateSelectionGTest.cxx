@@ -65,7 +65,7 @@ TEST_F(EstimateSelectionTool, EveryPixelTypeIsRead)
   EXPECT_NEAR(gainAs(short{}, 1.0), gain, 1e-9);
   EXPECT_NEAR(gainAs(float{}, 1.0), gain, 1e-9);
   EXPECT_NEAR(gainAs(double{}, 1.0), gain, 1e-9);
-  // codes of 16 DN add 1/12 of a code^2 to each variance, which moves the intercept only
+  // a quantization step of 16 DN adds 1/12 of its square to each variance, which changes the intercept only
   EXPECT_NEAR(gainAs(static_cast<unsigned char>(0), 1.0 / 16.0), gain / 16.0, 0.05 / 16.0);
 }
 

@@ -35,7 +35,7 @@ protected:
 using sensornoise::PixelUse;
 } // namespace
 
-TEST_F(EstimateSettingsTool, WhatIsGivenOfTheCodesIsInTheReport)
+TEST_F(EstimateSettingsTool, GivenDnSettingsAreInTheReport)
 {
   const std::string    stack = Write("s.mha", MakeBurst().GetPointer());
   const nlohmann::json found = ReportOf(stack);

@@ -200,8 +200,8 @@ TEST_F(EstimateSweepTool, GroupsFramesByTheSpeedThatTheyRecord)
   for (const unsigned iso : { 400U, 800U, 400U, 400U })
   {
     dng.iso = iso;
-    dng.codes[0] += 1;
-    WriteText("shot" + std::to_string(dng.codes[0]) + ".dng", dng.Bytes());
+    dng.greyValues[0] += 1;
+    WriteText("shot" + std::to_string(dng.greyValues[0]) + ".dng", dng.Bytes());
   }
   EXPECT_EQ(Run("--sweep . --json p.json --quiet"), 3) << m_Message; // frames without noise
   const nlohmann::json passport = Passport();
@@ -217,6 +217,23 @@ TEST_F(EstimateSweepTool, GroupsFramesByTheSpeedThatTheyRecord)
   EXPECT_EQ(Run("--sweep cam"), 3) << m_Message;
   EXPECT_TRUE(Says("its files record ISO 400, but ISO 100 was given")) << m_Output;
   EXPECT_TRUE(Says("the frames record different ISO speeds, 800")) << m_Output;
+}
+
+// The files record 1/50 s, which is the exposure in both names.
+TEST_F(EstimateSweepTool, DoesNotMeasureExposuresAtAnotherSpeed)
+{
+  auto dng = sensornoise::test::DngOf::Sound();
+  for (const unsigned iso : { 400U, 800U })
+  {
+    const std::string folder = iso == 400U ? "cam/20ms" : "cam/exposure20ms";
+    dng.iso = iso;
+    std::filesystem::create_directories(Path(folder));
+    WriteText(folder + "/shot.dng", dng.Bytes());
+  }
+  EXPECT_EQ(Run("--sweep cam --json p.json"), 3) << m_Message; // one frame each
+  EXPECT_TRUE(Says("its files record ISO 800, and the files of 20ms ISO 400; expected exposures at one ISO speed"))
+    << m_Output;
+  EXPECT_EQ(Passport()["settings"][0]["setting"], 0.02); // LibRaw has 0.01999999955, in single precision
 }
 
 TEST_F(EstimateSweepTool, TakesStacksByTheirNames)

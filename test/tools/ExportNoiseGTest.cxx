@@ -98,9 +98,9 @@ TEST_F(ExportToolTest, WritesTheMapsOfAFolderIntoAFolder)
   IsRefusedBy("report.json --format maps --output out", { "no maps", "--maps" }, 3);
   IsRefusedBy("report.json --format maps --maps maps --output none", { "none", "folder that exists" }, 2);
   ASSERT_EQ(Export("report.json --format maps --maps maps --output out"), 0) << m_Message;
-  EXPECT_EQ(Read<MapType>(Path("out/offset.tif"))->GetPixel({ { 2, 1 } }), 64.0);
-  EXPECT_EQ(Read<MapType>(Path("out/variance.tif"))->GetPixel({ { 2, 1 } }), 2.25);
-  EXPECT_EQ(Read<MapType>(Path("out/variance_electrons.tif"))->GetPixel({ { 2, 1 } }), 9.0);
+  EXPECT_EQ(Read<MapType>(Path("out/SERIAL_off.tiff"))->GetPixel({ { 2, 1 } }), 64.0);
+  EXPECT_EQ(Read<MapType>(Path("out/SERIAL_var.tiff"))->GetPixel({ { 2, 1 } }), 2.25);
+  EXPECT_EQ(Read<MapType>(Path("out/variance_ms.tif"))->GetPixel({ { 2, 1 } }), 9.0);
 }
 
 TEST_F(ExportToolTest, RefusesWithASentence)

@@ -44,7 +44,7 @@ MakePassport()
 }
 } // namespace
 
-// Closed form: between ISO 200 and 800 the camera of the passport is that of ISO 400.
+// Closed form: between ISO 200 and 800 the camera of the passport is the camera of ISO 400.
 TEST_F(ExportPassportTool, ExportsASettingOfThePassport)
 {
   WriteText("p.json", MakePassport().dump());
@@ -58,7 +58,8 @@ TEST_F(ExportPassportTool, ExportsASettingOfThePassport)
   const auto model = nlohmann::json::parse(m_Output);
   EXPECT_NEAR(model["gains"][0].get<double>(), 2.0, 1e-9) << m_Output;
   EXPECT_NEAR(model["offsets"][0].get<double>(), 36.0 - 128.0, 1e-9);
-  EXPECT_TRUE(Says("note: The noise is interpolated between the measured settings 200 and 800: gain 2.000 +- 0.014"))
+  EXPECT_TRUE(
+    Says("note: The noise is interpolated between the measured settings 200 and 800: gain 2.000 \u00B1 0.014"))
     << m_Message;
   EXPECT_EQ(Export("p.json --format dng"), 3);
   SaysInOneSentence({ "p.json", "100, 200, 800", "--setting" });
@@ -89,7 +90,7 @@ TEST_F(ExportPassportTool, DoesNotInterpolateBesideASettingThatLeavesTheLine)
       "Measure a burst at this setting" });
   EXPECT_EQ(Export("p.json --format dng --setting 100"), 0) << m_Message;
   ASSERT_EQ(Export("p.json --format dng --setting 400"), 0) << m_Message;
-  EXPECT_TRUE(Says("gain 2.000 +- 0.014 DN/e-, read noise 6.000 +- 0.042 DN")) << m_Message;
+  EXPECT_TRUE(Says("gain 2.000 \u00B1 0.014 DN/e\u207B, read noise 6.000 \u00B1 0.042 DN")) << m_Message;
 }
 
 TEST_F(ExportPassportTool, SaysWhyABurstOfThePassportHasNoNoise)

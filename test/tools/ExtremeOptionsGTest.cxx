@@ -47,8 +47,8 @@ TEST_F(ExtremeOptionsTool, OffsetsOutsideTheLevelsAreRefused)
   IsRefused("s.mha --offset=-1e9", { "the offset is -1e+09 DN", "65536" });
   IsRefused("s.mha --offset 100,1e308", { "standard error of 1e+308 DN" });
   const auto floats = Make<itk::Image<float, 3>>({ { 64, 64, 24 } }, 0.0F);
-  const auto codes = Read<StackType>(Path("s.mha"));
-  std::copy(codes->GetBufferPointer(), codes->GetBufferPointer() + 64 * 64 * 24, floats->GetBufferPointer());
+  const auto integers = Read<StackType>(Path("s.mha"));
+  std::copy(integers->GetBufferPointer(), integers->GetBufferPointer() + 64 * 64 * 24, floats->GetBufferPointer());
   Write("f.mha", floats.GetPointer());
   IsRefused("f.mha --offset 1e308", { "the offset is 1e+308 DN", "1000 times the largest level" });
   EXPECT_EQ(Run("f.mha --quiet --offset 100"), 0) << m_Message;
@@ -122,7 +122,7 @@ TEST_F(ExtremeOptionsTool, EveryOptionOfTheSimulator)
     {
       EndsWell(tool + "--truth t.json --" + option + "=" + value + " && cat t.json");
     }
-    EXPECT_EQ(RunCommand(tool + "--" + option + "=1e308"), 2) << option; // of no sense in any unit
+    EXPECT_EQ(RunCommand(tool + "--" + option + "=1e308"), 2) << option; // no unit makes sense of it
   }
   for (const char * value : { "nan,nan", "0,1e308", "1e308,1e308" })
   {

@@ -166,7 +166,7 @@ TEST_F(RealBurstOnFileTool, TheRefinedGainOfThePlateIncludesTheCorrelation)
 }
 
 // The plate flickers by 0.26 %, and the plate's texture leaves the published method's mask a sixteenth of its pixels,
-// mostly dark: far too little for a flicker that small. That is what the report has to say.
+// mostly dark: far too little for a flicker that small. The report has to say so.
 TEST_F(RealBurstOnFileTool, TheFlickerOfThePlateIsTooSmallForOffsetAndReadNoise)
 {
   const nlohmann::json        report = ReportOfBurst(plate + "--method published");
@@ -191,7 +191,7 @@ TEST_F(RealBurstOnFileTool, TheSaturatedBackgroundAndTheBallAreNotMistakenForThe
 {
   const nlohmann::json refined = ReportOfBurst("--maps maps");
   EXPECT_EQ(WarningsOf(refined).count("near-clip-level"), 1u);
-  // Of the pixels that are used, all but a few lie on the plate, the lowest 50 rows.
+  // All but a few of the used pixels lie on the plate, in the lowest 50 rows.
   const auto           use = Read<itk::Image<unsigned char, 2>>(Path("maps/pixel_use.mha"));
   const std::ptrdiff_t total = 384 * 384;
   const std::ptrdiff_t above = 384 * 334;

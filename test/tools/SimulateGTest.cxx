@@ -273,7 +273,7 @@ TEST_F(SimulateTool, ReadsAReferenceFileInItsOwnSize)
   ExpectError("--output t.mha --reference scene.png --size 10x10", "keeps its own size");
 }
 
-TEST_F(SimulateTool, OneFrameHasNoSpread)
+TEST_F(SimulateTool, OneFrameHasNoDispersion)
 {
   ASSERT_EQ(Run("--output s.mha --truth t.json --size 32x32 --frames 1"), 0);
   EXPECT_TRUE(ReadJson("t.json")["realised_flicker_sd"].is_null());

@@ -16,7 +16,7 @@ protected:
   }
 };
 
-// What OpenCV reads is what ITK reads: every quantity is the tool's, to the last digit.
+// OpenCV and ITK read the same pixels: every quantity equals the quantity of the tool, to the last digit.
 TEST_F(StabiliseMatsTest, MeasuresAsTheTool)
 {
   const std::string names = Joined(WriteList<unsigned short>(MakeBurst(24, "96x96"), ".png"));

@@ -27,7 +27,7 @@
 #include <vector>
 
 // Whole reports of small simulated stacks, as test/reports/*.json has them: what no other test looks at cannot change
-// unnoticed. A file's name is that of its case. To write them anew, and then read what changed with git diff:
+// unnoticed. A file has the name of its case. To write them anew, and then read what changed with git diff:
 //
 //   SENSORNOISE_WRITE_REPORTS=1 build/bin/SensorNoiseToolTests --gtest_filter='*StoredReports*'
 //
@@ -117,7 +117,7 @@ Published(const Stack<TPixel> & stack, const PublishedSettings & settings = {})
   return Measure<PublishedMethod>(stack, settings);
 }
 
-/** Camera C behind a converter of 8 bits: the codes are 16 times as wide. */
+/** Returns camera C behind a converter of 8 bits: the quantization step is 16 times as wide. */
 SimulationSettings
 EightBits(int condition)
 {

@@ -55,7 +55,7 @@ struct EmvaSeries
   double                highestDn{ 0.0 };           ///< largest digital number in the frames [DN]
   double                fractionAtHighest{ 0.0 };   ///< fraction of all values that equal highestDn [1]
   EmvaSpatialVariance   unfiltered;                 ///< spatial variances of the mean image
-  std::optional<EmvaSpatialVariance> highpass;      ///< the same after the highpass filter of section 8.1; null: the
+  std::optional<EmvaSpatialVariance> highpass;      ///< spatial variances after the highpass filter (8.1); null: the
                                                     ///< frames are smaller than 21 x 21 pixels
 };
 
@@ -121,7 +121,7 @@ struct EmvaPoint
   std::optional<double> deviationPercent;
   double                snr{ 0.0 }; ///< signal over the temporal noise, as measured [1]
   std::optional<double> modelSnr;   ///< signal-to-noise ratio of the linear model (21) [1]
-  std::optional<double> totalSnr;   ///< the same with the spatial non-uniformity (69) [1]
+  std::optional<double> totalSnr;   ///< modelSnr with the spatial non-uniformity (69) [1]
 };
 
 /** Remark on an evaluation. */

@@ -74,14 +74,15 @@ struct NoiseModelCheck
 
   enum class Verdict : std::uint8_t
   {
-    Fits,       ///< all bands fit
-    DoesNotFit, ///< at least one band does not fit
-    NotTold     ///< nothing was measured, or the errors are above 5 % in most bands
+    Fits,          ///< all bands fit
+    DoesNotFit,    ///< at least one band does not fit
+    NotDetermined, ///< nothing was measured, or the errors are above 5 % in most bands
+    NotTold [[deprecated("use NotDetermined")]] = NotDetermined ///< name in earlier versions
   };
 
-  std::vector<Band> bands;                       ///< from dark to bright; empty: nothing was measured
-  Verdict           verdict{ Verdict::NotTold }; ///< result for all bands
-  std::string       sentence;                    ///< the result as one sentence, for people
+  std::vector<Band> bands;                             ///< from dark to bright; empty: nothing was measured
+  Verdict           verdict{ Verdict::NotDetermined }; ///< result for all bands
+  std::string       sentence;                          ///< the result as one sentence, for people
 };
 
 /** Compares the noise of frames with a noise model.

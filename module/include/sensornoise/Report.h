@@ -44,21 +44,22 @@ struct LeftOutFrame
  * the pixel-use map. */
 enum class PixelUse : std::uint8_t
 {
-  Used = 0,           ///< the pixel takes part in the estimate of the gain
-  Clipped = 1,        ///< the pixel attains a clip level in a frame
-  NotFinite = 2,      ///< the pixel is NaN or infinite in a frame
-  Vibration = 3,      ///< the gradient at the pixel is larger than noise explains (published method)
-  Border = 4,         ///< the pixel is at the border, where no centred difference exists
-  Constant = 5,       ///< the pixel has the same value in all frames
-  FlickerUnknown = 6, ///< the row of the pixel has no pixels of the bright set, so that its flicker is not known
-  Masked = 7,         ///< the mask of the user excludes the pixel
-  NearClip = 8,       ///< noise or flicker could have reached a clip level, or a neighbour is clipped
-  NotStatic = 9,      ///< the variance of the pixel and around it does not fit a static scene: an object moved
-  Outlier = 10,       ///< the variance is too far from the line, or the pixel is defective in the dark frames
-  CoarseCodes = 11,   ///< the noise of the pixel is below half a quantization step
-  OutsideRange = 12,  ///< the level of the pixel is outside the range that the user chose
-  Edge = 13,          ///< the frames are filtered, and an edge is near: noise of pixels of another level is mixed in
-  MaskedBorder = 14   ///< the pixel is in a strip at the border without the scene, for example optical black
+  Used = 0,                ///< the pixel takes part in the estimate of the gain
+  Clipped = 1,             ///< the pixel attains a clip level in a frame
+  NotFinite = 2,           ///< the pixel is NaN or infinite in a frame
+  Vibration = 3,           ///< the gradient at the pixel is larger than noise explains (published method)
+  Border = 4,              ///< the pixel is at the border, where no centred difference exists
+  Constant = 5,            ///< the pixel has the same value in all frames
+  FlickerUnknown = 6,      ///< the row of the pixel has no pixels of the bright set, so that its flicker is not known
+  Masked = 7,              ///< the mask of the user excludes the pixel
+  NearClip = 8,            ///< noise or flicker could have reached a clip level, or a neighbour is clipped
+  NotStatic = 9,           ///< the variance of the pixel and around it does not fit a static scene: an object moved
+  Outlier = 10,            ///< the variance is too far from the line, or the pixel is defective in the dark frames
+  CoarseQuantisation = 11, ///< the noise of the pixel is below half a quantization step
+  OutsideRange = 12,       ///< the level of the pixel is outside the range that the user chose
+  Edge = 13,         ///< the frames are filtered, and an edge is near: noise of pixels of another level is mixed in
+  MaskedBorder = 14, ///< the pixel is in a strip at the border without the scene, for example optical black
+  CoarseCodes [[deprecated("use CoarseQuantisation")]] = CoarseQuantisation ///< name in earlier versions
 };
 
 /** Status of an estimated quantity. */
@@ -190,10 +191,10 @@ struct LinearityRecord
   /** Dark offset: the level at exposure 0 [DN]. */
   Quantity offsetDn{ Quantity::Without(EstimateStatus::NotIdentifiable) };
   /** Slope of the line through the levels [DN per unit of exposure]. */
-  Quantity              responsivity{ Quantity::Without(EstimateStatus::NotIdentifiable) };
-  std::string           reason{ "no exposures were given" }; ///< why there is no linearity error; "": there is one
-  std::string           offsetSource{ "none" };              ///< "dark frames" (exposure 0), "line" or "none"
-  std::optional<double> saturationDn;                        ///< level at which the response saturates [DN]
+  Quantity    responsivity{ Quantity::Without(EstimateStatus::NotIdentifiable) };
+  std::string reason{ "no exposures were given" };  ///< reason why there is no linearity error; "": there is one
+  std::string offsetSource{ "none" };               ///< "dark frames" (exposure 0), "line" or "none"
+  std::optional<double> saturationDn;               ///< level at which the response saturates [DN]
   std::string           saturationSource{ "none" }; ///< "given", "pile-up", "code range", "largest level" or "none"
   std::vector<Level>    levels;                     ///< in the order of the exposures; empty: no exposures were given
 };

@@ -34,7 +34,7 @@ struct ColourFilterSettings
 struct PatternSettings
 {
   /** Relative standard deviation of the gain [DN/e-] from pixel to pixel [1], 0 or more, below 0.2. It is about 0.01 in
-   * sCMOS sensors. The gain of a pixel scales signal and read noise alike. */
+   * sCMOS sensors. The gain of a pixel scales both signal and read noise. */
   double gainSd{ 0.0 };
   /** Relative standard deviation of the gain [DN/e-] from column to column [1], 0 or more, below 0.2. */
   double columnGainSd{ 0.0 };

@@ -47,7 +47,7 @@ inline constexpr double LargestLevelDn = 1e30;
 inline constexpr double LargestStepDn = 1e9;
 
 /** Given properties of the digital numbers. A property that is null is found from the data. */
-struct CodeSettings
+struct DnSettings
 {
   std::optional<int>    bitDepth;           ///< bit depth of the sensor [bit], 1 to 16
   std::optional<double> clipLowDn;          ///< lowest level that the sensor attains [DN], within LargestLevelDn of 0
@@ -57,12 +57,29 @@ struct CodeSettings
 
 /** Returns the settings for plain numbers. A bit depth or step of 0, or a clip level of NaN, is null in the settings.
  */
-SensorNoise_EXPORT CodeSettings
-MakeCodeSettings(unsigned int bitDepth, double clipLowDn, double clipHighDn, double quantisationStepDn);
+SensorNoise_EXPORT DnSettings
+MakeDnSettings(unsigned int bitDepth, double clipLowDn, double clipHighDn, double quantisationStepDn);
 
 /** Throws std::invalid_argument if a given property is out of its range. */
 SensorNoise_EXPORT void
-ValidateCodeSettings(const CodeSettings & codes);
+ValidateDnSettings(const DnSettings & settings);
+
+/** Deprecated: the name of DnSettings in earlier versions. */
+using CodeSettings [[deprecated("use DnSettings")]] = DnSettings;
+
+/** Deprecated: the name of MakeDnSettings() in earlier versions. */
+[[deprecated("use MakeDnSettings()")]] inline DnSettings
+MakeCodeSettings(unsigned int bitDepth, double clipLowDn, double clipHighDn, double quantisationStepDn)
+{
+  return MakeDnSettings(bitDepth, clipLowDn, clipHighDn, quantisationStepDn);
+}
+
+/** Deprecated: the name of ValidateDnSettings() in earlier versions. */
+[[deprecated("use ValidateDnSettings()")]] inline void
+ValidateCodeSettings(const DnSettings & settings)
+{
+  ValidateDnSettings(settings);
+}
 
 /** Temporal variance of dark frames, with quantization noise: the mean over all pixels that are not defective. Noisy
  * pixels in the tail of the distribution are included. */
@@ -122,7 +139,7 @@ struct SensorNoise_EXPORT RefinedSettings
    * F. 1 (default): no excess noise. */
   double excessNoiseFactor{ 1.0 };
   /** Given properties of the digital numbers; the others are found. */
-  CodeSettings codes;
+  DnSettings codes;
   /** Largest memory of the method, without the frames that are added [bytes]; infinite (default): no limit. With less
    * memory the stack is read more often, and the result has the same bits. At least 64 bytes per pixel, 20 kB per frame
    * and 32 MiB are needed. */
@@ -157,7 +174,7 @@ struct SensorNoise_EXPORT PublishedSettings
   /** Excess noise factor F of the sensor [1], 1 or more. The gain is the slope of the variance, divided by F. */
   double excessNoiseFactor{ 1.0 };
   /** Given properties of the digital numbers; the others are found. */
-  CodeSettings codes;
+  DnSettings codes;
 
   /** Throws std::invalid_argument if a parameter is out of its range. */
   void

@@ -49,7 +49,7 @@ struct IlluminationSettings
 SensorNoise_EXPORT IlluminationSettings
 IlluminationOf(const std::string & text);
 
-/** Returns whether the text begins with the name of a shape that IlluminationOf() knows. */
+/** Returns whether the text begins with the name of a shape of IlluminationOf(). */
 SensorNoise_EXPORT bool
 IsIlluminationName(const std::string & text);
 

@@ -227,7 +227,14 @@ public:
    * \throws std::invalid_argument if the bit depth does not fit in the type, or if no value is left. */
   template <typename TPixel>
   static std::pair<double, double>
-  CodeRange(const SimulationSettings & settings);
+  PixelRangeDn(const SimulationSettings & settings);
+  /** Deprecated: the name of PixelRangeDn() in earlier versions. */
+  template <typename TPixel>
+  [[deprecated("use PixelRangeDn()")]] static std::pair<double, double>
+  CodeRange(const SimulationSettings & settings)
+  {
+    return PixelRangeDn<TPixel>(settings);
+  }
 
 private:
   void
@@ -239,7 +246,7 @@ private:
 
   /** Computes the output of the sensor for a row, between its clip levels and not rounded [DN]. */
   void
-  ReadRow(std::size_t frame, std::size_t y, const double * electrons, const double * normals, double * codesDn) const;
+  ReadRow(std::size_t frame, std::size_t y, const double * electrons, const double * normals, double * valuesDn) const;
 
   /** Returns the output of the sensor for a frame, between its clip levels and not rounded [DN]. */
   DoubleFrame
@@ -248,7 +255,7 @@ private:
   /** Compands, rounds and clips one row. */
   template <typename TPixel>
   void
-  WriteRow(double * codesDn, TPixel * out) const;
+  WriteRow(double * valuesDn, TPixel * out) const;
 
   struct Sensor;
 

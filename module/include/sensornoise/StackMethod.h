@@ -46,7 +46,7 @@ class StackPasses; // private
  * by one process, or by a process that has merged the sums of the other before. If two processes have counted equal
  * frames, MergeSums() throws and names both.
    \code
-   RefinedMethod<unsigned short> method(settings, geometry, frames); // alike in every process
+   RefinedMethod<unsigned short> method(settings, geometry, frames); // equal in every process
    while (!method.IsDone())
    {
      method.SkipFrames(first); // this process reads the frames first ... first + count - 1
@@ -218,10 +218,11 @@ public:
  * A stack with repeated frames has the result of its distinct frames. The series of the report have the same value for
  * equal frames.
  *
- * The result has the same bits for any number of threads and any chunks. The method needs 56 bytes per pixel, 4 bytes
- * per pixel and component of illumination and motion (2 to 20 are found), or 8 bytes (large changes of the illumination
- * at 16 bits, floating-point pixels), 20 kB per frame, and 32 MiB. A stack that cannot be measured gives a report whose
- * quantities have `failed`, with a warning that names the reason. Wrong use throws std::invalid_argument. */
+ * The result has the same bits for any number of threads and any chunks. The method needs 56 bytes per pixel, 20 kB per
+ * frame, and 32 MiB. In addition it needs 4 bytes per pixel and component of illumination and motion (2 to 20 are
+ * found), or 8 bytes for large changes of the illumination at 16 bits and for floating-point pixels. A stack that
+ * cannot be measured gives a report whose quantities have `failed`, with a warning that names the reason. Wrong use
+ * throws std::invalid_argument. */
 template <typename TPixel>
 class RefinedMethod final : public StackMethod<TPixel>
 {

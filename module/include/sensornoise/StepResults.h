@@ -20,14 +20,14 @@
 namespace sensornoise
 {
 
-/** \class CodeSteps
+/** \class QuantisationSteps
  * \brief Quantization step as a function of the level, for companded data (non-uniform quantization).
  *
  * Cameras compand to save bits: they apply a tone curve, often a square root, to 8 or 10 bits, and undo it later. The
  * quantization step then grows with the level, and so does the quantization noise, step^2 / 12 [DN^2]. It adds to the
  * slope of the variance, which differs from the gain (Janesick, "Photon Transfer", SPIE 2007, ch. 11 on non-linear
  * encoding; step^2 / 12: Bennett 1948, Bell Syst. Tech. J. 27, 446). */
-class SensorNoise_EXPORT CodeSteps
+class SensorNoise_EXPORT QuantisationSteps
 {
 public:
   /** Quantization about a level. */
@@ -39,10 +39,10 @@ public:
   };
 
   /** Makes uniform quantization, without a table. */
-  CodeSteps() = default;
+  QuantisationSteps() = default;
   /** Takes the \a table, in ascending order of the levels, and the number \a unitDn that all digital numbers are
    * multiples of [DN]. */
-  explicit CodeSteps(std::vector<Local> table, double unitDn = 1.0);
+  explicit QuantisationSteps(std::vector<Local> table, double unitDn = 1.0);
 
   /** Returns whether the step grows with the level. If it does not, the table is empty. */
   bool
@@ -85,13 +85,13 @@ private:
 };
 
 /** Quantization and clip levels of the data. */
-struct CodeRange
+struct DnRange
 {
   std::optional<int>    bitDepth;                  ///< bit depth [bit]; null: floating-point data without a given one
   std::string           bitDepthSource{ "none" };  ///< "given", "data" or "none"
   double                quantisationStepDn{ 0.0 }; ///< step, for companded data at the darkest level [DN]; 0: none
   bool                  isRegular{ true };         ///< false: the data were rescaled, and the step varies
-  CodeSteps             steps;                     ///< step by level, for companded data
+  QuantisationSteps     steps;                     ///< step by level, for companded data
   std::optional<double> clipLowDn;                 ///< a pixel that attains it is clipped [DN]; null: none
   std::optional<double> clipHighDn;                ///< a pixel that attains it is clipped [DN]; null: none
   std::string           clipSource{ "none" }; ///< "given", "pile-up", "code range", "none", or "low: ..., high: ..."
@@ -144,15 +144,25 @@ struct CodeRange
   }
 };
 
+/** Deprecated: the name of QuantisationSteps in earlier versions. */
+using CodeSteps [[deprecated("use QuantisationSteps")]] = QuantisationSteps;
+/** Deprecated: the name of DnRange in earlier versions. */
+using CodeRange [[deprecated("use DnRange")]] = DnRange;
+
 /** Results of the temporal moments of a stack, beside mean and variance. */
 struct SensorNoise_EXPORT StackSummary
 {
-  /** Returns the codes with only the clip levels that a pixel attains. A level that no pixel attains has clipped
-   * nothing. */
-  CodeRange
-  AttainedCodes() const;
+  /** Returns the DN range with only those clip levels that a pixel attains. */
+  DnRange
+  AttainedRange() const;
+  /** Deprecated: the name of AttainedRange() in earlier versions. */
+  [[deprecated("use AttainedRange()")]] DnRange
+  AttainedCodes() const
+  {
+    return this->AttainedRange();
+  }
 
-  CodeRange   codes;            ///< quantization and clip levels
+  DnRange     codes;            ///< quantization and clip levels
   std::size_t clipped{ 0 };     ///< number of pixels that attain a clip level in a frame
   std::size_t clippedLow{ 0 };  ///< number of pixels that attain the lower clip level
   std::size_t clippedHigh{ 0 }; ///< number of pixels that attain the upper clip level

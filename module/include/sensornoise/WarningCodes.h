@@ -44,6 +44,7 @@ enum class WarningCode : std::uint8_t
   SteadyLight,
   OffsetOutOfRange,
   DarkFramesDiffer,
+  DarkSignalVaries,
   OffsetAboveDarkest,
   OffsetLineMisfit,
   PoorFit,
@@ -93,7 +94,7 @@ struct WarningKind
 
 /** All warnings that a report can have, in the order of WarningCode. documentation/reference/warnings.md and the Python
  * package show this table. The message of a warning has the numbers. */
-inline constexpr std::array<WarningKind, 52> WarningTable{ {
+inline constexpr std::array<WarningKind, 53> WarningTable{ {
   { WarningCode::FewFrames,
     "few-frames",
     Severity::Warning,
@@ -127,13 +128,14 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
     "repeated-frames",
     Severity::Note,
     "Frames are equal to earlier ones, as where a recorder runs faster than its camera. Each distinct frame is counted "
-    "once." },
+    "once, because a repetition has no new noise. Set the recorder to the frame rate of the camera." },
   { WarningCode::FramesLeftOut,
     "frames-left-out",
     Severity::Warning,
-    "Frames that are unlike the others are left out, and `frames_left_out` names them: not finite, without noise "
-    "(zeros, saturated), of another scene, dark offset, gain or processing, or with a shadow. Check how these frames "
-    "were recorded." },
+    "Frames that are unlike the others would change the variance of all pixels. They are left out, and "
+    "`frames_left_out` names them: not finite, without noise (zeros, saturated), of another scene, dark offset, gain "
+    "or "
+    "processing, or with a shadow. Check how these frames were recorded." },
   { WarningCode::IrregularCodes,
     "irregular-codes",
     Severity::Warning,
@@ -143,45 +145,51 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
     "companded",
     Severity::Note,
     "The quantization step grows with the level, as after a tone curve to fewer bits: `gain` is the sensor's, and "
-    "`variance_slope` (with the published method `gain`, too) includes the quantization noise. If all steps are equal, "
-    "give their size (--step)." },
+    "`variance_slope` (with the published method `gain`, too) includes the quantization noise. Give the size of "
+    "the steps (--step) if all are equal." },
   { WarningCode::ClipLevelFound,
     "clip-level-found",
     Severity::Note,
-    "The sensor saturates inside the range of its digital numbers, or the frames are floating-point: pixels that reach "
-    "the level are left out. If the level is wrong, give the right one (--clip)." },
+    "The sensor saturates inside the range of its digital numbers, or the frames are floating-point. Pixels that reach "
+    "the level are left out, because clipping reduces their variance. Check the level, and give the right one (--clip) "
+    "if it is wrong." },
   { WarningCode::NotFinitePixels,
     "not-finite-pixels",
     Severity::Note,
-    "Pixels that are NaN or infinite in a frame are left out." },
+    "Pixels that are NaN or infinite in a frame are left out, because they have no variance. Check the processing that "
+    "wrote these values, as cameras do not record them." },
   { WarningCode::NearClipLevel,
     "near-clip-level",
     Severity::Note,
-    "More than 1 % of the pixels reach a clip level, or noise and flicker could carry them there: they are left out. "
-    "Change the exposure to keep them." },
+    "More than 1 % of the pixels reach a clip level, or noise and flicker could carry them there. They are left out, "
+    "because clipping reduces their variance. Change the exposure to keep them." },
   { WarningCode::NotStatic,
     "not-static",
     Severity::Note,
-    "More than 1 % of the pixels lie where something moves or changes: they are left out." },
+    "More than 1 % of the pixels lie where something moves or changes. They are left out, because the change adds to "
+    "their variance. Look at the map of pixel use (--maps) to see where they are." },
   { WarningCode::NoisyPixels,
     "noisy-pixels",
     Severity::Note,
-    "More than 0.2 % of the pixels are noisier or quieter than the others, or computed from their neighbours: they are "
-    "left out." },
+    "More than 0.2 % of the pixels are noisier or quieter than the others, or computed from their neighbours. They are "
+    "left out, because their variance is not the variance of a typical pixel. Look at the map of pixel use (--maps) to "
+    "see where they are." },
   { WarningCode::LocalLight,
     "local-light",
     Severity::Note,
     "The illumination changes differently over the frame: a rolling shutter, several light sources, bleaching, a "
-    "filter "
-    "between frames, or strong row noise. Gain and intercept allow for it." },
+    "filter between frames, or strong row noise. Gain and intercept allow for it, at larger errors. Use one light "
+    "source without pulses if they are too large." },
   { WarningCode::RollingShutter,
     "rolling-shutter",
     Severity::Note,
-    "The flicker differs from row to row, and is estimated for each row (published method)." },
+    "The flicker differs from row to row, and is estimated for each row, which needs bright pixels in all of them "
+    "(published method). Use constant illumination to avoid this." },
   { WarningCode::LinesWithoutFlicker,
     "lines-without-flicker",
     Severity::Note,
-    "Some rows have no bright pixels, so that their flicker is not known: they are left out (published method)." },
+    "Some rows have no bright pixels, so that their flicker is not known: they are left out (published method). "
+    "Include bright areas in all rows, or use --method refined." },
   { WarningCode::OffsetDrift,
     "offset-drift",
     Severity::Note,
@@ -195,7 +203,8 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
     "periodic-interference",
     Severity::Note,
     "The frames contain sine waves with a phase of their own in each frame: pickup from a power supply or a clock. "
-    "Gain, intercept and read noise are without them." },
+    "Gain, intercept and read noise are without them. Look for their source in cables, power supply and read-out "
+    "clock." },
   { WarningCode::NoiseCorrelated,
     "noise-correlated",
     Severity::Warning,
@@ -248,6 +257,11 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
     "The dark frames hold signal of the scene, or their noise differs from the noise of the frames at the offset, so "
     "the gain is measured without them. Record dark frames in the dark, with the black level, exposure, gain and "
     "temperature of the frames." },
+  { WarningCode::DarkSignalVaries,
+    "dark-signal-varies",
+    Severity::Warning,
+    "The dark frames hold charge that differs from place to place (dark current, glow or light): offset and read noise "
+    "have errors that contain it. Cover the sensor and record them again, or cool it." },
   { WarningCode::OffsetAboveDarkest,
     "offset-above-darkest",
     Severity::Warning,
@@ -267,16 +281,18 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
     "corrected-variance-curved",
     Severity::Warning,
     "The corrected variance is a curve of the mean: vibrations, several light sources, or a non-linear response "
-    "(published "
-    "method). Use --method refined." },
+    "(published method). Use --method refined." },
   { WarningCode::BrightSetWidened,
     "bright-set-widened",
     Severity::Note,
-    "Too few pixels have the bright intensity, and a wider range of levels was taken (published method)." },
+    "Too few pixels have the bright intensity, and a less bright one or a wider range of levels was taken, which "
+    "determines flicker and offset less well (published method). Include larger areas of one brightness in the "
+    "scene." },
   { WarningCode::DarkSetWidened,
     "dark-set-widened",
     Severity::Note,
-    "Too few pixels have the dark intensity, and a wider range of levels was taken (published method)." },
+    "Too few pixels have the dark intensity, and a less dark one or a wider range of levels was taken, which "
+    "determines the offset less well (published method). Include larger areas of one brightness in the scene." },
   { WarningCode::SceneChanges,
     "scene-changes",
     Severity::Error,
@@ -292,8 +308,7 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
     "too-little-to-measure",
     Severity::Error,
     "Too few pixels fit a static scene, or too few frames are illuminated. Choose a static part of the scene (--roi), "
-    "or "
-    "record more illuminated frames." },
+    "or record more illuminated frames." },
   { WarningCode::CodesTooCoarse,
     "codes-too-coarse",
     Severity::Error,
@@ -319,8 +334,7 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
     "variance-not-affine",
     Severity::Error,
     "The variance deviates from its line by more than 12 %, falls with the mean, or is a curve, so that gain and read "
-    "noise "
-    "are not distinguished: not raw, not linear, or saturated. Record raw frames, or give the saturation level "
+    "noise are not distinguished: not raw, not linear, or saturated. Record raw frames, or give the saturation level "
     "(--clip)." },
   { WarningCode::Contradicted,
     "contradicted",
@@ -344,7 +358,8 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
     "border-left-out",
     Severity::Note,
     "Columns or rows along the border, as optical-black pixels or masked regions, have one level and end within a "
-    "pixel: they are left out." },
+    "pixel. They are left out, because they do not show the scene. Use the results as they are, or choose the lit "
+    "area (--roi)." },
   { WarningCode::LightSeriesLeft,
     "light-series-left",
     Severity::Warning,
@@ -355,8 +370,7 @@ inline constexpr std::array<WarningKind, 52> WarningTable{ {
     "texture-dominates",
     Severity::Warning,
     "Texture, edges, fixed-pattern noise or filtered noise are in the variance of a single image, so that the gain may "
-    "be "
-    "off by more than its error (single-image method). Include even areas in the scene, or record a burst and use "
+    "be off by more than its error (single-image method). Include even areas in the scene, or record a burst and use "
     "--method refined." },
   { WarningCode::LineOnly,
     "line-only",

@@ -171,7 +171,7 @@ CheckProbability(double probability)
  * Newton's method is applied to the logarithm of the tail as a function of log x. It is concave for chi-square and for
  * Student's |t|, so that the method converges from any start. The interval known to contain the solution guards
  * against overflow.
- * \param isUpper which tail
+ * \param isUpper true: upper tail, false: lower tail
  * \param start first guess, above 0
  * \param tails returns both tails at x
  * \param slope returns x times the density at x */

@@ -5,6 +5,9 @@
 
 #include "SensorNoiseExport.h"
 
+#include <algorithm>
+#include <cmath>
+
 /** \file
  * Chi-square, Student's and normal distributions, for any real number of degrees of freedom above 0.
  *
@@ -56,6 +59,26 @@ ChiSquareUpperQuantile(double probability, double dof);
  * \throws std::invalid_argument if dof is not above 0 or the probability not from 0 to 1. */
 SensorNoise_EXPORT double
 StudentQuantile(double probability, double dof);
+
+/** Returns sqrt(a^2 + b^2 + c^2); infinite if one of them is. std::hypot() of three arguments is NaN then in libstdc++,
+ * and an unknown error would pass for none. */
+inline double
+AddInQuadrature(double a, double b, double c)
+{
+  return std::hypot(std::hypot(a, b), c);
+}
+
+/** Variance of the logarithm of the variance of n normal values, truncated at 3 standard deviations, times n [1]: 2
+ * without truncation. Closed form: 4 / (m4 - m2^2), of the moments of the truncated normal distribution. The variances
+ * of the detail coefficients of a single image have it. */
+inline constexpr double TruncatedVariance = 2.3085;
+
+/** Returns the size of a difference without its statistical scatter, \a z standard deviations. */
+inline double
+SizeBeyondChance(double difference, double variance, double z)
+{
+  return std::sqrt(std::max(0.0, difference * difference - z * z * variance));
+}
 
 } // namespace sensornoise
 

@@ -36,6 +36,10 @@ struct SignificanceLevels
 
 SENSORNOISE_CONSTANT SignificanceLevels Significance;
 
+/** Positive number in place of 0 in a divisor. Digital numbers may have any unit, also fractions of full scale, so that
+ * it is below all squared variances, and its inverse squared is a number. */
+inline constexpr double smallestDivisor = 1e-100;
+
 /** Numbers that several components use. Numbers of one component are in its own Constants.h. */
 struct CommonConstants
 {

@@ -2,12 +2,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Settings.h"
+#include "sensornoise/Version.h"
 
 #include <stdexcept>
 #include <string>
 
+// Bodies of the functions of public headers that belong to no component.
+
 namespace sensornoise
 {
+#ifndef SENSORNOISE_VERSION
+#  error "SENSORNOISE_VERSION is not defined; expected the version in quotes, as CMakeLists.txt gives it"
+#endif
+
+const char *
+GetModuleVersion()
+{
+  return SENSORNOISE_VERSION;
+}
 
 namespace
 {

@@ -125,16 +125,16 @@ std::string
 ShortestText(double number)
 {
   constexpr int always = 17; // digits with which every double is read again
-  std::string   text;
-  for (int digits = 1; digits <= always; ++digits)
+  char          text[BufferCharacters];
+  int           decimals = -1;
+  do
   {
-    text = GeneralText(number, digits);
-    if (std::strtod(text.c_str(), nullptr) == number)
-    {
-      break;
-    }
-  }
-  return text;
+    std::snprintf(text, sizeof(text), "%.*e", ++decimals, number);
+  } while (decimals + 1 < always && std::strtod(text, nullptr) != number);
+  const std::string shortest = text;
+  const int         exponent = std::atoi(shortest.c_str() + shortest.find('e') + 1);
+  std::snprintf(text, sizeof(text), "%.*f", std::max(0, decimals - exponent), number);
+  return std::strlen(text) <= shortest.size() ? text : shortest;
 }
 
 std::string

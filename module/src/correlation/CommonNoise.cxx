@@ -209,9 +209,9 @@ SumTile(const NoiseResiduals & residuals, std::size_t i)
     products.AddTo(distant, &DistantSums::covariance, factor);
     distant.far.signalCovariance += factor * ofSignal;
   });
-  if (residuals.GetLinesTakenOff())
+  if (residuals.GetSubtractedLines())
   {
-    const bool areRows = *residuals.GetLinesTakenOff() == LineAxis::Rows;
+    const bool areRows = *residuals.GetSubtractedLines() == LineAxis::Rows;
     for (const float * const projection : residuals.LineProjectionsOf(i)) // restores what the regression removed
     {
       SegmentSums<VSide>  sums{};
@@ -280,7 +280,7 @@ ConstantOf(const DistantSums & line, double illumination)
 } // namespace
 
 LagSums
-CommonNoise::TakeOff(LagSums sums, const Lag & lag) const
+CommonNoise::Subtract(LagSums sums, const Lag & lag) const
 {
   const auto   row = static_cast<std::size_t>(std::abs(lag.y));
   const auto   column = static_cast<std::size_t>(std::abs(lag.x));

@@ -66,8 +66,7 @@ struct CorrelationConstants
   std::size_t framesOfComparison{ 32 };
   /** Largest mean square of the difference between a pixel and the mean of its neighbours, relative to the median of
    * all pixels, for which the pixel may be computed [1], and its smallest value. Rounding makes 0.06 where the noise is
-   * of one quantization step. Of the pixels from whose mean another one is computed, the difference to it is 0.25 or
-   * more. */
+   * of one quantization step. The pixels from whose mean another one is computed have 0.25 or more. */
   float largestDifference{ 0.15F };
   float smallestDifference{ 0.02F };
   /** Smallest fraction of such pixels for which they are left out [1]: fewer change the gain by at most 0.1 %. */
@@ -99,8 +98,8 @@ struct CorrelationConstants
   /** Largest distance of the lags that are summed [pixels]: smoothing by a Gaussian of 1 pixel reaches as far. */
   int largestReach{ 5 };
   /** Error that is added for a next ring without significant covariance, relative to the standard error of that ring
-   * [1]. Chosen empirically: of smoothed frames of 256 x 256 pixels, the interval contains the gain in 239 of 240
-   * cases with 1, and in 238 with 0.75. Of frames of 512 x 512 pixels, it does in 18 of 20 cases with 1, in 17 with
+   * [1]. Chosen empirically: for smoothed frames of 256 x 256 pixels, the interval contains the gain in 239 of 240
+   * cases with 1, and in 238 with 0.75. For frames of 512 x 512 pixels, it does in 18 of 20 cases with 1, in 17 with
    * 0.75, and in 16 with 0.5. For brighter-fatter sensors, twice the value makes errors 1.4 times as large. */
   double unseenErrors{ 0.75 };
   /** Error as \a unseenErrors, for a ring that is left out because coupled charge does not reach it [1]. Chosen

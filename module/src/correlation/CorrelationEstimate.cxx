@@ -11,8 +11,7 @@
 #include "report/Quantities.h"
 #include "report/ReportParts.h"
 #include "sensornoise/Version.h"
-#include "correlation/Interference.h"
-#include "correlation/InterpolatedPixels.h"
+#include "correlation/ProcessingSigns.h"
 #include "correlation/NoiseResiduals.h"
 
 #include <algorithm>
@@ -229,7 +228,7 @@ EstimateCorrelation(NoiseSample                       sample,
   sample.KeepFrames(distinct);
   const Eigen::MatrixXd means = settings.frameMeans ? SumFrames(sample, mean, taken, blackDn, parallelFor)
                                                     : Eigen::MatrixXd(static_cast<Eigen::Index>(distinct.size()), 0);
-  const double          codesDn2 = settings.quantisationStepDn * settings.quantisationStepDn / 12.0;
+  const double          quantisationDn2 = settings.quantisationStepDn * settings.quantisationStepDn / 12.0;
   NoiseResiduals        residuals(std::move(sample),
                            SeriesOf(settings, distinct, means),
                                   { mean, taken, blackDn, !std::isnan(settings.offsetDn) },
@@ -239,8 +238,8 @@ EstimateCorrelation(NoiseSample                       sample,
     found.LeaveOutOf(taken);
     residuals.Take(taken, parallelFor);
   }
-  NoiseCorrelation correlation = MeasureWithoutInterference(residuals, codesDn2, parallelFor);
-  MeasureSettledFrames(correlation, residuals, codesDn2, parallelFor);
+  NoiseCorrelation correlation = MeasureWithoutInterference(residuals, quantisationDn2, parallelFor);
+  MeasureSettledFrames(correlation, residuals, quantisationDn2, parallelFor);
 
   estimate.framesUsed = residuals.GetTiles().frames;
   estimate.pixelsUsed = residuals.GetNumberOfPixels();

@@ -159,12 +159,12 @@ TileSums::operator+=(const TileSums & other)
 }
 
 CorrelationSums::CorrelationSums(const NoiseResiduals & residuals,
-                                 double                 codesDn2,
+                                 double                 quantisationDn2,
                                  int                    rings,
                                  int                    timeLags,
                                  const ParallelFor &    parallelFor)
   : m_Residuals(residuals)
-  , m_CodesDn2(codesDn2)
+  , m_QuantisationDn2(quantisationDn2)
   , m_ParallelFor(parallelFor)
   , m_Tiles(residuals.GetTiles().origins.size())
   , m_Lags{ Lag{} }
@@ -183,7 +183,7 @@ CorrelationSums::CorrelationSums(const NoiseResiduals & residuals,
   const MixtureKurtosis kurtosis(residuals);
   parallelFor(m_Tiles.size(), [&](std::size_t i) {
     m_Tiles[i].shared = SumDistantCovariance(residuals, i);
-    m_Tiles[i].kurtosis = KurtosisOfTile(residuals, i, kurtosis, m_CodesDn2);
+    m_Tiles[i].kurtosis = KurtosisOfTile(residuals, i, kurtosis, m_QuantisationDn2);
     m_Tiles[i].lags = lags.OfTile(i);
   });
 }
@@ -266,7 +266,7 @@ CorrelationSums::Total() const
 double
 CorrelationSums::CoefficientOf(const TileSums & sums, const CommonNoise & common, std::size_t lag) const
 {
-  const PairSums total = common.TakeOff(sums.lags[lag], m_Lags[lag]).Total();
+  const PairSums total = common.Subtract(sums.lags[lag], m_Lags[lag]).Total();
   return Ratio(total.covariance, total.pairs);
 }
 
@@ -278,7 +278,7 @@ CorrelationSums::CovarianceInBins(const TileSums & sums, const Lags & lags) cons
   for (const std::size_t k : lags)
   {
     const int     frames = m_Lags[k].t;
-    const LagSums lag = frames == 0 ? common.TakeOff(sums.lags[k], m_Lags[k]) : sums.lags[k];
+    const LagSums lag = frames == 0 ? common.Subtract(sums.lags[k], m_Lags[k]) : sums.lags[k];
     for (std::size_t b = 0; b < lag.bins.size(); ++b)
     {
       const PairSums own = frames == 0 ? lag.bins[b] : this->WithoutUnequalFrames(lag.bins[b], frames);
@@ -354,7 +354,7 @@ FitCovarianceLines(const CorrelationSums & sums, const CorrelationSums::Lags & l
     for (const std::size_t lag : all)
     {
       const Eigen::Vector2d line =
-        FitLine(lag == 0 ? tiles.lags[0] : common.TakeOff(tiles.lags[lag], sums.GetLag(lag)));
+        FitLine(lag == 0 ? tiles.lags[0] : common.Subtract(tiles.lags[lag], sums.GetLag(lag)));
       numbers.segment<2>(k) << line(0), line(1) - line(0) * blackDn;
       k += 2;
     }

@@ -130,7 +130,7 @@ FrameSample::FrameSample(const FrameGeometry & geometry,
   , m_FramePixels(geometry.Pixels())
   , m_Layout(PixelLayout::OfFrames(geometry))
   , m_Lowest(lowest)
-  , m_Codes(MakeMap<std::uint16_t>(isInteger ? m_Tiles.Values() : 0, parallelFor))
+  , m_Integers(MakeMap<std::uint16_t>(isInteger ? m_Tiles.Values() : 0, parallelFor))
   , m_Values(Eigen::ArrayXf::Zero(isInteger ? 0 : static_cast<Eigen::Index>(m_Tiles.Values())))
 {}
 
@@ -159,7 +159,7 @@ FrameSample::AddFrames(const TPixel *              frames,
           m_Layout.SideBySide(frames + (t - firstFrame) * m_Layout.frame, pixel, pixel + m_Tiles.side, buffer.data());
         if constexpr (std::is_integral_v<TPixel>)
         {
-          std::transform(values, values + m_Tiles.side, m_Codes.data() + place, [](TPixel value) {
+          std::transform(values, values + m_Tiles.side, m_Integers.data() + place, [](TPixel value) {
             return static_cast<std::uint16_t>(value - std::numeric_limits<TPixel>::lowest());
           });
         }
@@ -181,23 +181,24 @@ SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 void
 FrameSample::Clear()
 {
-  std::fill(m_Codes.begin(), m_Codes.end(), std::uint16_t{ 0 });
+  std::fill(m_Integers.begin(), m_Integers.end(), std::uint16_t{ 0 });
   m_Values.setZero();
 }
 
 void
 FrameSample::Merge(const FrameSample & other)
 {
-  if (other.m_Codes.size() != m_Codes.size() || other.m_Values.size() != m_Values.size() ||
+  if (other.m_Integers.size() != m_Integers.size() || other.m_Values.size() != m_Values.size() ||
       other.m_FramePixels != m_FramePixels)
   {
     throw std::invalid_argument("samples of different stacks cannot be merged");
   }
   // Values of frames that are missing are 0, so that no sum is rounded.
-  std::transform(
-    other.m_Codes.begin(), other.m_Codes.end(), m_Codes.begin(), m_Codes.begin(), [](std::uint16_t a, std::uint16_t b) {
-      return static_cast<std::uint16_t>(a + b);
-    });
+  std::transform(other.m_Integers.begin(),
+                 other.m_Integers.end(),
+                 m_Integers.begin(),
+                 m_Integers.begin(),
+                 [](std::uint16_t a, std::uint16_t b) { return static_cast<std::uint16_t>(a + b); });
   m_Values += other.m_Values;
 }
 
@@ -206,7 +207,7 @@ FrameSample::Save(std::ostream & out) const
 {
   WriteSumsHeader(out, SampleName, m_FramePixels, m_Tiles.frames);
   WriteCount(out, m_Width);
-  WriteNumbers(out, m_Codes);
+  WriteNumbers(out, m_Integers);
   WriteNumbers(out, m_Values.data(), static_cast<std::size_t>(m_Values.size()));
 }
 
@@ -216,7 +217,7 @@ FrameSample::Restore(std::istream & in)
   FrameSample read = *this;
   RequireCount("sampled frames", ReadSumsHeader(in, SampleName, m_FramePixels), m_Tiles.frames);
   RequireCount("columns", ReadCount(in), m_Width);
-  ReadNumbers(in, read.m_Codes);
+  ReadNumbers(in, read.m_Integers);
   ReadNumbers(in, read.m_Values.data(), static_cast<std::size_t>(read.m_Values.size()));
   *this = std::move(read);
 }
@@ -225,7 +226,7 @@ double
 FrameSample::RepeatedFraction(const std::vector<std::uint8_t> & mask, double stepDn) const
 {
   const auto step = static_cast<int>(std::max(1.0, std::round(stepDn)));
-  if (m_Codes.empty())
+  if (m_Integers.empty())
   {
     return 0.0;
   }
@@ -237,7 +238,7 @@ FrameSample::RepeatedFraction(const std::vector<std::uint8_t> & mask, double ste
   {
     for (std::size_t t = 1; t < m_Tiles.frames; ++t)
     {
-      const std::uint16_t * const before = m_Codes.data() + m_Tiles.PlaceOf(i, t - 1);
+      const std::uint16_t * const before = m_Integers.data() + m_Tiles.PlaceOf(i, t - 1);
       const std::uint16_t * const now = before + pixels;
       for (std::size_t p = 0; p < pixels; ++p)
       {
@@ -268,19 +269,19 @@ FrameSample::TakeNoise(const std::vector<double> & mean, const ParallelFor & par
 NoiseSample
 FrameSample::StartNoise()
 {
-  if (m_Codes.empty())
+  if (m_Integers.empty())
   {
     return { m_Tiles, m_Width, std::exchange(m_Values, {}) };
   }
-  Eigen::ArrayXf values(static_cast<Eigen::Index>(m_Codes.size())); // the thread that fills a tile is the first to
-                                                                    // touch it
+  Eigen::ArrayXf values(static_cast<Eigen::Index>(m_Integers.size())); // the thread that fills a tile is the first to
+                                                                       // touch it
   return { m_Tiles, m_Width, std::move(values) };
 }
 
 void
 FrameSample::FillNoise(std::size_t i, const std::vector<double> & mean, NoiseSample & noise) const
 {
-  if (m_Codes.empty())
+  if (m_Integers.empty())
   {
     return; // the values are above the mean already
   }
@@ -295,11 +296,11 @@ FrameSample::FillNoise(std::size_t i, const std::vector<double> & mean, NoiseSam
   CallWithAvx2([&] {
     for (std::size_t t = 0; t < m_Tiles.frames; ++t)
     {
-      const std::uint16_t * const codes = m_Codes.data() + m_Tiles.PlaceOf(i, t);
+      const std::uint16_t * const integers = m_Integers.data() + m_Tiles.PlaceOf(i, t);
       float * const               values = noise.OfTile(i) + t * ofTile.size();
       for (std::size_t p = 0; p < ofTile.size(); ++p)
       {
-        values[p] = static_cast<float>(factors[p] * (m_Lowest + codes[p] - ofTile[p]));
+        values[p] = static_cast<float>(factors[p] * (m_Lowest + integers[p] - ofTile[p]));
       }
     }
   });

@@ -192,7 +192,7 @@ public:
                        parallelFor);
   }
 
-  /** Sets the memory layout of the pixels in the frames to come. Default: one frame after the other. */
+  /** Sets the memory layout of the pixels of the frames that are added. Default: one frame after the other. */
   void
   SetLayout(const PixelLayout & layout)
   {
@@ -233,7 +233,7 @@ public:
   double
   RepeatedFraction(const std::vector<std::uint8_t> & mask, double stepDn) const;
 
-  /** Returns the values above \a mean, the mean of every pixel [DN]. The sample hands over its memory and is empty
+  /** Returns the values above \a mean, the mean of every pixel [DN]. The sample gives up its memory and is empty
    * afterwards. */
   NoiseSample
   TakeNoise(const std::vector<double> & mean, const ParallelFor & parallelFor = SerialFor);
@@ -256,10 +256,10 @@ private:
   std::size_t m_Width{ 0 };
   std::size_t m_FramePixels{ 0 };
   PixelLayout m_Layout;
-  double      m_Lowest{ 0.0 };         // value that the stored number 0 means [DN]: frames that are missing are 0 in a
-                                       // merge
-  std::vector<std::uint16_t> m_Codes;  // integers
-  Eigen::ArrayXf             m_Values; // floating-point numbers
+  double      m_Lowest{ 0.0 }; // value that the stored number 0 means [DN]: frames that are missing are 0 in a
+                               // merge
+  std::vector<std::uint16_t> m_Integers; // values of integer frames
+  Eigen::ArrayXf             m_Values;   // values of floating-point frames
 };
 
 } // namespace sensornoise

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "correlation/Interference.h"
+#include "correlation/NoiseCorrelation.h"
 
 #include "base/Constants.h"
 #include "correlation/Constants.h"
@@ -152,9 +152,9 @@ FindLine(const Eigen::ArrayXXd & power, std::size_t tiles)
 }
 
 NoiseCorrelation
-MeasureWithoutInterference(NoiseResiduals & residuals, double codesDn2, const ParallelFor & parallelFor)
+MeasureWithoutInterference(NoiseResiduals & residuals, double quantisationDn2, const ParallelFor & parallelFor)
 {
-  NoiseCorrelation  found = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
+  NoiseCorrelation  found = MeasureNoiseCorrelation(residuals, quantisationDn2, parallelFor);
   const std::size_t before = residuals.GetInterference().size();
   if (found.kind == NoiseKind::White || found.kind == NoiseKind::NotMeasured)
   {
@@ -171,7 +171,7 @@ MeasureWithoutInterference(NoiseResiduals & residuals, double codesDn2, const Pa
     }
     residuals.SubtractWave(*line, parallelFor);
   }
-  return residuals.GetInterference().size() > before ? MeasureNoiseCorrelation(residuals, codesDn2, parallelFor)
+  return residuals.GetInterference().size() > before ? MeasureNoiseCorrelation(residuals, quantisationDn2, parallelFor)
                                                      : found;
 }
 

@@ -164,7 +164,7 @@ SumProducts(const NoiseResiduals & residuals, std::size_t tile, const std::vecto
       }
     }
   });
-  const auto axis = residuals.GetLinesTakenOff();
+  const auto axis = residuals.GetSubtractedLines();
   const auto waves = residuals.WaveProjectionsOf(tile);
   for (std::size_t k = 0; k < lags.size(); ++k)
   {

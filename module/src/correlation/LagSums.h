@@ -138,7 +138,7 @@ struct CommonNoise
 
   /** Returns \a sums, the sums of the spatial lag \a lag, without the common covariance. */
   SensorNoise_EXPORT LagSums
-  TakeOff(LagSums sums, const Lag & lag) const;
+  Subtract(LagSums sums, const Lag & lag) const;
 };
 
 /** Estimates the common noise from the sums over tiles. */

@@ -4,7 +4,7 @@
 
 #include "base/Eigen.h"
 #include "base/Constants.h"
-#include "base/Quadrature.h"
+#include "base/ChiSquare.h"
 #include "correlation/TotalCovariance.h"
 #include "correlation/Constants.h"
 #include "correlation/CorrelationSums.h"
@@ -157,7 +157,7 @@ IsLinear(const CorrelationSums & sums, const NoiseCorrelation & found)
     square += inverse * inverse / static_cast<double>(NoiseResiduals::IntensityBins);
   }
   MeasuredNumber own = found.kurtosis[0];
-  own.value += 1.2 * sums.GetCodesDn2() * sums.GetCodesDn2() * square;
+  own.value += 1.2 * sums.GetQuantisationDn2() * sums.GetQuantisationDn2() * square;
   if (found.LacksTail() || (own.value < 0.0 && own.Exceeds(InCorrelation.largestExcess, Significance.severalTests)))
   {
     return false;
@@ -277,13 +277,13 @@ VarianceInflation(const std::vector<LagCoefficient> & lags)
 }
 
 NoiseCorrelation
-MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const ParallelFor & parallelFor)
+MeasureNoiseCorrelation(const NoiseResiduals & residuals, double quantisationDn2, const ParallelFor & parallelFor)
 {
   if (!residuals.HasEnoughPixels() || residuals.GetDof() < InCorrelation.leastDof)
   {
     return {};
   }
-  CorrelationSums  sums(residuals, codesDn2, FirstRings, FirstTimeLags, parallelFor);
+  CorrelationSums  sums(residuals, quantisationDn2, FirstRings, FirstTimeLags, parallelFor);
   NoiseCorrelation found;
   found.kind = NoiseKind::White;
   found.interference = residuals.GetInterference();
@@ -327,14 +327,14 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
 void
 MeasureSettledFrames(NoiseCorrelation &  correlation,
                      NoiseResiduals &    residuals,
-                     double              codesDn2,
+                     double              quantisationDn2,
                      const ParallelFor & parallelFor)
 {
   if (correlation.kind == NoiseKind::Temporal)
   {
     residuals.DropFirst(
       std::min(InCorrelation.firstFrames, residuals.GetTiles().frames / InCorrelation.firstFramesOneIn), parallelFor);
-    correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
+    correlation = MeasureNoiseCorrelation(residuals, quantisationDn2, parallelFor);
   }
 }
 

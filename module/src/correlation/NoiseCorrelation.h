@@ -3,14 +3,15 @@
 #ifndef sensornoise_correlation_NoiseCorrelation_h
 #define sensornoise_correlation_NoiseCorrelation_h
 
-#include "sensornoise/StepResults.h"
 #include "SensorNoiseExport.h"
-#include "sensornoise/Parallel.h"
-#include "sensornoise/Report.h"
+#include "base/Eigen.h"
 #include "correlation/FrameSample.h"
 #include "correlation/LagSums.h"
 #include "correlation/NoiseResiduals.h"
 #include "correlation/ProcessingSigns.h"
+#include "sensornoise/Parallel.h"
+#include "sensornoise/Report.h"
+#include "sensornoise/StepResults.h"
 
 #include <array>
 #include <cstddef>
@@ -135,7 +136,8 @@ struct SensorNoise_EXPORT NoiseCorrelation
   /** Largest distance of the spatial lags that are summed [pixels]. */
   int reach{ 1 };
   /** Sum of the coefficients over all spatial lags within reach, including the zero lag [1]: the factor from the
-   * variance to the total covariance, whatever its shape along the signal. Of all pixels, and of each intensity bin. */
+   * variance to the total covariance, whatever its shape along the signal. One factor is for all pixels, the others are
+   * for the intensity bins. */
   MeasuredNumber                                            spaceFactor{ 1.0, 0.0 };
   std::array<MeasuredNumber, NoiseResiduals::IntensityBins> spaceFactorOfBins{};
   /** Returns the noise variance of whole rows and columns together, where each is significant [DN^2]. */
@@ -177,17 +179,17 @@ struct SensorNoise_EXPORT NoiseCorrelation
   }
 };
 
-/** Measures the noise correlation. \a codesDn2 is the variance of the quantization noise, which was added after any
- * filter [DN^2]. */
+/** Measures the noise correlation. \a quantisationDn2 is the variance of the quantization noise, which was added after
+ * any filter [DN^2]. */
 SensorNoise_EXPORT NoiseCorrelation
-MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const ParallelFor & parallelFor);
+MeasureNoiseCorrelation(const NoiseResiduals & residuals, double quantisationDn2, const ParallelFor & parallelFor);
 
 /** If the class is Temporal, measures the correlation again without the first frames, in which a recursive filter has
  * not settled. */
 SensorNoise_EXPORT void
 MeasureSettledFrames(NoiseCorrelation &  correlation,
                      NoiseResiduals &    residuals,
-                     double              codesDn2,
+                     double              quantisationDn2,
                      const ParallelFor & parallelFor);
 
 /** Returns the fraction of the mean noise variance that is caused by local motion of the scene, along both axes
@@ -244,6 +246,41 @@ EstimateCorrelation(NoiseSample                       sample,
  * filled. */
 SensorNoise_EXPORT NoiseCorrelationRecord
 RecordOf(const NoiseCorrelation & correlation);
+
+/** \class TileSpectrum
+ * \brief Power spectrum of the noise in a square tile, by two products with a matrix.
+ *
+ * Frequencies are multiples of 1 / (2 side) cycles per pixel: half the distance at which a tile distinguishes two. */
+class SensorNoise_EXPORT TileSpectrum
+{
+public:
+  /** Makes the spectrum for tiles of \a side x \a side pixels. */
+  explicit TileSpectrum(std::size_t side);
+
+  /** Returns the number of frequencies along each axis. */
+  Eigen::Index
+  Size() const
+  {
+    return m_Transform.rows();
+  }
+  /** Returns the power of \a values, side x side: the squared modulus of their Fourier transform. The row is the
+   * frequency along y and the column the frequency along x, in units of 1 / Size(). */
+  Eigen::ArrayXXd
+  PowerOf(const Eigen::MatrixXd & values) const;
+
+private:
+  Eigen::MatrixXd m_Transform; // cos + sin of frequency times place
+};
+
+/** Returns the frequency of the strongest narrow line in a mean power spectrum of \a tiles tiles that TileSpectrum
+ * made, between its frequencies by a parabola; null: it has none. White noise has the power 1. */
+SensorNoise_EXPORT std::optional<WaveFrequency>
+FindLine(const Eigen::ArrayXXd & power, std::size_t tiles);
+
+/** Measures the noise correlation. Where there is one, searches periodic interference, subtracts it from \a residuals,
+ * and measures the correlation of what is left. \a quantisationDn2 is the variance of the quantization noise [DN^2]. */
+SensorNoise_EXPORT NoiseCorrelation
+MeasureWithoutInterference(NoiseResiduals & residuals, double quantisationDn2, const ParallelFor & parallelFor);
 
 } // namespace sensornoise
 

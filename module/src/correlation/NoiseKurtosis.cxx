@@ -136,12 +136,12 @@ void
 CountTail(const NoiseResiduals & residuals,
           std::size_t            i,
           const PowerSums &      powers,
-          double                 codesDn2,
+          double                 quantisationDn2,
           KurtosisSums &         sums)
 {
   const std::size_t  size = residuals.GetTiles().side * residuals.GetTiles().side;
   const float *      weight = residuals.WeightOf(i);
-  const auto         least = static_cast<float>(InCorrelation.leastVarianceOfTail * codesDn2);
+  const auto         least = static_cast<float>(InCorrelation.leastVarianceOfTail * quantisationDn2);
   std::vector<float> scale(size, 0.0F); // inverse standard deviation; 0: the pixel does not count
   double             pixels = 0.0;
   double             energy = 0.0;
@@ -213,7 +213,7 @@ NormalKurtosis(const NoiseResiduals & residuals)
 }
 
 KurtosisSums
-KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKurtosis & normal, double codesDn2)
+KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKurtosis & normal, double quantisationDn2)
 {
   const std::size_t side = residuals.GetTiles().side;
   const float *     weight = residuals.WeightOf(i);
@@ -224,7 +224,7 @@ KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKur
   side == SampleTiles::Side ? SumPowers<SampleTiles::Side>(residuals, i, powers)
                                     : SumPowers<SampleTiles::SmallSide>(residuals, i, powers);
   KurtosisSums sums;
-  CountTail(residuals, i, powers, codesDn2, sums);
+  CountTail(residuals, i, powers, quantisationDn2, sums);
   for (std::size_t kind = 0; kind < KurtosisSums::Kinds; ++kind)
   {
     for (std::size_t p = 0; p < side * side; ++p)

@@ -78,11 +78,11 @@ NoiseResiduals::RegressLines(LineAxis                         axis,
 }
 
 std::vector<float>
-NoiseResiduals::TakeOffLines(LineAxis axis, const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor)
+NoiseResiduals::SubtractLines(LineAxis axis, const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor)
 {
   const SampleTiles &                         tiles = this->GetTiles();
   const std::vector<std::vector<std::size_t>> groups = TilesInLine(tiles, axis);
-  m_LinesTakenOff = axis;
+  m_SubtractedLines = axis;
   std::vector<float> left(m_Signal.size());
   for (std::vector<float> & projections : m_LineProjections)
   {

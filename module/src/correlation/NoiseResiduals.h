@@ -148,10 +148,10 @@ public:
    * its variance is unchanged. Returns 1 - h of the pixels, tile by tile [1]; 0 where that is below
    * InCorrelation.leastLeftOfLine, or where the line has no pixel of \a take. Estimator.md, 3.18. */
   std::vector<float>
-  TakeOffLines(LineAxis axis, const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor);
+  SubtractLines(LineAxis axis, const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor);
 
   /** Subtracts a sine wave of this frequency from each tile of each frame, by least squares over the
-   * pixels that are used. Their values are divided by sqrt(1 - h) as in TakeOffLines(), and the weights and bins are
+   * pixels that are used. Their values are divided by sqrt(1 - h) as in SubtractLines(), and the weights and bins are
    * computed again. */
   void
   SubtractWave(const WaveFrequency & frequency, const ParallelFor & parallelFor);
@@ -225,15 +225,15 @@ public:
   {
     return m_Variance.data() + i * this->GetTiles().Pixels();
   }
-  /** Returns the axis along which TakeOffLines() was called, if it was. White noise then has the covariance -(a a' + b
+  /** Returns the axis along which SubtractLines() was called, if it was. White noise then has the covariance -(a a' + b
    * b') between the residuals of two pixels of a line in a frame. Here a and b are the values of LineProjectionsOf() at
    * both pixels [DN]. */
   const std::optional<LineAxis> &
-  GetLinesTakenOff() const
+  GetSubtractedLines() const
   {
-    return m_LinesTakenOff;
+    return m_SubtractedLines;
   }
-  /** Returns the values a and b of the pixels of tile \a i, see GetLinesTakenOff() [DN]. */
+  /** Returns the values a and b of the pixels of tile \a i, see GetSubtractedLines() [DN]. */
   std::array<const float *, 2>
   LineProjectionsOf(std::size_t i) const
   {
@@ -294,7 +294,7 @@ private:
   ProjectTile(std::size_t i);
   void
   SumSquares(std::size_t i);
-  /** Does the regression of TakeOffLines() for line \a line of \a tiles, without the final scaling. Stores the
+  /** Does the regression of SubtractLines() for line \a line of \a tiles, without the final scaling. Stores the
    * projections on the line, and in \a left the fraction of each pixel's variance that remains. */
   void
   RegressLines(LineAxis axis, const std::vector<std::size_t> & tiles, std::size_t line, std::vector<float> & left);
@@ -317,7 +317,7 @@ private:
   bool                      m_IsBlackKnown{ true };
   double                    m_DarkestSignal{ 0.0 };
   UnequalFrames             m_Unequal;
-  std::optional<LineAxis>   m_LinesTakenOff;
+  std::optional<LineAxis>   m_SubtractedLines;
   /** LineProjectionsOf() for all tiles; empty: no lines were subtracted. */
   std::array<std::vector<float>, 2> m_LineProjections;
   std::vector<PeriodicInterference> m_Interference;

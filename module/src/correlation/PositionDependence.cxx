@@ -5,7 +5,7 @@
 #include "base/Eigen.h"
 #include "base/Constants.h"
 #include "base/Quantiles.h"
-#include "correlation/Jackknife.h"
+#include "correlation/CorrelationSums.h"
 #include "correlation/LagSums.h"
 #include "correlation/Constants.h"
 

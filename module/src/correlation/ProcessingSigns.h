@@ -4,12 +4,13 @@
 #define sensornoise_correlation_ProcessingSigns_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/Parallel.h"
 #include "base/Eigen.h"
 #include "correlation/NoiseResiduals.h"
+#include "sensornoise/Parallel.h"
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -37,7 +38,7 @@ struct KurtosisSums
   std::array<double, Kinds> ratio{};  ///< sum of K over its expectation for normal noise
 
   double values{ 0.0 }; ///< number of residuals that were compared with InCorrelation.tailBegins
-  double inTail{ 0.0 }; ///< number of those that are above it
+  double inTail{ 0.0 }; ///< number of compared residuals above it
 
   KurtosisSums &
   operator+=(const KurtosisSums & other);
@@ -112,10 +113,10 @@ private:
   double                     m_Mean{ 0.0 }; // N_0 / n
 };
 
-/** Returns the sums of tile \a i; \a normal gives the expected K of normal noise, \a codesDn2 is the variance of the
- * quantization [DN^2]: only pixels whose noise exceeds the quantization step count in the tail. */
+/** Returns the sums of tile \a i; \a normal gives the expected K of normal noise, \a quantisationDn2 is the variance of
+ * the quantization [DN^2]: only pixels whose noise exceeds the quantization step count in the tail. */
 SensorNoise_EXPORT KurtosisSums
-KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKurtosis & normal, double codesDn2);
+KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKurtosis & normal, double quantisationDn2);
 
 /** \struct BlockPhases
  * \brief Noise covariance of nearest neighbours by their position in a block of 8 pixels.
@@ -158,6 +159,30 @@ struct EnlargementTrace
  * with fewer samples than pixels do. */
 SensorNoise_EXPORT std::optional<EnlargementTrace>
 FindEnlargementTrace(const NoiseResiduals & residuals, const ParallelFor & parallelFor);
+
+/** Pixels of the sample that are computed from their neighbours: they are no measurements. */
+struct SensorNoise_EXPORT InterpolatedPixels
+{
+  std::vector<std::size_t> pixels; ///< indices in the frame, in the order of the sample
+  /** Pixels on the borders of the tiles, which cannot be compared with all neighbours; empty without \a pixels. */
+  std::vector<std::size_t> notCompared;
+  double                   fraction{ 0.0 }; ///< fraction of the pixels of the sample that they are [1]
+  /** Variance that the pixels of the sample lack together, relative to their variance [1]. */
+  double lostVariance{ 0.0 };
+
+  /** Sets \a take to 0 at the pixels and at the pixels that are not compared. */
+  void
+  LeaveOutOf(std::vector<std::uint8_t> & take) const;
+};
+
+/** Returns the pixels of \a residuals whose noise is a copy or a mean of the noise of neighbours.
+ *
+ * Cameras replace defective pixels in this way, and pixels of the autofocus. The noise of such a pixel differs from the
+ * mean of its neighbours by rounding alone; a measured pixel differs from it by more than its own noise. Filters reduce
+ * this difference, too, but in all pixels. Returns none if more than InCorrelation.mostInterpolated of the pixels are
+ * computed: the frames are then enlarged or demosaiced. Estimator.md, 3.5. */
+SensorNoise_EXPORT InterpolatedPixels
+FindInterpolatedPixels(const NoiseResiduals & residuals, const ParallelFor & parallelFor);
 
 } // namespace sensornoise
 

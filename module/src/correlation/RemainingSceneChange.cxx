@@ -3,7 +3,7 @@
 #include "correlation/NoiseCorrelation.h"
 
 #include "base/Eigen.h"
-#include "correlation/Jackknife.h"
+#include "correlation/CorrelationSums.h"
 #include "correlation/LagSums.h"
 #include "correlation/Constants.h"
 

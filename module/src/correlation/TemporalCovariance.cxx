@@ -176,13 +176,13 @@ FitTimeShapes(const CorrelationSums & sums, const AutocovarianceFit & fit, Noise
 {
   const auto     inBins = [&](const TileSums & tiles) { return TimeCovarianceInBins(sums, tiles, fit); };
   const auto     errors = Jackknife(sums.GetTiles(), inBins).StandardErrors();
-  const auto     fits = FitAllShapes(sums, inBins, errors, sums.GetCodesDn2());
+  const auto     fits = FitAllShapes(sums, inBins, errors, sums.GetQuantisationDn2());
   const TileSums all = sums.Total();
   found.isBySensitivity = IsProportionalToSquare(fits);
   found.timeShapes =
     WeighShapes(fits,
                 ProbabilitiesOf(fits.value.tail(NumberOfShapes), false, sums.GetResiduals().IsBlackKnown()),
-                sums.ShapesOf(all, sums.GetCodesDn2()));
+                sums.ShapesOf(all, sums.GetQuantisationDn2()));
 }
 } // namespace
 

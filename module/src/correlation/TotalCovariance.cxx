@@ -136,7 +136,7 @@ Eigen::VectorXd
 Chi2OfTotalVariance(const CorrelationSums & sums, const TileSums & all, const Eigen::VectorXd & coefficients)
 {
   const CorrelationSums::Lags itself{ 0 };
-  const Eigen::MatrixXd       shapes = sums.ShapesOf(all, sums.GetCodesDn2()).InBins();
+  const Eigen::MatrixXd       shapes = sums.ShapesOf(all, sums.GetQuantisationDn2()).InBins();
   const Eigen::VectorXd       own = 0.5 * sums.CovarianceInBins(all, itself);
   const Eigen::VectorXd       errors = 0.5 * sums.StandardErrorsInBins(itself);
   const double                straight = Chi2OfLine(shapes, own, errors);
@@ -158,7 +158,7 @@ LinearizesVariance(const CorrelationSums & sums, const Eigen::VectorXd & errors,
     return false;
   }
   const TileSums        all = sums.Total();
-  const Eigen::MatrixXd shapes = sums.ShapesOf(all, sums.GetCodesDn2()).InBins();
+  const Eigen::MatrixXd shapes = sums.ShapesOf(all, sums.GetQuantisationDn2()).InBins();
   const auto            fits = FitShapes(shapes, sums.CovarianceInBins(all, sums.Nearest()), errors);
   Eigen::VectorXd       coefficients(NumberOfShapes);
   std::transform(
@@ -186,7 +186,7 @@ IsCorrelatedInSpace(const CorrelationSums & sums, const std::vector<LagCoefficie
   const CorrelationSums::Lags nearest = sums.Nearest();
   const Eigen::VectorXd       errors = sums.StandardErrorsInBins(nearest);
   const JackknifeEstimate     atTheTop = Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
-    const Eigen::MatrixXd shapes = sums.ShapesOf(tiles, sums.GetCodesDn2()).InBins();
+    const Eigen::MatrixXd shapes = sums.ShapesOf(tiles, sums.GetQuantisationDn2()).InBins();
     const auto            fits = FitShapes(shapes, sums.CovarianceInBins(tiles, nearest), errors);
     Eigen::Vector3d       effects;
     for (Eigen::Index k = 0; k < effects.size(); ++k) // all shapes but the constant
@@ -231,7 +231,7 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
     found.beyondReach = std::max(std::abs(far.value), InCorrelation.unseenErrorsOfCharge * far.standardError);
   }
   const CorrelationSums::Lags lags = sums.Ring(1, found.reach);
-  const double                unfilteredDn2 = sums.GetCodesDn2() + found.LineNoise().value;
+  const double                unfilteredDn2 = sums.GetQuantisationDn2() + found.LineNoise().value;
   const JackknifeEstimate     fits = FitAllShapes(
     sums,
     [&](const TileSums & tiles) { return sums.CovarianceInBins(tiles, lags); },

@@ -6,7 +6,6 @@
 #include "SensorNoiseExport.h"
 #include "base/Eigen.h"
 #include "correlation/CorrelationSums.h"
-#include "correlation/Jackknife.h"
 #include "correlation/NoiseCorrelation.h"
 
 #include <array>
@@ -30,9 +29,9 @@ TemporalMixing(const Eigen::MatrixXd & basis, std::size_t lags, std::size_t furt
 /** \class AutocovarianceFit
  * \brief Autocovariances of the noise, from the sums of products of frames after the projection.
  *
- * The autocovariances R_0 ... R_K are free, and solve the system of TemporalMixing(). Those of larger lags are 0, or
- * they decrease by a constant ratio, as behind a recursive filter (FindTail()). Without them the sum over all lags of
- * a short burst is too small: the projection removes slow noise. Estimator.md, 3.12.
+ * The autocovariances R_0 ... R_K are free, and solve the system of TemporalMixing(). The autocovariances of larger
+ * lags are 0, or they decrease by a constant ratio, as behind a recursive filter (FindTail()). Without them the sum
+ * over all lags of a short burst is too small: the projection removes slow noise. Estimator.md, 3.12.
  *
  * The arguments \a sums of the functions are sum_t r_t r_(t+d), d = 0 ... K, in any unit. Their results are linear in
  * the sums, and have the same unit. */

@@ -3,7 +3,6 @@
 #include "sensornoise/Emva1288.h"
 
 #include "base/Text.h"
-#include "emva1288/Constants.h"
 #include "emva1288/EvaluationSteps.h"
 
 #include <algorithm>

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "emva1288/EmvaText.h"
 
-#include "emva1288/Constants.h"
+#include "emva1288/EvaluationSteps.h"
 #include "page/Figures.h"
-#include "page/SvgPanel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -151,7 +150,7 @@ SnrFigure(const EmvaReport & report)
   std::string      svg = OpenSvg(PanelTop + PanelHeight + AxisBelow, "signal-to-noise ratio");
   LegendEntry(svg, 4.0, 12.0, PointSign("after point full"), "measured, temporal noise");
   const double next = LegendEntry(svg, 4.0, 32.0, LineSign("third"), "linear model");
-  LegendEntry(svg, next, 32.0, LineSign("before dashed"), "the same with DSNU and PRNU");
+  LegendEntry(svg, next, 32.0, LineSign("before dashed"), "model with DSNU and PRNU");
   SvgPanel panel(svg,
                  { place.left, PanelTop, place.width, PanelHeight },
                  x,

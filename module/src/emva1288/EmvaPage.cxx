@@ -3,7 +3,7 @@
 #include "base/Text.h"
 #include "emva1288/EmvaText.h"
 #include "page/PageSections.h"
-#include "page/SvgPanel.h"
+#include "page/Figures.h"
 #include "sensornoise/Emva1288.h"
 
 #include <cstddef>

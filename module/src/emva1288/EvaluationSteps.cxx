@@ -3,7 +3,6 @@
 #include "emva1288/EvaluationSteps.h"
 
 #include "base/ChiSquare.h"
-#include "emva1288/Constants.h"
 #include "moments/Exposures.h"
 #include "report/Quantities.h"
 
@@ -227,9 +226,9 @@ MeasureLinearity(const TransferCurve & curve, EmvaReport & report)
   {
     return;
   }
-  CodeRange codes;
-  codes.clipHighDn = curve.SaturationSignalDn();
-  const ExposureFit   corrected = FitExposures(LevelsOf(curve), codes);
+  DnRange dnRange;
+  dnRange.clipHighDn = curve.SaturationSignalDn();
+  const ExposureFit   corrected = FitExposures(LevelsOf(curve), dnRange);
   const LevelLine     line = FitRelativeLine(values);
   double              sum = 0.0;
   double              variance = 0.0;

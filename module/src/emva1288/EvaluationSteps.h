@@ -4,9 +4,11 @@
 #define sensornoise_emva1288_EvaluationSteps_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/Emva1288.h"
+#include "base/Constants.h"
 #include "moments/Exposures.h"
 #include "report/Quantities.h"
+#include "sensornoise/Emva1288.h"
+#include "sensornoise/Parallel.h"
 
 #include <array>
 #include <cmath>
@@ -15,10 +17,44 @@
 
 /** \file
  * Lines through the values of several exposures, the levels of the dark frames, the photon transfer curve, and the
- * steps of EvaluateEmva1288(). Each step sets a part of the report. */
+ * steps of EvaluateEmva1288(). Each step sets a part of the report. In front of them, the parts of the statistics of
+ * the frames of one exposure, EmvaSeries: spatial variances and highpass filter. */
 
 namespace sensornoise
 {
+
+/** Numbers of EMVA Standard 1288, Release 4.0 Linear. */
+struct EmvaConstants
+{
+  /** Highest signal of the fits of gain and responsivity, relative to the signal at saturation [1]. Section 6.6. */
+  double gainRange{ 0.70 };
+  /** Lowest and highest signal of the linearity, relative to the signal at saturation [1]. Section 6.7. */
+  double linearityLow{ 0.05 };
+  double linearityHigh{ 0.95 };
+  /** Variance of a uniform distribution of the width of one quantization step [step^2]: exact. */
+  double quantizationVariance{ 1.0 / 12.0 };
+  /** Dark variance below which quantization hides the dark noise [step^2]. Below (53). */
+  double leastDarkVariance{ 0.24 };
+  /** Upper limit of the dark noise in this case [step]. (54). */
+  double darkNoiseLimit{ 0.40 };
+  /** Least fraction of saturated values at saturation [1]. Section 6.5. */
+  double leastSaturatedFraction{ 0.001 };
+  /** Fewest different exposures of dark frames of a dark current. The standard asks for 6 (section 7.1); a line has no
+   * error with fewer than 3. */
+  std::size_t fewestDarkExposures{ 3 };
+  std::size_t darkExposuresOfStandard{ 6 };
+  /** Fewest exposures in the range of a fit: a line through two has no error. */
+  std::size_t fewestPoints{ 3 };
+  /** Flat exposures of the standard. Section 6.5. */
+  std::size_t exposuresOfStandard{ 50 };
+  /** Frames of a series for the non-uniformity. Section 8. */
+  std::size_t framesOfStandard{ 100 };
+  /** Rounds of the weighted line, whose weights follow from its own values. Chosen empirically: the third changes the
+   * slope by less than 1e-4 of its error. */
+  int roundsOfWeights{ 4 };
+};
+
+SENSORNOISE_CONSTANT EmvaConstants InEmva;
 
 /** A value of one exposure, with the variance of its error. */
 struct LevelValue
@@ -65,7 +101,7 @@ double
 ErrorVarianceOf(const EmvaSeries & series);
 
 /** \class DarkLevels
- * \brief Mean level and temporal variance of the dark frames as a function of the exposure. Of an exposure with a pair
+ * \brief Mean level and temporal variance of the dark frames as a function of the exposure. If an exposure has a pair
  * of frames and a longer series, the pair counts. */
 class DarkLevels
 {
@@ -119,6 +155,7 @@ private:
 struct TransferCurve
 {
   std::vector<EmvaSeries> series;               ///< series of each point
+  std::vector<EmvaSeries> longer;               ///< further flat series, for the weighted gain and the non-uniformity
   std::vector<EmvaPoint>  points;               ///< points with their gain fit range
   std::size_t             saturation{ 0 };      ///< number of the point with the largest variance
   bool                    hasPhotons{ false };  ///< whether all points have photons
@@ -137,9 +174,9 @@ struct TransferCurve
   }
 };
 
-/** Makes the curve. Of an exposure with a pair of frames and a longer series, the pair counts. Throws
- * std::invalid_argument if fewer than three exposures differ, if the frames have no temporal noise, or if the flat
- * fields are darker than the dark frames. */
+/** Makes the curve. If an exposure has a pair of frames and a longer series, the pair counts. If most of the flat
+ * series are pairs, longer series are no points of the curve. Throws std::invalid_argument if fewer than three
+ * exposures differ, if the frames have no temporal noise, or if the flat fields are darker than the dark frames. */
 TransferCurve
 MakeTransferCurve(const std::vector<EmvaSeries> & series, const DarkLevels & dark, const EmvaSettings & settings);
 
@@ -182,7 +219,7 @@ void
 MeasureGain(const TransferCurve & curve, const DarkLevels & dark, EmvaReport & report);
 
 /** Sets the weighted estimate of the system gain: the slope of a line through the variances of all flat series in this
- * range and of all dark series, against their means.
+ * range, also longer ones, and of all dark series, against their means.
  *
  * Each variance has the weight 1 / (2 V^2 / (pixels (frames - 1))), with V the value of the line. The electrons of the
  * dark current are on the same line. */
@@ -228,6 +265,56 @@ MeasureNonUniformity(const DarkLevels & dark, double saturationSignalDn, EmvaRep
  * points are in the range. */
 void
 MeasureLinearity(const TransferCurve & curve, EmvaReport & report);
+
+/** Returns the spatial variances of a mean image, with their parts of columns, rows and pixels, (35) to (42).
+ *
+ * A variance is the mean square of the deviations from the mean, with the number of pixels as divisor (35). The parts
+ * solve the three equations of (42). The variance of the means of columns contains the part of the pixels over the
+ * number of rows. The variance of the means of rows contains the part of the pixels over the number of columns. The sum
+ * of all three parts is the total variance.
+ * \param mean mean image of the frames, row after row [DN]
+ * \param columns columns of the image, 3 or more [pixel]
+ * \param rows rows of the image, 3 or more [pixel]
+ * \param stackDn2 temporal variance of a pixel in one frame (65) [DN^2]
+ * \param frames number of frames of the mean */
+SensorNoise_EXPORT EmvaSpatialVariance
+MeasureSpatialVariance(const std::vector<double> & mean,
+                       std::size_t                 columns,
+                       std::size_t                 rows,
+                       double                      stackDn2,
+                       std::size_t                 frames);
+
+/** Pixels between the centre and the end of the lowpass kernel: 3 of the box of 7, 5 of the box of 11, and 1 of the
+ * binomial mask of 3. */
+inline constexpr std::size_t EmvaFilterRadius = 9;
+
+/** Image after the highpass filter, row after row [DN]. */
+struct HighpassImage
+{
+  std::size_t         columns{ 0 };
+  std::size_t         rows{ 0 };
+  std::vector<double> pixels;
+};
+
+/** Returns the weights of the lowpass filter along one axis, whose sum is 1: a box of 7, a box of 11 and the binomial
+ * mask 1 2 1, one after the other. */
+SensorNoise_EXPORT const std::array<double, 2 * EmvaFilterRadius + 1> &
+EmvaLowpassKernel();
+
+/** Returns whether the filter leaves three or more columns and rows of a frame. */
+bool
+HasRoomForHighpass(std::size_t width, std::size_t height);
+
+/** Applies the highpass filter of EMVA Standard 1288, Release 4.0 Linear, section 8.1: the image minus its lowpass.
+ *
+ * The lowpass filter is a box of 7 x 7 pixels, a box of 11 x 11 and a binomial mask of 3 x 3. It suppresses the uneven
+ * illumination. Only pixels whose neighbourhood of 19 x 19 pixels is in the image are kept: the filter is the same for
+ * all of them. \a image has \a width x \a height pixels and room for the filter (HasRoomForHighpass()). */
+SensorNoise_EXPORT HighpassImage
+FilterHighpass(const std::vector<double> & image,
+               std::size_t                 width,
+               std::size_t                 height,
+               const ParallelFor &         parallelFor = SerialFor);
 
 } // namespace sensornoise
 

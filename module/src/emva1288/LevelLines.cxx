@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "emva1288/EvaluationSteps.h"
 
-#include "emva1288/Constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +59,7 @@ LineBy(const LineCoefficients & coefficients, const std::vector<LevelValue> & va
 }
 
 /** Returns the line with its errors and its reduced chi-square: the weighted sum of the squared residuals over its
- * expectation. Of value i with the variance v and the leverage h, the weighted square w (1 - h) v is expected. This
+ * expectation. The expected weighted square of a value with the variance v and the leverage h is w (1 - h) v. This
  * holds for equal weights and for w = 1 / v. */
 LevelLine
 LineWithErrors(const std::vector<LevelValue> & values, const std::vector<double> & weights)

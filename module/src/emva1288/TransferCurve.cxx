@@ -4,7 +4,6 @@
 
 #include "base/ChiSquare.h"
 #include "base/Text.h"
-#include "emva1288/Constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -27,6 +27,26 @@ HasPairOf(const EmvaSeries & series, const std::vector<EmvaSeries> & all)
            return !other.isDark && other.frames == 2 && other.exposure == series.exposure &&
                   other.photons == series.photons;
          });
+}
+
+/** Returns whether most of the flat series are pairs, of as many different exposures as the curve needs. */
+bool
+AreMostlyPairs(const std::vector<EmvaSeries> & series)
+{
+  std::set<std::pair<double, double>> pairs; // exposure and photons
+  std::size_t                         longer = 0;
+  for (const EmvaSeries & each : series)
+  {
+    if (!each.isDark && each.frames == 2)
+    {
+      pairs.emplace(each.exposure, each.photons.value_or(0.0));
+    }
+    else if (!each.isDark)
+    {
+      ++longer;
+    }
+  }
+  return pairs.size() >= InEmva.fewestPoints && pairs.size() > longer;
 }
 
 EmvaPoint
@@ -77,11 +97,12 @@ TransferCurve
 MakeTransferCurve(const std::vector<EmvaSeries> & series, const DarkLevels & dark, const EmvaSettings & settings)
 {
   TransferCurve curve;
+  const bool    areMostlyPairs = AreMostlyPairs(series);
   for (const EmvaSeries & each : series)
   {
     if (!each.isDark && !HasPairOf(each, series))
     {
-      curve.series.push_back(each);
+      (areMostlyPairs && each.frames > 2 ? curve.longer : curve.series).push_back(each);
     }
   }
   curve.hasPhotons = std::all_of(
@@ -183,6 +204,13 @@ MeasureWeightedGain(const TransferCurve & curve, const DarkLevels & dark, EmvaRe
     if (curve.points[i].isInGainFit)
     {
       add(curve.series[i]);
+    }
+  }
+  for (const EmvaSeries & each : curve.longer)
+  {
+    if (each.meanDn - dark.At(each.exposure).meanDn <= InEmva.gainRange * curve.SaturationSignalDn())
+    {
+      add(each);
     }
   }
   const bool hasNoise =

@@ -67,7 +67,7 @@ public:
     return m_Bytes;
   }
 
-  /** \a code stands for the string that came last, and the first byte of that which comes next. */
+  /** Defines \a code as the last string followed by the first byte of the next string. */
   void
   Define(std::size_t code)
   {
@@ -88,7 +88,7 @@ public:
       m_Out[m_Last] = static_cast<unsigned char>(code);
       return;
     }
-    // byte by byte: a string may begin with those that are just copied
+    // byte by byte, because the string may contain bytes that this loop copies
     for (std::uint64_t i = 0; i < std::min(length, space); ++i)
     {
       m_Out[m_Last + i] = m_Out[m_Starts[code] + i];

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/DataFile.h"
+#include "files/TextHeader.h"
 
 #include "files/FileBytes.h"
-#include "files/FrameSizes.h"
+#include "files/FrameReader.h"
 
 #include <algorithm>
 #include <cstddef>

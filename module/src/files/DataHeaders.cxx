@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/DataFile.h"
 
 #include "sensornoise/FrameFile.h"
 #include "base/Text.h"

@@ -3,7 +3,6 @@
 #include "files/FrameFormats.h"
 
 #include "files/FrameReader.h"
-#include "files/FrameSizes.h"
 #include "files/TextHeader.h"
 #include "base/Text.h"
 

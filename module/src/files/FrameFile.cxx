@@ -6,7 +6,6 @@
 #include "files/FileBytes.h"
 #include "files/FrameFormats.h"
 #include "files/FrameReader.h"
-#include "files/FrameSizes.h"
 
 #include <algorithm>
 #include <array>
@@ -231,7 +230,7 @@ const std::vector<FrameFormat> &
 FrameFormats()
 {
   static const std::vector<FrameFormat> formats{
-    // before TIFF, as which most raw files begin
+    // before TIFF, because most raw files begin as a TIFF does
     { "camera raw", false, IsHeadOfRawCamera, InspectRawCamera },
     { "TIFF", false, IsHeadOfTiff, InspectTiff },
     { "PNG", true, IsHeadOfPng, InspectPng },

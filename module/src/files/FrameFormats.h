@@ -3,10 +3,13 @@
 #ifndef sensornoise_files_FrameFormats_h
 #define sensornoise_files_FrameFormats_h
 
-#include "sensornoise/FrameFile.h"
 #include "SensorNoiseExport.h"
 #include "files/FileBytes.h"
+#include "files/FrameReader.h"
+#include "sensornoise/FrameFile.h"
+#include "sensornoise/Settings.h"
 
+#include <cstdint>
 #include <initializer_list>
 #include <string>
 #include <vector>
@@ -14,11 +17,11 @@
 namespace sensornoise
 {
 
-/** A format that is read: a line of the table in FrameFile.cxx, which with its functions below is all that knows of
- * it but its own files. */
+/** Format that is read: a line of the table in FrameFile.cxx. Only the table, the functions below and the files of the
+ * format depend on it. */
 struct FrameFormat
 {
-  const char * name{ nullptr };       ///< as sentences call it
+  const char * name{ nullptr };       ///< name in sentences
   bool         hasITKReader{ false }; ///< ITK's own class reads it, to which itk::ImageFileReader is left
 
   /** Returns whether a file is of this format, by its first bytes, 512 or all, and otherwise by its name. */
@@ -61,7 +64,7 @@ NamesOfFrameFormats();
 
 /** Returns whether a file is a raw file of a camera: DNG, CR2, CR3, NEF, ARW, RAF, ORF, RW2 and others. Most of them
  * begin as a TIFF does: then its first directory and those below are read for the version of DNG or for the colours of
- * a mosaic, and where these are not to be found the ending of the name tells. */
+ * a mosaic, and the ending of the name decides if the file has neither. */
 bool
 IsHeadOfRawCamera(const std::string & head, const std::string & name);
 
@@ -70,12 +73,12 @@ SensorNoise_EXPORT bool
 ReadsRawCameraFiles();
 
 /** Fills in what the raw file of a camera says of itself, by LibRaw, and all of `FrameFile::camera`. \a file has its
- * name and identity. A frame has the codes of the visible area as they are in the file, without black level, white
- * balance or colours: unsigned short, one a pixel. All of them are decoded for the check, and not kept.
+ * name and identity. A frame has the digital numbers of the visible area as they are in the file, without black level,
+ * white balance or colours: unsigned short, one a pixel. All of them are decoded for the check, and not kept.
  *
  * Throws FileError without LibRaw, for a file that LibRaw cannot read, which ends before its pixels do or whose decoder
- * meets an error, for several colours a pixel, several frames, and what is known to be compressed with loss. Of a DNG
- * it is also checked that its directory, its strips or tiles, and LibRaw say the same (RequireWholeRawTiff()). */
+ * meets an error, for several colours a pixel, several frames, and what is known to be compressed with loss. For a DNG,
+ * RequireWholeRawTiff() also compares its directory, its strips or tiles, and LibRaw. */
 void
 InspectRawCamera(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
@@ -124,18 +127,18 @@ InspectNrrd(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeI
 std::vector<std::string>
 DataFilesOfNrrd(FileBytes & bytes, const std::string & name);
 
-/** Returns whether a file begins as a SER, the format of astronomers' recordings. */
+/** Returns whether a file begins as a SER file, a format of astronomical recordings. */
 bool
 IsHeadOfSer(const std::string & head, const std::string & name);
 
 /** Fills in the description of a SER file: "SER format description version 3" of G. Hahn, 2014. \a file has its name
  * and identity. Throws FileError unless it holds exactly the frames that it declares, with or without a time for each,
- * and of one value a pixel. Of a file that says 0 frames, because the program that wrote it did not close it, all whole
- * frames are read, and FrameFile::warning says so.
+ * and of one value a pixel. A file may declare 0 frames, because the program that wrote it did not close it. Then all
+ * whole frames are read, and FrameFile::warning says so.
  *
- * Of the order of the bytes the description says one thing, and the first programs wrote the other, so that today
- * either is found. It is taken to be as the programs have it (LittleEndian 0: lowest byte first), unless the first
- * frame says otherwise: in the wrong order neighbours differ much more. */
+ * The first programs wrote another order of the bytes than the description has, so that both exist today. The order of
+ * the programs is assumed (LittleEndian 0: lowest byte first), unless neighbours in the first frame differ much less in
+ * the other order. */
 void
 InspectSer(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
@@ -183,10 +186,46 @@ SensorNoise_EXPORT bool
 IsHeadOfPnm(const std::string & head, const std::string & name);
 
 /** Reads the headers of a binary PGM file (P5, 8 or 16 bits). It may have several images, one after the other: frames.
- * Throws FileError unless all are whole and alike, and for colours, text and bitmaps. A maximum of 2^n -
- * 1 is taken for n bits of the camera. */
+ * Throws FileError unless all images are complete and have the same size and maximum, and for colours, text and
+ * bitmaps. A maximum of 2^n - 1 means n bits of the camera. */
 SensorNoise_EXPORT void
 InspectPnm(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
+
+/** Layout of the frames in a file without a header, for example in a dump of a camera's memory. */
+struct RawLayout
+{
+  std::uint64_t  width{ 0 };  // [pixel]
+  std::uint64_t  height{ 0 }; // [pixel]
+  SampleFormat   sample{};
+  std::uint64_t  skipBytes{ 0 }; // bytes before the first frame
+  std::uint64_t  rowBytes{ 0 };  // bytes from a row to the next; 0: no gap between rows
+  std::uint64_t  gapBytes{ 0 };  // bytes behind each frame
+  std::uint64_t  endBytes{ 0 };  // bytes at the end of the file
+  CameraSettings camera{};       // Bayer pattern and bit depth, if the name of the type gives them
+};
+
+/** Returns the layout "WIDTHxHEIGHT:TYPE[:SKIP[:ROW[:GAP[:END]]]]". WIDTH and HEIGHT are 1 to 2^31 - 1 pixels. TYPE, in
+ * any case, is
+ * - uint8, uint16le, uint16be, int16le, int16be, uint32le, uint32be, int32le, int32be, float32le, float32be, float64le
+ *   or float64be, with the number of bits and the byte order; integers of 32 bits are read as double;
+ * - a name of GenICam: Mono8, Mono10, Mono12, Mono14, Mono16, Mono10p, Mono12p, Mono14p, Mono10Packed, Mono12Packed, or
+ *   with a Bayer pattern BayerRG8 and so on;
+ * - RAW10, RAW12 or RAW14, packed as in MIPI CSI-2, or with a Bayer pattern SRGGB10P and so on, as in Linux and
+ *   libcamera; SRGGB10 and so on are not packed;
+ * - uint10msb, uint12msb or uint14msb, a bit stream with the highest bit first.
+ *
+ * SKIP: bytes before the first frame, default 0. ROW: bytes from a row to the next, default 0: no gap between rows.
+ * GAP: bytes behind each frame, default 0; they may be missing behind the last frame. END: bytes at the end of the
+ * file, default 0.
+ *
+ * Throws std::invalid_argument, whose message says what was found and what was expected. */
+SensorNoise_EXPORT RawLayout
+ReadRawLayout(const std::string & text);
+
+/** Returns the description of a file with this layout, as InspectFrameFile() does for other files. FrameFile::warning
+ * is set if its bytes seem swapped. Throws FileError unless the file has a whole number of frames, at least one. */
+SensorNoise_EXPORT FrameFile
+InspectRawFile(const std::string & name, const RawLayout & layout);
 
 } // namespace sensornoise
 

@@ -3,7 +3,6 @@
 #include "files/FrameReader.h"
 
 #include "files/FileBytes.h"
-#include "files/FrameSizes.h"
 
 #include <algorithm>
 #include <cstring>

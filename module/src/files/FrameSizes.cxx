@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/FrameSizes.h"
+#include "files/FrameReader.h"
 
 #include <cmath>
 #include <cstring>

@@ -207,7 +207,8 @@ LibRawFrame::LibRawFrame(const std::string & file)
   const std::string loss = LossOf(m_Raw->raw);
   if (!loss.empty())
   {
-    throw FileError(file, "compressed with loss (" + loss + "); expected uncompressed codes, or compressed without");
+    throw FileError(
+      file, "compressed with loss (" + loss + "); expected uncompressed digital numbers, or compressed without");
   }
 }
 
@@ -265,7 +266,7 @@ LibRawFrame::Decode()
 }
 
 void
-LibRawFrame::CopyTo(unsigned short * codes) const
+LibRawFrame::CopyTo(unsigned short * greyValues) const
 {
   const libraw_image_sizes_t & sizes = m_Raw->raw.imgdata.sizes;
   const std::size_t            pitch = sizes.raw_pitch / sizeof(unsigned short);
@@ -273,7 +274,7 @@ LibRawFrame::CopyTo(unsigned short * codes) const
     m_Raw->raw.imgdata.rawdata.raw_image + sizes.top_margin * pitch + static_cast<std::size_t>(sizes.left_margin);
   for (std::size_t y = 0; y < sizes.height; ++y)
   {
-    std::copy_n(first + y * pitch, sizes.width, codes + y * sizes.width);
+    std::copy_n(first + y * pitch, sizes.width, greyValues + y * sizes.width);
   }
 }
 

@@ -3,6 +3,7 @@
 #ifdef SENSORNOISE_LIBRAW
 #  include "files/RawCameraFile.h"
 
+#  include "base/Text.h"
 #  include "files/TextHeader.h"
 
 #  include <libraw/libraw.h>
@@ -171,6 +172,23 @@ PositiveOrNone(double value)
 {
   return std::isfinite(value) && value > 0.0 ? value : std::numeric_limits<double>::quiet_NaN();
 }
+
+/** Returns the decimal number of fewest digits that is \a number in single precision: 0.01, not 0.009999999776. NaN
+ * unless it is finite and above 0. */
+double
+ShortestDecimal(float number)
+{
+  const double value = PositiveOrNone(static_cast<double>(number));
+  for (int digits = 1; std::isfinite(value) && digits <= std::numeric_limits<float>::max_digits10; ++digits)
+  {
+    const double decimal = FiniteNumber(GeneralText(value, digits)).value_or(value);
+    if (static_cast<float>(decimal) == number)
+    {
+      return decimal;
+    }
+  }
+  return value;
+}
 } // namespace
 
 CameraSettings
@@ -183,7 +201,7 @@ CameraSettingsOf(LibRaw & raw)
   camera.blackLevelDn = BlackLevelOf(raw);
   camera.whiteLevelDn = PositiveOrNone(raw.imgdata.color.maximum);
   camera.isoSpeed = PositiveOrNone(static_cast<double>(raw.imgdata.other.iso_speed));
-  camera.exposureSeconds = PositiveOrNone(static_cast<double>(raw.imgdata.other.shutter));
+  camera.exposureSeconds = ShortestDecimal(raw.imgdata.other.shutter);
   AddOpticalBlack(raw, camera);
   return camera;
 }

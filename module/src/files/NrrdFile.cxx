@@ -3,8 +3,7 @@
 #include "files/FrameFormats.h"
 
 #include "base/Text.h"
-#include "files/DataFile.h"
-#include "files/FrameSizes.h"
+#include "files/FrameReader.h"
 #include "files/TextHeader.h"
 
 #include <algorithm>

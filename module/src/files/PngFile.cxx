@@ -5,7 +5,6 @@
 #include "base/Text.h"
 #include "files/Compression.h"
 #include "files/FrameReader.h"
-#include "files/FrameSizes.h"
 #include "files/PngChunks.h"
 #include "files/TextHeader.h"
 

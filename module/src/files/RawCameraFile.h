@@ -12,8 +12,7 @@
 #include <memory>
 #include <string>
 
-/** \file
- * Raw files of cameras: the check of those that are TIFFs, and the frame that LibRaw decodes. */
+/** \file Raw files of cameras: the check of raw files that are TIFFs, and the frame that LibRaw decodes. */
 
 class LibRaw; // declared in libraw/libraw.h, which defines macros with short names
 
@@ -33,11 +32,11 @@ enum class RawTiffKind
 RawTiffKind
 RawTiffKindOf(const std::string & file, FileBytes & bytes);
 
-/** Throws FileError unless the pixels of a raw file that is a TIFF are all in the file; nothing is said of others. Of
- * every TIFF: its strips and tiles, as far as its directories list them. Of a DNG, beyond that: a directory declares an
- * image of \a width x \a height codes, as LibRaw would read it [pixels]; its codes are whole numbers, uncompressed or
- * as JPEG without loss, and not rounded through a table; and its strips or tiles hold exactly as many of them, each
- * JPEG to its end. */
+/** Throws FileError unless all pixels of a raw file that is a TIFF are in the file. Other files are not checked. The
+ * strips and tiles that the directories of a TIFF list must be complete. A DNG must also have a directory that declares
+ * an image of \a width x \a height digital numbers [pixels], as LibRaw would read it. These are integers, uncompressed
+ * or as lossless JPEG, and not rounded by a table. Its strips or tiles hold exactly as many of them, each JPEG to its
+ * end. */
 SensorNoise_EXPORT void
 RequireWholeRawTiff(const std::string & file, FileBytes & bytes, std::uint64_t width, std::uint64_t height);
 
@@ -72,7 +71,7 @@ public:
 
   /** Copies the Width() x Height() digital numbers of the visible area, row by row, after Decode(). */
   void
-  CopyTo(unsigned short * codes) const;
+  CopyTo(unsigned short * greyValues) const;
 
   /** Returns the settings of the camera that the file records, after Decode(). */
   CameraSettings

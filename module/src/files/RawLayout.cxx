@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/RawLayout.h"
 
 #include "base/Text.h"
 #include "files/FileBytes.h"
 #include "files/FrameFormats.h"
-#include "files/FrameSizes.h"
 #include "files/FrameReader.h"
 #include "files/TextHeader.h"
 

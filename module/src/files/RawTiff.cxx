@@ -19,7 +19,7 @@ namespace
 {
 constexpr std::size_t   MaximumDirectories = 64;
 constexpr std::uint64_t Mosaic = 32803;    // value of PhotometricInterpretation
-constexpr std::uint64_t LinearRaw = 34892; // the same
+constexpr std::uint64_t LinearRaw = 34892; // another value of PhotometricInterpretation
 constexpr std::uint64_t LossyJpeg = 34892; // value of Compression
 constexpr std::uint64_t MaximumChunks = 1U << 20;
 
@@ -140,7 +140,7 @@ public:
   RequireWhole()
   {
     RequireStructureOnce();
-    RequireCodes();
+    RequireIntegers();
     const TiffChunks layout = ReadTiffChunks(m_Tags, m_Width, m_Height);
     if (layout.width > 65535 || layout.rows > 65535)
     {
@@ -169,7 +169,8 @@ public:
   }
 
 private:
-  /** PiDNG writes its version twice: it is only where and how codes lie that has to be there once. */
+  /** PiDNG writes its version twice. Only the tags with the place and the coding of the pixels have to be there once.
+   */
   void
   RequireStructureOnce() const
   {
@@ -185,7 +186,7 @@ private:
 
   /** Throws FileError unless the pixels are whole numbers, one for each pixel, stored without loss. */
   void
-  RequireCodes() const
+  RequireIntegers() const
   {
     const std::uint64_t samples = m_Tags.Number(277, "SamplesPerPixel", 1);
     if (m_Compression == LossyJpeg)

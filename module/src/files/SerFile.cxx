@@ -4,7 +4,6 @@
 
 #include "files/FileBytes.h"
 #include "files/FrameReader.h"
-#include "files/FrameSizes.h"
 #include "files/TextHeader.h"
 
 #include <algorithm>

@@ -29,15 +29,15 @@ struct TiffDirectory
 {
   std::uint64_t          offset{ 0 };
   std::uint64_t          bytes{ 0 }; // with the number of entries and the offset of the next directory
-  std::uint64_t          next{ 0 };  // where the next one is; 0: this is the last
+  std::uint64_t          next{ 0 };  // offset of the next directory; 0: this is the last
   std::vector<TiffEntry> entries{};
 
-  /** The entry of that tag; nothing where there is none. */
+  /** Returns the entry of the tag; null: the directory has none. */
   const TiffEntry *
   Find(unsigned tag) const;
 };
 
-/** The size of a value of that type; 0 where TIFF has no such type. [bytes] */
+/** Returns the size of a value of the type [bytes]; 0: TIFF has no such type. */
 std::size_t
 SizeOfTiffType(unsigned type);
 
@@ -129,7 +129,7 @@ private:
 class TiffTags
 {
 public:
-  /** \a page begins the errors. All three must live as long as this. */
+  /** Errors begin with \a page. All three arguments must outlive the object. */
   TiffTags(const std::string & page, TiffBytes & tiff, const TiffDirectory & directory)
     : m_Page(page)
     , m_Tiff(tiff)

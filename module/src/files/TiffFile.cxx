@@ -3,7 +3,6 @@
 #include "files/FrameFormats.h"
 
 #include "files/FrameReader.h"
-#include "files/FrameSizes.h"
 #include "files/TiffDirectory.h"
 #include "files/TiffPage.h"
 

@@ -6,7 +6,6 @@
 #include "files/FileBytes.h"
 #include "sensornoise/FrameFile.h"
 #include "files/FrameReader.h"
-#include "files/FrameSizes.h"
 #include "files/TiffDirectory.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/TiffPage.h"
 
-#include "files/FrameSizes.h"
+#include "files/FrameReader.h"
 
 #include <algorithm>
 #include <optional>
@@ -249,13 +249,14 @@ RequireSizeOfTiles(const TiffTags & tags, const TiffPage & page)
   }
 }
 
-/** As ITK's reader has it, which takes a resolution for pixels an inch or a centimetre, if the unit is said. */
+/** Returns the spacing of the pixels as ITK's reader does: from the resolution, in pixels per inch or per centimetre,
+ * if the file declares its unit [mm]. */
 std::array<double, 2>
 SpacingOf(const TiffTags & tags, TiffBytes & tiff, const TiffDirectory & directory)
 {
   const std::uint64_t unit = tags.Number(296, "ResolutionUnit", 1);
   const double        millimetres = unit == 2 ? 25.4 : unit == 3 ? 10.0 : 0.0;
-  // libtiff hands them on as float
+  // libtiff returns them as float
   const std::array<float, 2> resolution{ { static_cast<float>(tiff.Quotient(directory, 282)),
                                            static_cast<float>(tiff.Quotient(directory, 283)) } };
   if (millimetres == 0.0 || !(resolution[0] > 0.0F) || !(resolution[1] > 0.0F))

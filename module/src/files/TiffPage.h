@@ -97,7 +97,7 @@ private:
   TiffBytes::Numbers m_Counts;
 };
 
-/** How the strips or tiles of a TIFF are compressed. */
+/** Compression of the strips or tiles of a TIFF. */
 enum class TiffCompression
 {
   None,
@@ -115,7 +115,7 @@ struct TiffPage
   StoredNumber          stored{ StoredNumber::SameAsPixel };
   TiffCompression       compression{ TiffCompression::None };
   std::uint64_t         predictor{ 1 };
-  std::uint64_t         orientation{ 1 };        // 1 to 8: how a viewer turns the stored pixels
+  std::uint64_t         orientation{ 1 };        // 1 to 8: orientation in which a viewer shows the stored pixels
   bool                  isReduced{ false };      // a thumbnail or a mask, by NewSubfileType
   std::array<double, 2> spacing{ { 1.0, 1.0 } }; // pixel spacing along x and y [mm]; 1: not recorded
   TiffChunks            chunks{};                // its strips or tiles
@@ -157,7 +157,7 @@ public:
   AddDirectory(const std::string & page, const TiffDirectory & directory);
 
   /** Throws FileError unless all strips or tiles of the page lie within the file and give exactly the bytes of their
-   * rows; deflated ones with the right checksum, which the others do not have. */
+   * rows; deflated strips and tiles must also have the right checksum. */
   void
   CheckPage(const std::string & page, const TiffPage & found);
 

@@ -203,7 +203,7 @@ CheckCramerRaoInput(const CramerRaoInput & input)
   }
   if (!(input.TotalReadVarianceDn2() > 0.0))
   {
-    throw std::invalid_argument("read noise and rounding are both 0; a pixel without light needs some noise");
+    throw std::invalid_argument("read noise and rounding are both 0; a pixel without signal needs some noise");
   }
 }
 

@@ -21,23 +21,23 @@ struct MomentsConstants
    * so noisy, half of this factor makes the error of the gain 1.1 times as large, twice this factor 12 times. */
   double defectiveNoiseFactor{ 8.0 };
 
-  /** \name Pile-ups: saturation levels found from repeated extreme values */
+  /** \name Saturation levels found from repeated extreme values */
   ///@{
   /** Levels inside of the outermost level with which it is compared [levels]. Chosen empirically. */
   int levelsInsideClip{ 16 };
-  /** Least number of pixels on one level that make a pile-up. Chosen empirically. */
+  /** Least number of pixels that have a saturation level as their extreme. Chosen empirically. */
   std::size_t fewestPixelsOfClipLevel{ 8 };
-  /** A pile-up has more than this many times as many pixels as any of the levels inside [1]. Chosen empirically: noise
-   * alone stays below it. */
+  /** A saturation level has more than this many times as many pixels as any of the levels inside [1]. Chosen
+   * empirically: noise alone stays below it. */
   std::size_t clipLevelRatio{ 3 };
   /** Depth of the extremes, see ExtremeDepths, from which they are rare noise and no clip level [standard deviations].
    * Chosen empirically. */
   double largestClipDepth{ 2.5 };
-  /** Largest number of stray pixels (stuck or hot ones) beyond a pile-up, relative to the pixels of the pile-up [1].
-   * Chosen by design: a sensor whose pixels pass a level more often does not clip there. */
+  /** Largest number of stray pixels (stuck or hot ones) beyond a saturation level, relative to the pixels of that level
+   * [1]. Chosen by design: a sensor whose pixels pass a level more often does not clip there. */
   double largestStrayFraction{ 0.1 };
-  /** Least number of empty levels between a pile-up and the pixels beyond it, from which these pixels are stray
-   * [levels]. Chosen by design: the tail of a noise has no gap of this width. */
+  /** Least number of empty levels between a saturation level and the pixels beyond it, from which these pixels are
+   * stray [levels]. Chosen by design: the tail of a noise has no gap of this width. */
   int levelsOutsideClip{ 4 };
   ///@}
 
@@ -57,14 +57,15 @@ struct MomentsConstants
 
   /** \name Quantization steps */
   ///@{
-  /** Codes off the grid up to which codes are regular: a fraction of all codes [1], plus a number of codes. Chosen
-   * empirically. */
+  /** Digital numbers off the grid up to which digital numbers are regular: a fraction of all digital numbers [1], plus
+   * a number of digital numbers. Chosen empirically. */
   double largestOffGridFraction{ 0.02 };
-  double offGridCodes{ 2.0 };
+  double offGridNumbers{ 2.0 };
   /** Least number of levels of floating-point data that must lie on a grid: by chance one grid in 10^21 holds so many.
    */
   std::size_t fewestLevelsOfGrid{ 32 };
-  /** Largest distance of a level from the grid, relative to the step [1]. It allows for the rounding of scaled codes.
+  /** Largest distance of a level from the grid, relative to the step [1]. It allows for the rounding of scaled digital
+   * numbers.
    */
   double largestOffGrid{ 0.1 };
   /** Least step of the grid, in units of the last digit of the largest level [1]: with smaller steps nearly every level
@@ -73,17 +74,17 @@ struct MomentsConstants
   /** Quantile of the spacings of the outermost levels that is taken as their step [1]. Chosen empirically: some levels
    * are missing. */
   double stepQuantile{ 0.1 };
-  /** Least number of pixels of each of two neighbouring codes whose distance is used. Where codes have 8 pixels on
-   * average, a code between them has none with a probability of e^-8. */
-  std::uint32_t leastPixelsOfCode{ 8 };
+  /** Least number of pixels of each of two neighbouring digital numbers whose distance is used. Where digital numbers
+   * have 8 pixels on average, a number between them has none with a probability of e^-8. */
+  std::uint32_t leastPixelsPerNumber{ 8 };
   /** Least number of distances whose mean is a local step: rounding changes each distance, and also their sum, by at
    * most 1 DN. */
   std::size_t distancesPerStep{ 12 };
   /** Largest difference between a distance and the local median distance, relative to the median [1]; at least the unit
-   * of the codes is allowed. Where one code is missing, the distance is twice as large. */
+   * of the digital numbers is allowed. Where one number is missing, the distance is twice as large. */
   double largestRelativeDifference{ 0.4 };
-  /** Ratio of the largest to the smallest local step from which codes are companded [1]. Chosen empirically: where a
-   * smaller part of a tone curve is visible, the quantization noise differs by less than a fifth. */
+  /** Ratio of the largest to the smallest local step from which digital numbers are companded [1]. Chosen empirically:
+   * where a smaller part of a tone curve is visible, the quantization noise differs by less than a fifth. */
   double leastRatioOfSteps{ 1.1 };
   /** Least difference of these steps that rounding does not explain, in units of the effect of rounding on one step
    * [1]. Chosen empirically: both steps are rounded at both ends. */
@@ -101,8 +102,11 @@ struct MomentsConstants
   double leastUnclippedFraction{ 0.999 };
   /** Least number of usable pixels from which an offset is measured. Chosen empirically. */
   std::size_t fewestDarkPixels{ 30 };
-  /** A pixel that holds one code in all frames is stuck if the probability of this is lower [1]. Chosen empirically: of
-   * 10^6 normal pixels one is called stuck. */
+  /** Least number of dark frames in each half for a comparison of the mean levels. Chosen empirically: the
+   * differences of neighbours in shorter halves do not determine the noise of the levels. */
+  std::size_t fewestFramesOfHalf{ 3 };
+  /** A pixel that has the same value in all frames is stuck if the probability of this is lower [1]. Chosen
+   * empirically: of 10^6 normal pixels one is called stuck. */
   double chanceOfStuck{ 1e-6 };
   /** Distance of a pixel from the median beyond which the common level excludes it, in units of the distance between
    * the quantiles 0.16 and 0.84, two standard deviations [1]. Chosen empirically. */

@@ -4,7 +4,8 @@
 
 #include "sensornoise/Parallel.h"
 #include "sensornoise/FrameGeometry.h"
-#include "base/Quadrature.h"
+#include "base/ChiSquare.h"
+#include "base/Constants.h"
 #include "base/Quantiles.h"
 #include "moments/Constants.h"
 #include "base/Text.h"
@@ -161,6 +162,32 @@ DarkDrift::GetVarianceDn2(double pixelVarianceDn2) const
   return std::max(0.0, levels - pixelVarianceDn2 / m_LevelPixels);
 }
 
+double
+DarkDrift::GetMeanErrorDn(double pixelVarianceDn2) const
+{
+  const std::size_t frames = m_LevelsDn.size();
+  const double      varianceDn2 = this->GetVarianceDn2(pixelVarianceDn2);
+  const double      independent = varianceDn2 > 0.0 ? std::sqrt(varianceDn2 / static_cast<double>(frames)) : 0.0;
+  const std::size_t half = frames / 2;
+  if (half < InMoments.fewestFramesOfHalf)
+  {
+    return independent;
+  }
+  // A trend has no part in the differences of neighbours (von Neumann 1941).
+  double successive = 0.0;
+  double difference = 0.0;
+  for (std::size_t t = 0; t + 1 < frames; ++t)
+  {
+    successive += std::pow(m_LevelsDn[t + 1] - m_LevelsDn[t], 2) / (2.0 * static_cast<double>(frames - 1));
+  }
+  for (std::size_t t = 0; t < half; ++t)
+  {
+    difference += (m_LevelsDn[t] - m_LevelsDn[frames - 1 - t]) / static_cast<double>(half);
+  }
+  const double chance = 2.0 * successive / static_cast<double>(half);
+  return std::hypot(independent, 0.5 * SizeBeyondChance(difference, chance, Significance.oneTest));
+}
+
 #define SensorNoise_INSTANTIATE(TPixel) \
   template SensorNoise_EXPORT void DarkDrift::AddFrames<TPixel>(const TPixel *, std::size_t, const ParallelFor &)
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
@@ -173,7 +200,7 @@ namespace
 struct DarkSurvey
 {
   DarkMaps    maps;
-  CodeRange   codes;
+  DnRange     dnRange;
   std::size_t usable{ 0 };
   std::size_t clipped{ 0 };
 };
@@ -184,7 +211,7 @@ template <typename TPixel>
 DarkSurvey
 SurveyPixels(TemporalMaps<TPixel> &            ofStack,
              std::size_t                       frames,
-             const CodeSettings &              codes,
+             const DnSettings &                dnSettings,
              const std::vector<std::uint8_t> & mask,
              const ParallelFor &               parallelFor,
              const DarkDrift &                 drift)
@@ -196,10 +223,10 @@ SurveyPixels(TemporalMaps<TPixel> &            ofStack,
   DarkMaps &        maps = survey.maps;
   maps.frames = frames;
   maps.usable.resize(pixels);
-  survey.codes = SummariseStack<TPixel>(ofStack, codes, parallelFor, maps.usable.data()).codes;
+  survey.dnRange = SummariseStack<TPixel>(ofStack, dnSettings, parallelFor, maps.usable.data()).codes;
   maps.offsetDn = std::move(ofStack.mean);
   maps.varianceDn2 = std::move(ofStack.variance);
-  maps.stepDn = survey.codes.quantisationStepDn;
+  maps.stepDn = survey.dnRange.quantisationStepDn;
   for (std::size_t p = 0; p < pixels; ++p)
   {
     const bool isMasked = !mask.empty() && mask[p] == 0;
@@ -225,8 +252,8 @@ RequireDarkLevel(const DarkSurvey & survey)
   if (clippedFraction >
       std::max(InMoments.largestClippedFraction, 1.0 - std::pow(InMoments.leastUnclippedFraction, frames)))
   {
-    const CodeRange & range = survey.codes;
-    const auto        levelText = [](const std::optional<double> & level) { return level ? Text(*level) : "none"; };
+    const DnRange & range = survey.dnRange;
+    const auto      levelText = [](const std::optional<double> & level) { return level ? Text(*level) : "none"; };
     throw std::invalid_argument(PercentApart(clippedFraction, InMoments.largestClippedFraction) +
                                 " of the pixels of the dark frames reach a clip level, " + levelText(range.clipLowDn) +
                                 " or " + levelText(range.clipHighDn) +
@@ -257,10 +284,10 @@ UsableValues(const std::vector<double> & values, const std::vector<std::uint8_t>
   return used;
 }
 
-/** Returns the probability that a pixel of this noise holds one code in all frames, in the worst case: its level lies
- * on the code. */
+/** Returns the probability that a pixel of this noise holds the same value in all frames, in the worst case: its level
+ * lies on a digital number. */
 double
-ChanceOfOneCode(double noiseDn, double stepDn, double frames)
+ChanceOfConstantValue(double noiseDn, double stepDn, double frames)
 {
   return std::pow(std::erf(stepDn / (noiseDn * std::sqrt(8.0))), frames - 1.0);
 }
@@ -282,7 +309,7 @@ ExcludeDefective(DarkMaps & maps, const TemporalMaps<TPixel> & ofStack)
   const double limitDn2 = DefectiveVarianceDn2(medianDn2, dof);
   const double typicalDn = std::sqrt(medianDn2 / factor);
   const bool   mustChange =
-    ChanceOfOneCode(typicalDn, maps.stepDn, static_cast<double>(maps.frames)) < InMoments.chanceOfStuck;
+    ChanceOfConstantValue(typicalDn, maps.stepDn, static_cast<double>(maps.frames)) < InMoments.chanceOfStuck;
   std::size_t defective = 0;
   for (std::size_t p = 0; p < maps.usable.size(); ++p)
   {
@@ -319,14 +346,14 @@ MeanWithin(const std::vector<double> & values, double low, double high)
 template <typename TPixel>
 KnownOffset
 MeasureDarkFrames(TemporalMoments<TPixel>           moments,
-                  const CodeSettings &              codes,
+                  const DnSettings &                dnSettings,
                   const std::vector<std::uint8_t> & mask,
                   const ParallelFor &               parallelFor,
                   const DarkDrift &                 drift)
 {
   const std::size_t    frames = moments.GetNumberOfFrames();
   TemporalMaps<TPixel> ofStack = moments.TakeMaps(parallelFor);
-  DarkSurvey           survey = SurveyPixels<TPixel>(ofStack, frames, codes, mask, parallelFor, drift);
+  DarkSurvey           survey = SurveyPixels<TPixel>(ofStack, frames, dnSettings, mask, parallelFor, drift);
   RequireDarkLevel(survey);
   DarkMaps &          maps = survey.maps;
   std::vector<double> levels = UsableValues(maps.offsetDn, maps.usable);
@@ -336,6 +363,7 @@ MeasureDarkFrames(TemporalMoments<TPixel>           moments,
   const double        reach = InMoments.levelReach * std::max(high - low, maps.stepDn);
   const MeanOfPixels  level = MeanWithin(levels, median - reach, median + reach);
   double              spreadDn2 = 0.25 * (high - low) * (high - low);
+  double              driftErrorDn = 0.0;
   KnownOffset         dark;
   dark.valueDn = level.value;
   dark.darkFrames = maps.frames;
@@ -347,18 +375,18 @@ MeasureDarkFrames(TemporalMoments<TPixel>           moments,
     dark.variance = { mean.value, mean.standardError };
     dark.readNoiseMedian = MedianReadNoiseOf(variances, static_cast<double>(maps.frames) - 1.0, maps.stepDn);
     dark.driftVarianceDn2 = drift.GetVarianceDn2(mean.value);
+    driftErrorDn = drift.GetMeanErrorDn(mean.value);
     spreadDn2 += mean.value;
     dark.maps = std::make_shared<const DarkMaps>(std::move(maps));
   }
-  const double driftErrorDn = std::sqrt(dark.driftVarianceDn2 / static_cast<double>(dark.darkFrames));
   dark.standardErrorDn =
-    AddInQuadrature(level.standardError, driftErrorDn, RoundingErrorDn(survey.codes.quantisationStepDn, spreadDn2));
+    AddInQuadrature(level.standardError, driftErrorDn, RoundingErrorDn(survey.dnRange.quantisationStepDn, spreadDn2));
   return dark;
 }
 
 #define SensorNoise_INSTANTIATE(TPixel)                                                                \
   template SensorNoise_EXPORT KnownOffset MeasureDarkFrames<TPixel>(TemporalMoments<TPixel>,           \
-                                                                    const CodeSettings &,              \
+                                                                    const DnSettings &,                \
                                                                     const std::vector<std::uint8_t> &, \
                                                                     const ParallelFor &,               \
                                                                     const DarkDrift &)

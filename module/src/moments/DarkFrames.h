@@ -29,7 +29,7 @@ struct DarkMaps
                                            ///< quantization noise [DN^2]; NaN as above
   std::vector<std::uint8_t> usable;        ///< 0: not finite, clipped, masked or defective, see DefectiveVarianceDn2()
   std::size_t               frames{ 0 };   ///< number of frames; the degrees of freedom of a variance are one less
-  double                    stepDn{ 0.0 }; ///< quantization step [DN]; 0: the data have no codes
+  double                    stepDn{ 0.0 }; ///< quantization step [DN]; 0: the data have no digital numbers
 };
 
 /** Returns the ratio of the median of the variances of pixels with the same noise to their expectation [1].
@@ -42,8 +42,8 @@ MedianToMeanOfVariance(double dof)
 
 /** Returns the variance above which a pixel is defective [DN^2].
  *
- * The limit is the variance of InMoments.defectiveNoiseFactor times the typical noise, times 1 + 2/freedom. Of the
- * pixels whose noise is near the limit, some stay below it by chance and some exceed it; the excluded ones have the
+ * The limit is the variance of InMoments.defectiveNoiseFactor times the typical noise, times 1 + 2 / \a freedom. By
+ * chance, some pixels whose noise is near the limit stay below it, and some exceed it. The excluded pixels have the
  * larger variances. With this factor the gained and the lost variance are equal, exactly so where the density of the
  * true variances falls as their third power. For other tails they agree to some per cent of the variance near the
  * limit.
@@ -56,10 +56,10 @@ DefectiveVarianceDn2(double medianDn2, double dof)
   return InMoments.defectiveNoiseFactor * InMoments.defectiveNoiseFactor * typicalDn2 * (1.0 + 2.0 / dof);
 }
 
-/** Returns the largest shift by rounding to codes of the mean of values with the variance \a varianceDn2, quantization
- * noise included [DN]. It is step/pi exp(-2 pi^2 variance/step^2), the first harmonic, where the variance is without
- * quantization noise. The shift is negligible if the standard deviation is half a step or more. Without any noise the
- * shift is up to half a step, pi/2 times this value. */
+/** Returns the largest shift by rounding to digital numbers of the mean of values with the variance \a varianceDn2,
+ * quantization noise included [DN]. It is step/pi exp(-2 pi^2 variance/step^2), the first harmonic, where the variance
+ * is without quantization noise. The shift is negligible if the standard deviation is half a step or more. Without any
+ * noise the shift is up to half a step, pi/2 times this value. */
 inline double
 RoundingErrorDn(double stepDn, double varianceDn2)
 {
@@ -140,6 +140,12 @@ public:
   double
   GetVarianceDn2(double pixelVarianceDn2) const;
 
+  /** Returns the standard error that the drift adds to the mean level of the frames [DN]: the error of independent
+   * levels, and half the difference of the halves of the burst beyond chance, as of a level that settles.
+   * \param pixelVarianceDn2 as for GetVarianceDn2() */
+  double
+  GetMeanErrorDn(double pixelVarianceDn2) const;
+
 private:
   template <typename TPixel>
   double
@@ -179,7 +185,7 @@ MeanWithin(const std::vector<double> & values, double low, double high);
  * The offset is the mean of the temporal means of the pixels within 6 standard deviations of their median. (Half the
  * distance between the quantiles 0.16 and 0.84 is taken as a standard deviation.) Hot and dead pixels are thus
  * excluded. The standard error of the offset contains temporal noise, fixed-pattern noise, the drift of the common
- * level, and the error by rounding to codes of a level with hardly any noise.
+ * level, and the error by rounding to digital numbers of a level with hardly any noise.
  *
  * Two frames or more also yield the temporal variance of every pixel. The mean variance is over all pixels that are
  * not defective. It includes noisy pixels, because their noise is in the bright frames as well. A pixel is defective
@@ -196,7 +202,7 @@ MeanWithin(const std::vector<double> & values, double low, double high);
 template <typename TPixel>
 SensorNoise_EXPORT KnownOffset
 MeasureDarkFrames(TemporalMoments<TPixel>           moments,
-                  const CodeSettings &              codes = {},
+                  const DnSettings &                dnSettings = {},
                   const std::vector<std::uint8_t> & mask = {},
                   const ParallelFor &               parallelFor = SerialFor,
                   const DarkDrift &                 drift = {});
@@ -270,9 +276,9 @@ private:
  * taken.
  *
  * The standard error combines a jackknife over 20 groups of pixels, twice the change by further iterations, and the
- * error by rounding to codes. It was tested with equal pixels and with log-normal noise of standard deviation 0.3 to
- * 0.6, also with tails. For 8 frames the error is below 0.4 % if the noise is one code or more, and 2.5 % for noise of
- * 0.6 codes.
+ * error by rounding to digital numbers. It was tested with equal pixels and with log-normal noise of standard deviation
+ * 0.3 to 0.6, also with tails. For 8 frames the error is below 0.4 % if the noise is one quantization step or more,
+ * and 2.5 % for noise of 0.6 digital numbers.
  *
  * \param variancesDn2 variances of the pixels, quantization noise included [DN^2]
  * \param freedom degrees of freedom of a variance

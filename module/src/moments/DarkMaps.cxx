@@ -4,7 +4,6 @@
 
 #include "base/ChiSquare.h"
 #include "base/Constants.h"
-#include "base/Quadrature.h"
 #include "base/Quantiles.h"
 #include "moments/Constants.h"
 #include "sensornoise/Parallel.h"

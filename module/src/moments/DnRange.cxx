@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/Codes.h"
+#include "moments/StackMaps.h"
 
 #include "sensornoise/Settings.h"
 #include "base/Text.h"
@@ -22,10 +22,10 @@
 namespace sensornoise
 {
 
-CodeSettings
-MakeCodeSettings(unsigned int bitDepth, double clipLowDn, double clipHighDn, double quantisationStepDn)
+DnSettings
+MakeDnSettings(unsigned int bitDepth, double clipLowDn, double clipHighDn, double quantisationStepDn)
 {
-  CodeSettings settings;
+  DnSettings settings;
   if (bitDepth > 0)
   {
     settings.bitDepth = static_cast<int>(bitDepth);
@@ -46,13 +46,13 @@ MakeCodeSettings(unsigned int bitDepth, double clipLowDn, double clipHighDn, dou
 }
 
 void
-ValidateCodeSettings(const CodeSettings & codes)
+ValidateDnSettings(const DnSettings & settings)
 {
-  if (codes.bitDepth && (*codes.bitDepth < 1 || *codes.bitDepth > 16))
+  if (settings.bitDepth && (*settings.bitDepth < 1 || *settings.bitDepth > 16))
   {
-    throw std::invalid_argument("the bit depth is " + std::to_string(*codes.bitDepth) + "; expected 1 to 16");
+    throw std::invalid_argument("the bit depth is " + std::to_string(*settings.bitDepth) + "; expected 1 to 16");
   }
-  for (const std::optional<double> & level : { codes.clipLowDn, codes.clipHighDn })
+  for (const std::optional<double> & level : { settings.clipLowDn, settings.clipHighDn })
   {
     if (level && !(std::abs(*level) <= LargestLevelDn))
     {
@@ -60,14 +60,15 @@ ValidateCodeSettings(const CodeSettings & codes)
                                   Text(LargestLevelDn) + " DN of 0");
     }
   }
-  if (codes.clipLowDn && codes.clipHighDn && !(*codes.clipLowDn < *codes.clipHighDn))
+  if (settings.clipLowDn && settings.clipHighDn && !(*settings.clipLowDn < *settings.clipHighDn))
   {
-    throw std::invalid_argument("the clip levels are " + Text(*codes.clipLowDn) + " and " + Text(*codes.clipHighDn) +
-                                " DN; expected low < high");
+    throw std::invalid_argument("the clip levels are " + Text(*settings.clipLowDn) + " and " +
+                                Text(*settings.clipHighDn) + " DN; expected low < high");
   }
-  if (codes.quantisationStepDn && !(*codes.quantisationStepDn > 0.0 && *codes.quantisationStepDn <= LargestStepDn))
+  if (settings.quantisationStepDn &&
+      !(*settings.quantisationStepDn > 0.0 && *settings.quantisationStepDn <= LargestStepDn))
   {
-    throw std::invalid_argument("the quantization step is " + Text(*codes.quantisationStepDn) +
+    throw std::invalid_argument("the quantization step is " + Text(*settings.quantisationStepDn) +
                                 " DN; expected a positive number, at most " + Text(LargestStepDn));
   }
 }
@@ -75,10 +76,10 @@ ValidateCodeSettings(const CodeSettings & codes)
 namespace
 {
 
-/** Returns whether the extreme code \a end is a pile-up. \a inwards is -step at the upper end and +step at the lower
- * end [DN]. */
+/** Returns whether the extreme number \a end is a saturation level. \a inwards is -step at the upper end and +step at
+ * the lower end [DN]. */
 bool
-IsClipCode(const CodeHistogram & extremes, std::int32_t end, std::int32_t inwards)
+IsSaturationLevel(const DnHistogram & extremes, std::int32_t end, std::int32_t inwards)
 {
   std::uint32_t inside = 0;
   for (std::int32_t k = 1; k <= InMoments.levelsInsideClip; ++k)
@@ -88,66 +89,66 @@ IsClipCode(const CodeHistogram & extremes, std::int32_t end, std::int32_t inward
   return IsClipLevel(extremes.Count(end), inside);
 }
 
-/** Returns whether the extreme code \a end of companded data is a pile-up. Their codes are not evenly spaced, so that
- * it is compared with the next \a occupied codes inside. */
+/** Returns whether the extreme number \a end of companded data is a saturation level. Their digital numbers are not
+ * evenly spaced, so that it is compared with the next \a occupied digital numbers inside. */
 bool
-CompandedClipLevel(const CodeHistogram &             extremes,
+CompandedClipLevel(const DnHistogram &               extremes,
                    const std::vector<std::int32_t> & occupied,
                    std::int32_t                      end,
                    bool                              isHigh)
 {
   std::uint32_t inside = 0;
-  auto          code = std::lower_bound(occupied.begin(), occupied.end(), end);
+  auto          level = std::lower_bound(occupied.begin(), occupied.end(), end);
   for (int k = 1; k <= InMoments.levelsInsideClip; ++k)
   {
-    if (isHigh ? code == occupied.begin() : std::next(code) == occupied.end())
+    if (isHigh ? level == occupied.begin() : std::next(level) == occupied.end())
     {
       break;
     }
-    code += isHigh ? -1 : 1;
-    inside = std::max(inside, extremes.Count(*code));
+    level += isHigh ? -1 : 1;
+    inside = std::max(inside, extremes.Count(*level));
   }
   return IsClipLevel(extremes.Count(end), inside);
 }
 
-/** Returns the codes that are an extreme of a pixel, ascending. */
+/** Returns the digital numbers that are an extreme of a pixel, ascending. */
 std::vector<std::int32_t>
-OccupiedCodes(const CodeHistogram & minima, const CodeHistogram & maxima)
+OccupiedDn(const DnHistogram & minima, const DnHistogram & maxima)
 {
-  std::vector<std::int32_t>       codes = minima.Occupied();
+  std::vector<std::int32_t>       valuesDn = minima.Occupied();
   const std::vector<std::int32_t> upper = maxima.Occupied();
-  codes.insert(codes.end(), upper.begin(), upper.end());
-  std::sort(codes.begin(), codes.end());
-  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
-  return codes;
+  valuesDn.insert(valuesDn.end(), upper.begin(), upper.end());
+  std::sort(valuesDn.begin(), valuesDn.end());
+  valuesDn.erase(std::unique(valuesDn.begin(), valuesDn.end()), valuesDn.end());
+  return valuesDn;
 }
 
-std::vector<SeenCode>
-WithCounts(const std::vector<std::int32_t> & codes, const CodeHistogram & minima, const CodeHistogram & maxima)
+std::vector<DnCount>
+WithCounts(const std::vector<std::int32_t> & valuesDn, const DnHistogram & minima, const DnHistogram & maxima)
 {
-  std::vector<SeenCode> seen(codes.size());
-  std::transform(codes.begin(), codes.end(), seen.begin(), [&](std::int32_t code) {
-    return SeenCode{ code, minima.Count(code) + maxima.Count(code) };
+  std::vector<DnCount> seen(valuesDn.size());
+  std::transform(valuesDn.begin(), valuesDn.end(), seen.begin(), [&](std::int32_t valueDn) {
+    return DnCount{ valueDn, minima.Count(valueDn) + maxima.Count(valueDn) };
   });
   return seen;
 }
 
-/** Returns the greatest common divisor of all distances between the codes [DN]; at least 1. */
+/** Returns the greatest common divisor of all distances between the digital numbers [DN]; at least 1. */
 double
-CommonDivisor(const std::vector<std::int32_t> & codes)
+CommonDivisor(const std::vector<std::int32_t> & valuesDn)
 {
   std::int32_t divisor = 0;
-  for (const std::int32_t code : codes)
+  for (const std::int32_t valueDn : valuesDn)
   {
-    divisor = std::gcd(divisor, code - codes.front());
+    divisor = std::gcd(divisor, valueDn - valuesDn.front());
   }
   return std::max(divisor, 1);
 }
 
-/** Sets the bit depth, given or found, and returns the largest code [DN]. Throws std::invalid_argument if \a highest
- * exceeds it. */
+/** Sets the bit depth, given or found, and returns the largest digital number [DN]. Throws std::invalid_argument if \a
+ * highest exceeds it. */
 double
-SetBitDepth(std::int32_t highest, double step, const CodeSettings & settings, CodeRange & range)
+SetBitDepth(std::int32_t highest, double step, const DnSettings & settings, DnRange & range)
 {
   range.bitDepthSource = settings.bitDepth ? "given" : "data";
   range.bitDepth = settings.bitDepth.value_or(16);
@@ -171,24 +172,25 @@ SetBitDepth(std::int32_t highest, double step, const CodeSettings & settings, Co
 } // namespace
 
 std::int32_t
-FindEndOfCodes(const CodeHistogram & extremes, bool isHigh, double step)
+FindEndOfDnRange(const DnHistogram & extremes, bool isHigh, double step)
 {
-  std::vector<std::int32_t> codes = extremes.Occupied();
+  std::vector<std::int32_t> valuesDn = extremes.Occupied();
   const auto                stride = std::max<std::int32_t>(1, static_cast<std::int32_t>(step));
   if (isHigh)
   {
-    std::reverse(codes.begin(), codes.end());
+    std::reverse(valuesDn.begin(), valuesDn.end());
   }
   const std::int32_t inwards = isHigh ? -stride : stride;
-  std::int32_t       end = codes.front();
+  std::int32_t       end = valuesDn.front();
   double             beyond = extremes.Count(end);
-  for (std::size_t i = 1; i < codes.size(); ++i)
+  for (std::size_t i = 1; i < valuesDn.size(); ++i)
   {
-    const auto pixels = static_cast<double>(extremes.Count(codes[i]));
-    const bool isApart = std::abs(codes[i] - codes[i - 1]) > InMoments.levelsOutsideClip * stride;
-    if (isApart && beyond <= InMoments.largestStrayFraction * pixels && IsClipCode(extremes, codes[i], inwards))
+    const auto pixels = static_cast<double>(extremes.Count(valuesDn[i]));
+    const bool isApart = std::abs(valuesDn[i] - valuesDn[i - 1]) > InMoments.levelsOutsideClip * stride;
+    if (isApart && beyond <= InMoments.largestStrayFraction * pixels &&
+        IsSaturationLevel(extremes, valuesDn[i], inwards))
     {
-      end = codes[i];
+      end = valuesDn[i];
     }
     beyond += pixels;
   }
@@ -197,39 +199,39 @@ FindEndOfCodes(const CodeHistogram & extremes, bool isHigh, double step)
 
 namespace
 {
-/** The extremes of the pixels, and the quantities that decide whether they are evidence of clipping, see FindCodes().
+/** The extremes of the pixels, and the quantities that decide whether they are evidence of clipping, see FindDnRange().
  */
 struct Extremes
 {
-  const CodeHistogram &     minima;
-  const CodeHistogram &     maxima;
-  std::vector<std::int32_t> codes; ///< codes that occur, ascending
-  std::int32_t              low;   ///< ends of the codes, see FindEndOfCodes() [DN]
+  const DnHistogram &       minima;
+  const DnHistogram &       maxima;
+  std::vector<std::int32_t> occupied; ///< digital numbers that occur, ascending
+  std::int32_t              low;      ///< ends of the digital numbers, see FindEndOfDnRange() [DN]
   std::int32_t              high;
   double                    typicalVarianceDn2;
   const ExtremeDepths &     depths;
 };
 
-/** Returns whether an end of the codes is a pile-up. \a step is their quantization step [DN]. */
+/** Returns whether an end of the digital numbers is a saturation level. \a step is their quantization step [DN]. */
 bool
-IsClipEnd(const Extremes & extremes, bool isHigh, double step, const CodeSteps & steps)
+IsClipEnd(const Extremes & extremes, bool isHigh, double step, const QuantisationSteps & steps)
 {
-  const CodeHistogram & histogram = isHigh ? extremes.maxima : extremes.minima;
-  const std::int32_t    end = isHigh ? extremes.high : extremes.low;
-  const double          depth = isHigh ? extremes.depths.high : extremes.depths.low;
+  const DnHistogram & histogram = isHigh ? extremes.maxima : extremes.minima;
+  const std::int32_t  end = isHigh ? extremes.high : extremes.low;
+  const double        depth = isHigh ? extremes.depths.high : extremes.depths.low;
   if (steps.IsCompanded())
   {
     return IsClipEvidence(extremes.typicalVarianceDn2, steps.StepAt(end), depth) &&
-           CompandedClipLevel(histogram, extremes.codes, end, isHigh);
+           CompandedClipLevel(histogram, extremes.occupied, end, isHigh);
   }
   const auto stride = static_cast<std::int32_t>(step);
   return IsClipEvidence(extremes.typicalVarianceDn2, step, depth) &&
-         IsClipCode(histogram, end, isHigh ? -stride : stride);
+         IsSaturationLevel(histogram, end, isHigh ? -stride : stride);
 }
 
-/** Sets the clip levels, given or found. \a top is the largest code [DN]. */
+/** Sets the clip levels, given or found. \a top is the largest digital number [DN]. */
 void
-SetClipLevels(const Extremes & extremes, double step, double top, const CodeSettings & settings, CodeRange & range)
+SetClipLevels(const Extremes & extremes, double step, double top, const DnSettings & settings, DnRange & range)
 {
   const std::int32_t lowest = extremes.low;
   const std::int32_t highest = extremes.high;
@@ -240,8 +242,8 @@ SetClipLevels(const Extremes & extremes, double step, double top, const CodeSett
   if (!range.clipLowDn)
   {
     const bool found = lowest < highest && lowest != 0 && IsClipEnd(extremes, false, step, range.steps);
-    // Negative codes end where their integer type does, which is no level of the sensor.
-    const bool isSigned = extremes.codes.front() < 0;
+    // Negative digital numbers end where their integer type does, which is no level of the sensor.
+    const bool isSigned = extremes.occupied.front() < 0;
     range.clipLowDn = found ? std::optional<double>(lowest) : isSigned ? std::nullopt : std::optional<double>(0.0);
     lowSource = found ? "pile-up" : isSigned ? "none" : "code range";
   }
@@ -256,48 +258,51 @@ SetClipLevels(const Extremes & extremes, double step, double top, const CodeSett
 
 } // namespace
 
-CodeRange
-FindCodes(const CodeHistogram & minima,
-          const CodeHistogram & maxima,
-          double                typicalVarianceDn2,
-          const CodeSettings &  settings,
-          const ExtremeDepths & depths)
+DnRange
+FindDnRange(const DnHistogram &   minima,
+            const DnHistogram &   maxima,
+            double                typicalVarianceDn2,
+            const DnSettings &    settings,
+            const ExtremeDepths & depths)
 {
-  const std::vector<std::int32_t> codes = OccupiedCodes(minima, maxima);
-  if (codes.empty())
+  const std::vector<std::int32_t> valuesDn = OccupiedDn(minima, maxima);
+  if (valuesDn.empty())
   {
     throw std::invalid_argument("the stack holds no pixel");
   }
-  CodeRange range;
-  range.quantisationStepDn = FindQuantisationStep(codes, range.isRegular);
+  DnRange range;
+  range.quantisationStepDn = FindQuantisationStep(valuesDn, range.isRegular);
   if (settings.quantisationStepDn)
   {
     range.quantisationStepDn = *settings.quantisationStepDn;
   }
   else
   {
-    range.steps = FindCodeSteps(WithCounts(codes, minima, maxima));
+    range.steps = FindLocalSteps(WithCounts(valuesDn, minima, maxima));
   }
   double step = range.quantisationStepDn > 0.0 ? range.quantisationStepDn : 1.0;
   if (range.steps.IsCompanded())
   {
-    step = CommonDivisor(codes);
+    step = CommonDivisor(valuesDn);
     range.isRegular = true;
     range.quantisationStepDn = range.steps.GetTable().front().stepDn;
   }
-  const double   top = SetBitDepth(codes.back(), step, settings, range);
-  const Extremes extremes{
-    minima, maxima, codes, FindEndOfCodes(minima, false, step), FindEndOfCodes(maxima, true, step), typicalVarianceDn2,
-    depths
-  };
+  const double   top = SetBitDepth(valuesDn.back(), step, settings, range);
+  const Extremes extremes{ minima,
+                           maxima,
+                           valuesDn,
+                           FindEndOfDnRange(minima, false, step),
+                           FindEndOfDnRange(maxima, true, step),
+                           typicalVarianceDn2,
+                           depths };
   SetClipLevels(extremes, step, top, settings, range);
   return range;
 }
 
-CodeRange
-GivenCodes(const CodeSettings & settings)
+DnRange
+GivenDnRange(const DnSettings & settings)
 {
-  CodeRange range;
+  DnRange range;
   range.bitDepth = settings.bitDepth;
   range.bitDepthSource = settings.bitDepth ? "given" : "none";
   range.quantisationStepDn = settings.quantisationStepDn.value_or(0.0);
@@ -310,7 +315,8 @@ GivenCodes(const CodeSettings & settings)
 namespace
 {
 
-/** Returns whether the outermost of \a levels is a pile-up. \a stepDn is their spacing, if it is known [DN]. */
+/** Returns whether the outermost of \a levels is a saturation level. \a stepDn is their spacing, if it is known [DN].
+ */
 bool
 HasClipLevel(const OutermostLevels & levels, std::optional<double> stepDn, double typicalVarianceDn2, double depth)
 {
@@ -327,14 +333,14 @@ SourceOf(bool isGiven, bool isClipLevel)
 
 } // namespace
 
-CodeRange
+DnRange
 FindLevels(const OutermostLevels & minima,
            const OutermostLevels & maxima,
            double                  typicalVarianceDn2,
-           const CodeSettings &    settings,
+           const DnSettings &      settings,
            const ExtremeDepths &   depths)
 {
-  CodeRange range = GivenCodes(settings);
+  DnRange range = GivenDnRange(settings);
   if (minima.Pixels() > 0 && maxima.Pixels() > 0 && minima.Level() == maxima.Level())
   {
     return range;

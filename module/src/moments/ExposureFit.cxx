@@ -292,21 +292,21 @@ FitLine(ExposureFit & fit, const Levels & levels, const std::optional<double> & 
 }
 
 FitRange
-FindRange(ExposureFit & fit, const Levels & levels, const CodeRange & codes)
+FindRange(ExposureFit & fit, const Levels & levels, const DnRange & dnRange)
 {
   double largest = levels.front().meanDn;
   for (const ExposureLevel & level : levels)
   {
     largest = std::max(largest, level.meanDn);
   }
-  fit.saturationDn = codes.clipHighDn.value_or(largest);
-  fit.saturationSource = codes.clipHighDn ? codes.GetHighClipSource() : "largest level";
-  return { fit.saturationDn, codes.clipHighDn.has_value() };
+  fit.saturationDn = dnRange.clipHighDn.value_or(largest);
+  fit.saturationSource = dnRange.clipHighDn ? dnRange.GetHighClipSource() : "largest level";
+  return { fit.saturationDn, dnRange.clipHighDn.has_value() };
 }
 } // namespace
 
 ExposureFit
-FitExposures(const std::vector<ExposureLevel> & levels, const CodeRange & codes)
+FitExposures(const std::vector<ExposureLevel> & levels, const DnRange & dnRange)
 {
   ExposureFit fit;
   if (levels.empty())
@@ -323,7 +323,7 @@ FitExposures(const std::vector<ExposureLevel> & levels, const CodeRange & codes)
     fit.reason = FallingLevels;
     return fit;
   }
-  const FitRange        range = FindRange(fit, levels, codes);
+  const FitRange        range = FindRange(fit, levels, dnRange);
   const bool            hasDark = levels.front().exposure == 0.0;
   const Levels          bright(levels.begin() + (hasDark ? 1 : 0), levels.end());
   std::optional<double> darkDn;

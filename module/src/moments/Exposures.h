@@ -132,9 +132,9 @@ struct ExposureFit
  * parabola. Noise makes a mean of absolute values larger. The value is corrected by the mean square that the noise
  * adds. Estimator.md, 3.8, has the derivation.
  *
- * \a levels are in rising order of different exposures; \a codes holds the clip levels. */
+ * \a levels are in rising order of different exposures; \a dnRange holds the clip levels. */
 SensorNoise_EXPORT ExposureFit
-FitExposures(const std::vector<ExposureLevel> & levels, const CodeRange & codes);
+FitExposures(const std::vector<ExposureLevel> & levels, const DnRange & dnRange);
 
 /** Fits the levels of a stack with these \a maps, see FindExposureLevels(). Null: no exposures were given. */
 SensorNoise_EXPORT std::optional<ExposureFit>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/Codes.h"
+#include "moments/StackMaps.h"
 
 #include "moments/Constants.h"
 #include "base/Quantiles.h"
@@ -18,22 +18,22 @@
 namespace sensornoise
 {
 
-CodeHistogram::CodeHistogram()
-  : m_Counts(LowestCode + 65536, 0)
+DnHistogram::DnHistogram()
+  : m_Counts(RoomBelowZero + 65536, 0)
 {}
 
 std::vector<std::int32_t>
-CodeHistogram::Occupied() const
+DnHistogram::Occupied() const
 {
-  std::vector<std::int32_t> codes;
+  std::vector<std::int32_t> valuesDn;
   for (std::size_t i = 0; i < m_Counts.size(); ++i)
   {
     if (m_Counts[i] > 0)
     {
-      codes.push_back(static_cast<std::int32_t>(i) - LowestCode);
+      valuesDn.push_back(static_cast<std::int32_t>(i) - RoomBelowZero);
     }
   }
-  return codes;
+  return valuesDn;
 }
 
 void
@@ -71,7 +71,7 @@ std::size_t
 OutermostLevels::MostInside(Counts::const_iterator end, double stepDn) const
 {
   std::size_t most = 0;
-  // Half a step more: spacings of rescaled codes differ in the last digits.
+  // Half a step more: spacings of rescaled digital numbers differ in the last digits.
   const double reach = end->first - (InMoments.levelsInsideClip + 0.5) * stepDn;
   for (auto level = std::next(end); level != m_Counts.end() && level->first >= reach; ++level)
   {
@@ -100,13 +100,13 @@ OutermostLevels::LeaveOutStray(double stepDn)
 }
 
 double
-FindQuantisationStep(const std::vector<std::int32_t> & codes, bool & regular)
+FindQuantisationStep(const std::vector<std::int32_t> & valuesDn, bool & regular)
 {
   regular = true;
   std::map<std::int32_t, std::size_t> spacings;
-  for (std::size_t i = 1; i < codes.size(); ++i)
+  for (std::size_t i = 1; i < valuesDn.size(); ++i)
   {
-    ++spacings[codes[i] - codes[i - 1]];
+    ++spacings[valuesDn[i] - valuesDn[i - 1]];
   }
   const auto majority = std::max_element(
     spacings.begin(), spacings.end(), [](const auto & a, const auto & b) { return a.second < b.second; });
@@ -115,9 +115,9 @@ FindQuantisationStep(const std::vector<std::int32_t> & codes, bool & regular)
     return 1.0;
   }
   std::int32_t step = majority->first;
-  if (2 * majority->second < codes.size())
+  if (2 * majority->second < valuesDn.size())
   {
-    // No majority: few codes, far apart. The greatest common divisor of all spacings is a step.
+    // No majority: few digital numbers, far apart. The greatest common divisor of all spacings is a step.
     step = 0;
     for (const auto & spacing : spacings)
     {
@@ -125,17 +125,17 @@ FindQuantisationStep(const std::vector<std::int32_t> & codes, bool & regular)
     }
   }
   std::map<std::int32_t, std::size_t> remainders;
-  for (const std::int32_t code : codes)
+  for (const std::int32_t valueDn : valuesDn)
   {
-    ++remainders[((code % step) + step) % step];
+    ++remainders[((valueDn % step) + step) % step];
   }
   std::size_t onGrid = 0;
   for (const auto & remainder : remainders)
   {
     onGrid = std::max(onGrid, remainder.second);
   }
-  regular = static_cast<double>(codes.size() - onGrid) <=
-            InMoments.largestOffGridFraction * static_cast<double>(codes.size()) + InMoments.offGridCodes;
+  regular = static_cast<double>(valuesDn.size() - onGrid) <=
+            InMoments.largestOffGridFraction * static_cast<double>(valuesDn.size()) + InMoments.offGridNumbers;
   return step;
 }
 
@@ -145,23 +145,23 @@ namespace
  */
 constexpr std::size_t StepsInTable = 256;
 
-/** Distance between two neighbouring codes. */
-struct CodeDistance
+/** Distance between two neighbouring digital numbers. */
+struct DnDistance
 {
   double levelDn; ///< halfway between them
   double stepDn;
 };
 
-std::vector<CodeDistance>
-DistancesOf(const std::vector<SeenCode> & codes)
+std::vector<DnDistance>
+DistancesOf(const std::vector<DnCount> & counts)
 {
-  std::vector<CodeDistance> distances;
-  for (std::size_t i = 1; i < codes.size(); ++i)
+  std::vector<DnDistance> distances;
+  for (std::size_t i = 1; i < counts.size(); ++i)
   {
-    if (std::min(codes[i - 1].pixels, codes[i].pixels) >= InMoments.leastPixelsOfCode)
+    if (std::min(counts[i - 1].pixels, counts[i].pixels) >= InMoments.leastPixelsPerNumber)
     {
-      distances.push_back(
-        { 0.5 * (codes[i - 1].code + codes[i].code), static_cast<double>(codes[i].code - codes[i - 1].code) });
+      distances.push_back({ 0.5 * (counts[i - 1].valueDn + counts[i].valueDn),
+                            static_cast<double>(counts[i].valueDn - counts[i - 1].valueDn) });
     }
   }
   return distances;
@@ -169,10 +169,10 @@ DistancesOf(const std::vector<SeenCode> & codes)
 
 /** Returns the greatest common divisor of all distances [DN]. */
 double
-UnitOf(const std::vector<CodeDistance> & distances)
+UnitOf(const std::vector<DnDistance> & distances)
 {
   std::int32_t unit = 0;
-  for (const CodeDistance & distance : distances)
+  for (const DnDistance & distance : distances)
   {
     unit = std::gcd(unit, static_cast<std::int32_t>(distance.stepDn));
   }
@@ -182,11 +182,11 @@ UnitOf(const std::vector<CodeDistance> & distances)
 /** Quantization step as a linear function of the level, from some neighbouring distances. */
 struct Stretch
 {
-  CodeSteps::Local middle{};
-  double           slope{ 0.0 };    ///< change of the step with the level [1]
-  double           addedDn2{ 0.0 }; ///< variance added by rounding to the unit after the codes were expanded [DN^2]
+  QuantisationSteps::Local middle{};
+  double                   slope{ 0.0 }; ///< change of the step with the level [1]
+  double addedDn2{ 0.0 }; ///< variance added by rounding to the unit after the digital numbers were expanded [DN^2]
 
-  CodeSteps::Local
+  QuantisationSteps::Local
   At(double levelDn) const
   {
     const double stepDn = std::max(0.0, middle.stepDn + slope * (levelDn - middle.levelDn));
@@ -194,13 +194,13 @@ struct Stretch
   }
 };
 
-/** Fits a Stretch to \a count distances. Where they differ, the codes were rounded to the unit after they were
- * expanded, which adds noise. */
+/** Fits a Stretch to \a count distances. Where they differ, the digital numbers were rounded to the unit after they
+ * were expanded, which adds noise. */
 Stretch
-StretchOf(const CodeDistance * first, std::size_t count, double unitDn)
+StretchOf(const DnDistance * first, std::size_t count, double unitDn)
 {
   std::vector<double> steps(count);
-  std::transform(first, first + count, steps.begin(), [](const CodeDistance & distance) { return distance.stepDn; });
+  std::transform(first, first + count, steps.begin(), [](const DnDistance & distance) { return distance.stepDn; });
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(steps.begin(), middle, steps.end());
   const double median = *middle;
@@ -233,7 +233,7 @@ StretchOf(const CodeDistance * first, std::size_t count, double unitDn)
 /** Returns whether the steps differ by more than rounding explains for equal steps. A few steps at either end of the
  * sorted table are ignored. */
 bool
-Differ(const std::vector<CodeSteps::Local> & table, double unitDn)
+Differ(const std::vector<QuantisationSteps::Local> & table, double unitDn)
 {
   std::vector<double> steps(table.size());
   std::transform(table.begin(), table.end(), steps.begin(), [](const auto & local) { return local.stepDn; });
@@ -247,13 +247,13 @@ Differ(const std::vector<CodeSteps::Local> & table, double unitDn)
 }
 } // namespace
 
-CodeSteps::CodeSteps(std::vector<Local> table, double unitDn)
+QuantisationSteps::QuantisationSteps(std::vector<Local> table, double unitDn)
   : m_Table(std::move(table))
   , m_UnitDn(unitDn)
 {}
 
 double
-CodeSteps::Interpolate(double levelDn, double Local::* value) const
+QuantisationSteps::Interpolate(double levelDn, double Local::* value) const
 {
   if (m_Table.empty())
   {
@@ -271,14 +271,14 @@ CodeSteps::Interpolate(double levelDn, double Local::* value) const
   return low.*value + fraction * (high.*value - low.*value);
 }
 
-CodeSteps
-FindCodeSteps(const std::vector<SeenCode> & codes)
+QuantisationSteps
+FindLocalSteps(const std::vector<DnCount> & counts)
 {
-  const std::vector<CodeDistance> distances = DistancesOf(codes);
-  const double                    unit = UnitOf(distances);
-  const std::size_t               count = std::max(InMoments.distancesPerStep, 4 * distances.size() / StepsInTable);
-  std::vector<CodeSteps::Local>   table;
-  std::vector<Stretch>            ends;
+  const std::vector<DnDistance> distances = DistancesOf(counts);
+  const double                  unit = UnitOf(distances);
+  const std::size_t             count = std::max(InMoments.distancesPerStep, 4 * distances.size() / StepsInTable);
+  std::vector<QuantisationSteps::Local> table;
+  std::vector<Stretch>                  ends;
   for (std::size_t first = 0; first + count <= distances.size(); first += count / 4)
   {
     const Stretch stretch = StretchOf(distances.data() + first, count, unit);
@@ -291,11 +291,11 @@ FindCodeSteps(const std::vector<SeenCode> & codes)
   }
   if (table.empty() || !Differ(table, unit))
   {
-    return CodeSteps();
+    return QuantisationSteps();
   }
   table.insert(table.begin(), ends.front().At(std::min(distances.front().levelDn, table.front().levelDn - unit)));
   table.push_back(ends.back().At(std::max(distances.back().levelDn, table.back().levelDn + unit)));
-  return CodeSteps(std::move(table), unit);
+  return QuantisationSteps(std::move(table), unit);
 }
 
 } // namespace sensornoise

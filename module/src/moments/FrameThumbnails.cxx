@@ -67,7 +67,7 @@ struct RunSums
  * compiled to SIMD instructions. */
 template <typename TPixel>
 RunSums
-SumCodes(const TPixel * from, std::size_t count)
+SumIntegers(const TPixel * from, std::size_t count)
 {
   std::int64_t  sum = 0;
   std::uint64_t steps = 0;
@@ -117,7 +117,7 @@ SumRun(const TPixel * from, const std::uint8_t * mask, std::size_t count)
   {
     if (mask == nullptr)
     {
-      return SumCodes(from, count);
+      return SumIntegers(from, count);
     }
   }
   return SumUsable(from, mask, count);

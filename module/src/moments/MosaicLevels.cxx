@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/MosaicLevels.h"
+#include "moments/StackMaps.h"
 
 #include "moments/Constants.h"
 
@@ -108,7 +108,7 @@ LevelsOfBlocks(const TPixel * frame, std::size_t width, std::size_t height, cons
   blocks.resize(columns * rows);
   const std::vector<double> window = MakeWindow(size);
   parallelFor(rows, [&](std::size_t row) {
-    const std::size_t   top = row * size;           // of the block's neighbours
+    const std::size_t   top = row * size;           // first row of the neighbours of the block
     std::vector<double> levels((size + 2) * width); // a copy of the whole frame would take longer than the comparison
     std::copy(frame + top * width, frame + top * width + levels.size(), levels.begin());
     for (std::size_t column = 0; column < columns; ++column)

@@ -152,8 +152,8 @@ ForChosenFrames(const TPixel *                    frames,
 }
 
 /** \class DistinctFrames
- * \brief The frames of a stack that are counted. Of equal frames only the first one, the original, is counted; frames
- * that are left out are not.
+ * \brief The frames of a stack that are counted: the first frame, the original, of each set of equal frames. Frames
+ * that are left out are not counted.
  *
  * All later computations use the distinct frames only, numbered by their place among each other. */
 class SensorNoise_EXPORT DistinctFrames

@@ -8,7 +8,6 @@
 #include "base/Quantiles.h"
 #include "sensornoise/StepResults.h"
 #include "sensornoise/Settings.h"
-#include "moments/Codes.h"
 #include "moments/Constants.h"
 #include "moments/TemporalMoments.h"
 
@@ -43,12 +42,12 @@ struct StackEnd
   }
 };
 
-/** Both ends of a stack, over the pixels that are finite; the order of adding has no effect. */
+/** Lowest and highest levels of a stack, over the finite pixels. The order in which pixels are added has no effect. */
 struct StackEnds
 {
   StackEnd low;
   StackEnd high;
-  bool     areWhole{ true }; ///< all extremes are whole numbers that CodeHistogram has room for
+  bool     areWhole{ true }; ///< all extremes are whole numbers that DnHistogram has room for
 
   /** Adds the pixels [begin, end). */
   template <typename TPixel>
@@ -61,7 +60,7 @@ struct StackEnds
       {
         low.Add(-maps.GetMinimum(p), 1);
         high.Add(maps.GetMaximum(p), 1);
-        areWhole = areWhole && CodeHistogram::IsCode(maps.GetMinimum(p)) && CodeHistogram::IsCode(maps.GetMaximum(p));
+        areWhole = areWhole && DnHistogram::Accepts(maps.GetMinimum(p)) && DnHistogram::Accepts(maps.GetMaximum(p));
       }
     }
   }
@@ -142,16 +141,16 @@ TypicalVariance(const TemporalMaps<TPixel> & maps)
   return variances.empty() ? 0.0 : Quantile(variances, 0.5);
 }
 
-/** Finds the codes of a stack of integers, from the extremes of every finite pixel. */
+/** Finds the digital numbers of a stack of integers, from the extremes of every finite pixel. */
 template <typename TPixel>
-CodeRange
-FindCodesOfWhole(const TemporalMaps<TPixel> & maps, const CodeSettings & settings, const ParallelFor & parallelFor)
+DnRange
+FindDnRangeOfIntegers(const TemporalMaps<TPixel> & maps, const DnSettings & settings, const ParallelFor & parallelFor)
 {
-  CodeHistogram minima;
-  CodeHistogram maxima;
+  DnHistogram   minima;
+  DnHistogram   maxima;
   ExtremeDepths depths;
   ForAll(2, parallelFor, [&](std::size_t isHigh) {
-    CodeHistogram & extremes = isHigh == 1 ? maxima : minima;
+    DnHistogram & extremes = isHigh == 1 ? maxima : minima;
     for (std::size_t p = 0; p < maps.GetNumberOfPixels(); ++p)
     {
       if (maps.IsFinite(p))
@@ -162,27 +161,27 @@ FindCodesOfWhole(const TemporalMaps<TPixel> & maps, const CodeSettings & setting
     const auto   end = isHigh == 1 ? OutermostLevels::End::High : OutermostLevels::End::Low;
     bool         isRegular = true;
     const double step = settings.quantisationStepDn.value_or(FindQuantisationStep(extremes.Occupied(), isRegular));
-    const double level = FindEndOfCodes(extremes, isHigh == 1, step);
+    const double level = FindEndOfDnRange(extremes, isHigh == 1, step);
     (isHigh == 1 ? depths.high : depths.low) = MedianDepth(maps, end, { isHigh == 1 ? level : -level, 0 });
   });
-  CodeRange codes = FindCodes(minima, maxima, TypicalVariance(maps), settings, depths);
-  if (!settings.clipLowDn && codes.clipLowDn == 0.0 && minima.Count(0) > 0 &&
-      AreCountsFromZero(maps, std::max(1.0, codes.quantisationStepDn)))
+  DnRange dnRange = FindDnRange(minima, maxima, TypicalVariance(maps), settings, depths);
+  if (!settings.clipLowDn && dnRange.clipLowDn == 0.0 && minima.Count(0) > 0 &&
+      AreCountsFromZero(maps, std::max(1.0, dnRange.quantisationStepDn)))
   {
     // Counts have no value below 0, so that none is clipped there, and counts are not rounded.
-    codes.clipLowDn.reset();
-    codes.SetClipSources("none", codes.clipSource == "code range" ? "code range" : "pile-up");
-    codes.quantisationStepDn = settings.quantisationStepDn.value_or(0.0);
+    dnRange.clipLowDn.reset();
+    dnRange.SetClipSources("none", dnRange.clipSource == "code range" ? "code range" : "pile-up");
+    dnRange.quantisationStepDn = settings.quantisationStepDn.value_or(0.0);
   }
   // A signed 16-bit number ends at 32767, for any bit depth.
   const double largest = std::numeric_limits<TPixel>::max();
-  codes.clipHighDn = std::min(codes.clipHighDn.value_or(largest), largest);
-  return codes;
+  dnRange.clipHighDn = std::min(dnRange.clipHighDn.value_or(largest), largest);
+  return dnRange;
 }
 
-/** Returns the spacing of the levels of a floating-point stack whose codes were multiplied by one number [DN]; 0: there
- * is none. It is found if all of some thousand minima of pixels lie on one grid. A grid that is not much wider than
- * the last digits of the type is the grid of the type itself. */
+/** Returns the spacing of the levels of a floating-point stack whose digital numbers were multiplied by one number
+ * [DN]; 0: there is none. It is found if all of some thousand minima of pixels lie on one grid. A grid that is not much
+ * wider than the last digits of the type is the grid of the type itself. */
 template <typename TPixel>
 double
 FindStepOfFloating(const TemporalMaps<TPixel> & maps)
@@ -225,8 +224,8 @@ FindStepOfFloating(const TemporalMaps<TPixel> & maps)
 
 /** Finds the clip levels of a floating-point stack, from the extremes of every finite pixel. */
 template <typename TPixel>
-CodeRange
-FindLevelsOfFloating(const TemporalMaps<TPixel> & maps, const CodeSettings & settings, const ParallelFor & parallelFor)
+DnRange
+FindLevelsOfFloating(const TemporalMaps<TPixel> & maps, const DnSettings & settings, const ParallelFor & parallelFor)
 {
   const double    stepDn = settings.quantisationStepDn.value_or(FindStepOfFloating(maps));
   OutermostLevels minima(OutermostLevels::End::Low);
@@ -243,7 +242,7 @@ FindLevelsOfFloating(const TemporalMaps<TPixel> & maps, const CodeSettings & set
       (isHigh == 1 ? depths.high : depths.low) = MedianDepth(maps, end, { outwards, levels.Pixels() });
     }
   });
-  CodeRange range = FindLevels(minima, maxima, TypicalVariance(maps), settings, depths);
+  DnRange range = FindLevels(minima, maxima, TypicalVariance(maps), settings, depths);
   range.quantisationStepDn = stepDn;
   return range;
 }
@@ -269,10 +268,10 @@ FindEnds(const TemporalMaps<TPixel> & maps, const ParallelFor & parallelFor)
 
 } // namespace
 
-CodeRange
-StackSummary::AttainedCodes() const
+DnRange
+StackSummary::AttainedRange() const
 {
-  CodeRange attained = codes;
+  DnRange attained = codes;
   attained.clipLowDn = clippedLow > 0 ? codes.clipLowDn : std::nullopt;
   attained.clipHighDn = clippedHigh > 0 ? codes.clipHighDn : std::nullopt;
   return attained;
@@ -281,17 +280,17 @@ StackSummary::AttainedCodes() const
 template <typename TPixel>
 StackSummary
 SummariseStack(const TemporalMaps<TPixel> & maps,
-               const CodeSettings &         settings,
+               const DnSettings &           settings,
                const ParallelFor &          parallelFor,
                std::uint8_t *               valid)
 {
   const std::size_t pixels = maps.GetNumberOfPixels();
   const StackEnds   ends = FindEnds(maps, parallelFor);
   StackSummary      summary;
-  // Integers are codes, even if they are stored as floating-point numbers.
-  const bool areCodes = std::is_integral_v<TPixel> || (ends.high.pixels > 0 && ends.areWhole);
-  summary.codes =
-    areCodes ? FindCodesOfWhole(maps, settings, parallelFor) : FindLevelsOfFloating(maps, settings, parallelFor);
+  // Integers are digital numbers, even if they are stored as floating-point numbers.
+  const bool areIntegers = std::is_integral_v<TPixel> || (ends.high.pixels > 0 && ends.areWhole);
+  summary.codes = areIntegers ? FindDnRangeOfIntegers(maps, settings, parallelFor)
+                              : FindLevelsOfFloating(maps, settings, parallelFor);
 
   std::vector<StackSummary> counts((pixels + PixelsPerBlock - 1) / PixelsPerBlock);
   ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
@@ -320,7 +319,7 @@ SummariseStack(const TemporalMaps<TPixel> & maps,
 
 template <typename TPixel>
 StackMaps
-MakeStackMaps(TemporalMoments<TPixel> moments, const CodeSettings & settings, const ParallelFor & parallelFor)
+MakeStackMaps(TemporalMoments<TPixel> moments, const DnSettings & settings, const ParallelFor & parallelFor)
 {
   TemporalMaps<TPixel> ofStack = moments.TakeMaps(parallelFor);
   StackMaps            maps;
@@ -333,13 +332,13 @@ MakeStackMaps(TemporalMoments<TPixel> moments, const CodeSettings & settings, co
 
 #define SensorNoise_INSTANTIATE(TPixel)                            \
   template SensorNoise_EXPORT StackSummary SummariseStack<TPixel>( \
-    const TemporalMaps<TPixel> &, const CodeSettings &, const ParallelFor &, std::uint8_t *)
+    const TemporalMaps<TPixel> &, const DnSettings &, const ParallelFor &, std::uint8_t *)
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 #undef SensorNoise_INSTANTIATE
 
 #define SensorNoise_INSTANTIATE(TPixel)                        \
   template SensorNoise_EXPORT StackMaps MakeStackMaps<TPixel>( \
-    TemporalMoments<TPixel>, const CodeSettings &, const ParallelFor &)
+    TemporalMoments<TPixel>, const DnSettings &, const ParallelFor &)
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 #undef SensorNoise_INSTANTIATE
 

@@ -41,8 +41,8 @@ public:
   void
   SetCountedElsewhere(const std::vector<std::uint8_t> & areCountedElsewhere);
 
-  /** Registers the fingerprints of frame \a first and those that follow. Returns 1 for the frames that are to be
-   * counted, as they equal none that was counted before, and 0 for the others. */
+  /** Registers the fingerprints of frame \a first and of the following frames. Returns 1 for the frames that are
+   * counted, because they differ from all frames that were counted before, and 0 for the others. */
   std::vector<std::uint8_t>
   Add(std::size_t first, const std::vector<BytesFingerprint> & fingerprints);
 

@@ -44,8 +44,8 @@ public:
   /** See StackMethod. */
   static constexpr unsigned int NumberOfPasses = 3;
 
-  /** Sets the layout of the pixels of the frames to come; without it, the frames are stored one after the other. To be
-   * called once, before the first pass ends. */
+  /** Sets the layout of the pixels of the frames that are added. By default, frames are stored one after the other.
+   * Call this once, before the first pass ends. */
   void
   SetLayout(const PixelLayout & layout)
   {
@@ -162,7 +162,7 @@ public:
   {
     return FindUnlikeFrames(m_Thumbnails);
   }
-  /** Sets the frames that the first pass leaves out, in ascending order, instead of those that FindUnlike() returns. */
+  /** Sets the frames that the first pass leaves out, in ascending order, instead of the result of FindUnlike(). */
   void
   LeaveOut(std::vector<LeftOutFrame> frames)
   {

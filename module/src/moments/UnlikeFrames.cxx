@@ -62,7 +62,7 @@ IsEmpty(FrameFault fault)
 }
 
 /** Returns whether so few of the frames are left out that the others are the burst. Empty frames are not part of a
- * burst, however many they are. Of the other frames at most the fraction \a fraction may be left out [1]. */
+ * burst, however many they are. At most the fraction \a fraction of the other frames may be left out [1]. */
 bool
 AreFew(const Faults & faults, std::size_t frames, double fraction)
 {

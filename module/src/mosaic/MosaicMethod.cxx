@@ -6,7 +6,7 @@
 #include "mosaic/MosaicGeometry.h"
 #include "mosaic/MosaicPasses.h"
 #include "published/PublishedPasses.h"
-#include "refined/MemoryNeed.h"
+#include "refined/PixelProjections.h"
 #include "refined/RefinedPasses.h"
 
 #include <limits>

@@ -7,7 +7,7 @@
 #include "sensornoise/Parallel.h"
 #include "moments/FrameThumbnails.h"
 #include "mosaic/MosaicGeometry.h"
-#include "mosaic/PlaneWork.h"
+#include "base/ParallelWork.h"
 #include "sensornoise/Report.h"
 
 #include <algorithm>
@@ -152,7 +152,7 @@ public:
     }
     if constexpr (TMethod::HasManySums)
     {
-      // If some planes need one reading more than others, their passes differ, and rows do not take turns.
+      // If some planes need one reading more than others, their passes differ, and all rows are processed in one pass.
       const auto isReady = [](const TMethod & method) { return method.IsBeforeProjections(); };
       if (m_ManySums && std::all_of(m_Methods.begin(), m_Methods.end(), isReady))
       {
@@ -276,7 +276,7 @@ private:
   PlaneWork               m_Work;
   std::vector<TMethod>    m_Methods;
   MosaicGeometry          m_Geometry;
-  std::optional<ManySums> m_ManySums;   // none: rows do not take turns
+  std::optional<ManySums> m_ManySums;   // none: all rows are processed in one pass
   std::size_t             m_First{ 0 }; // planes of the current pass
   std::size_t             m_Last{ BayerPlanes.size() };
 };

@@ -3,7 +3,7 @@
 #include "page/Comparison.h"
 
 #include "page/PageSections.h"
-#include "page/SvgPanel.h"
+#include "page/Figures.h"
 #include "report/ReportParts.h"
 #include "sensornoise/Version.h"
 

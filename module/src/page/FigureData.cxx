@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page/Figures.h"
 
+#include "base/ChiSquare.h"
 #include "page/PageSections.h"
 #include "report/JsonWriter.h"
 #include "report/ReportParts.h"
@@ -103,6 +104,15 @@ RelativeErrorOfBin(const Report & report, std::size_t count)
   return std::sqrt(ofPixel / static_cast<double>(count));
 }
 
+/** Returns the relative standard error of the variance of a level set of \a count detail coefficients [1]; NaN for
+ * none. The coefficients of one image replace the frames of a burst. */
+double
+RelativeErrorOfLevelSet(std::size_t count)
+{
+  return count == 0 ? std::numeric_limits<double>::quiet_NaN()
+                    : std::sqrt(TruncatedVariance / static_cast<double>(count));
+}
+
 /** Returns the error of the mean of a bin [DN], caused by the noise of the pixel means that decide on the bin. It is
  * the standard error of the mean of one pixel, times the dark fraction of the variance. Photon noise is skewed: it
  * moves mean and variance of a pixel together along the line, and adds no residual. \a expected: variance of the line
@@ -147,8 +157,12 @@ AddCurve(FigureData & data, const Report & report)
       continue;
     }
     const double expected = line->gain * mean + line->intercept;
-    const double ofVariance = std::abs(expected) * RelativeErrorOfBin(report, scatter.count[i]);
-    const double error = std::hypot(ofVariance, line->gain * ErrorOfLevel(report, std::abs(expected), dark));
+    const double relative =
+      data.isOfLevelSets ? RelativeErrorOfLevelSet(scatter.count[i]) : RelativeErrorOfBin(report, scatter.count[i]);
+    const double ofVariance = std::abs(expected) * relative;
+    // The details of white noise are uncorrelated with the approximation, which decides on the level set.
+    const double ofLevel = data.isOfLevelSets ? 0.0 : ErrorOfLevel(report, std::abs(expected), dark);
+    const double error = std::hypot(ofVariance, line->gain * ofLevel);
     if (ofVariance > 0.0 && std::isfinite(error))
     {
       data.meanResiduals.push_back(mean);

@@ -3,7 +3,6 @@
 #include "page/Figures.h"
 
 #include "base/Text.h"
-#include "page/SvgPanel.h"
 
 #include <algorithm>
 #include <cmath>

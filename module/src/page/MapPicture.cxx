@@ -134,7 +134,7 @@ constexpr std::array UseKinds{
   UseKind{ PixelUse::NearClip, "near a clip level", { 230, 159, 0 } },
   UseKind{ PixelUse::NotStatic, "something moves", { 0, 114, 178 } },
   UseKind{ PixelUse::Outlier, "noise of its own", { 204, 121, 167 } },
-  UseKind{ PixelUse::CoarseCodes, "quantization too coarse", { 86, 180, 233 } },
+  UseKind{ PixelUse::CoarseQuantisation, "quantization too coarse", { 86, 180, 233 } },
   UseKind{ PixelUse::OutsideRange, "outside the level range", { 240, 228, 66 } },
   UseKind{ PixelUse::Edge, "edge of filtered frames", { 60, 20, 90 } },
   UseKind{ PixelUse::MaskedBorder, "masked border of the sensor", { 120, 80, 40 } },

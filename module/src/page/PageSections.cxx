@@ -3,7 +3,7 @@
 #include "page/PageSections.h"
 
 #include "base/Text.h"
-#include "page/SvgPanel.h"
+#include "page/Figures.h"
 #include "report/ReportParts.h"
 #include "sensornoise/ReportText.h"
 #include "sensornoise/Version.h"
@@ -278,7 +278,8 @@ SettingsTable(const Report & report)
   if (report.clipLowDn && report.clipHighDn)
   {
     add("clip levels",
-        Text(*report.clipLowDn) + " and " + Text(*report.clipHighDn) + " DN (" + report.clipSource + ")");
+        Text(*report.clipLowDn) + " and " + Text(*report.clipHighDn) + " DN (" + DescribeClipSource(report.clipSource) +
+          ")");
   }
   for (const auto & [name, value] : report.settings)
   {

@@ -128,12 +128,12 @@ SeverityOf(const ChannelReports & reports);
 /** Message of a warning in two parts, as sentences of plain text. */
 struct WarningParts
 {
-  std::string finding; ///< what was found, and why it matters
-  std::string action;  ///< what to do; "" for a note that needs no action
+  std::string finding; ///< observation, and why it matters
+  std::string action;  ///< command to the user
 };
 
 /** Divides the message of a warning. The action is its last sentences that begin with a command, or a command behind
- * its last colon. Without one, a warning or error gets the action of WarningTable. */
+ * its last colon. Without one, the warning gets the action of WarningTable. */
 WarningParts
 SplitWarning(const Warning & warning);
 

@@ -144,7 +144,7 @@ SeriesAndNoise(const Report & report)
                  report.noiseCorrelation ? report.noiseCorrelation->kind : "",
                  FigureOrSentence(CorrelationFigure(data),
                                   "Correlation coefficient of the noise of pixels x columns and y rows apart, or of "
-                                  "frames. Of many lags, those that differ most from 0."));
+                                  "frames. If there are many lags, the figure has the lags that differ most from 0."));
 }
 
 std::string

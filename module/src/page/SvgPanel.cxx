@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "page/SvgPanel.h"
+#include "page/Figures.h"
 
 #include "base/Text.h"
 #include "page/PageSections.h"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page/PageSections.h"
 
+#include "base/Text.h"
 #include "sensornoise/ReportText.h"
 
 #include <algorithm>
@@ -65,10 +66,10 @@ SeverityOf(const ChannelReports & reports)
 namespace
 {
 /** First words of the actions in WarningTable and in the messages of both methods. */
-constexpr std::array<const char *, 22> Commands{ "Change ",  "Check ",   "Choose ", "Correct ", "Expose ", "Fit ",
-                                                 "Give ",    "Include ", "Keep ",   "Leave ",   "Let ",    "Look ",
-                                                 "Measure ", "Open ",    "Read ",   "Record ",  "Reduce ", "Set ",
-                                                 "Switch ",  "Try ",     "Use ",    "Wait " };
+constexpr std::array<const char *, 24> Commands{ "Change ", "Check ", "Choose ",  "Close ",   "Correct ", "Cover ",
+                                                 "Expose ", "Fit ",   "Give ",    "Include ", "Keep ",    "Leave ",
+                                                 "Let ",    "Look ",  "Measure ", "Open ",    "Read ",    "Record ",
+                                                 "Reduce ", "Set ",   "Switch ",  "Try ",     "Use ",     "Wait " };
 
 bool
 IsCommand(const std::string & sentence)
@@ -213,7 +214,7 @@ BoxOf(Severity severity, const std::vector<Warning> & warnings, const std::strin
   return Box(severity, links.empty() ? "Measured, without warnings" : "Measured; these effects are allowed for", links);
 }
 
-/** Returns the findings of a group and then its actions, each action once. */
+/** Returns the findings of a group and then its actions, each action once, with signs in UTF-8. */
 std::string
 Paragraphs(const WarningGroup & group)
 {
@@ -221,7 +222,7 @@ Paragraphs(const WarningGroup & group)
   std::string actions;
   for (const Warning & warning : group)
   {
-    const WarningParts parts = SplitWarning(warning);
+    const WarningParts parts = SplitWarning({ warning.code, WithSigns(warning.message) });
     findings += "<p>" + Unbroken(WithCode(parts.finding)) + "</p>";
     const std::string action = "<p><span class=\"word\">Do:</span> " + WithCode(parts.action) + "</p>";
     actions += parts.action.empty() || actions.find(action) != std::string::npos ? "" : action;
@@ -242,8 +243,7 @@ SplitWarning(const Warning & warning)
              SentenceText(warning.message.substr(begin)) };
   }
   const std::string sentence = kind.sentence;
-  return { SentenceText(warning.message),
-           kind.severity == Severity::Note ? "" : SentenceText(sentence.substr(BeginOfAction(sentence))) };
+  return { SentenceText(warning.message), SentenceText(sentence.substr(BeginOfAction(sentence))) };
 }
 
 std::string

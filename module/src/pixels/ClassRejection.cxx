@@ -31,14 +31,15 @@ constexpr std::size_t FlatClasses = Classes / 2;
 enum ClassSum : std::size_t
 {
   Pixels,
+  Above,         // outliers above the model: motion adds variance, and takes none
   Kept,          // pixels that are no outliers
   Weight,        // weights of kept pixels
   WeightedRatio, // variance over the model, times the weight
   SquaredErrors, // sampling variance and dispersion of the weighted ratios
   WeightedLevel, // level over the model, times the weight: the change of the ratio with the gain of the model
   WeightedOne,   // one over the model, times the weight: the change of the ratio with its intercept
-  // Sums for the slope of a line through the kept pixels: of w, the inverse sampling variance, times products of x, the
-  // pixel's mean above the model's pivot, and z, the mean of the neighbours.
+  // Sums for the slope of a line through the kept pixels. A term is the weight w, the inverse sampling variance, times
+  // a product of x and z. x is the mean of the pixel above the pivot of the model, and z is the mean of the neighbours.
   SlopeW,
   SlopeWX,
   SlopeWZ,
@@ -84,6 +85,7 @@ SumClasses(const ProjectedVariance &         projected,
       {
         double * own = sums + ClassSums * projected.ClassOf(first + i);
         own[Pixels] += 1.0;
+        own[Above] += run.isAbove[i];
         if (run.isOff[i] == 0.0)
         {
           own[Kept] += 1.0;
@@ -114,7 +116,7 @@ SumClasses(const ProjectedVariance &         projected,
 struct ClassTable
 {
   std::array<double, Classes> kept{};       // number of pixels without outliers
-  std::array<double, Classes> outliers{};   // fraction of outliers [1]
+  std::array<double, Classes> outliers{};   // fraction of outliers above the model [1]
   std::array<double, Classes> excess{};     // mean of variance over model, relative to the flat classes, minus 1 [1]
   std::array<double, Classes> chance{};     // standard error of the excess by sampling [1]
   std::array<double, Classes> error{};      // standard error of the excess, by the error of the model, too [1]
@@ -135,11 +137,11 @@ MakeTable(const SumsOfClasses & sums, const Eigen::Matrix2d & covariance, std::v
   for (std::size_t c = 0; c < Classes; ++c)
   {
     const double * own = sums.data() + ClassSums * c;
-    ratio.push_back(own[WeightedRatio] / std::max(1e-30, own[Weight]));
+    ratio.push_back(own[WeightedRatio] / std::max(smallestDivisor, own[Weight]));
     table.kept[c] = own[Kept];
-    table.outliers[c] = 1.0 - own[Kept] / std::max(1.0, own[Pixels]);
+    table.outliers[c] = own[Above] / std::max(1.0, own[Pixels]);
     table.chance[c] = std::sqrt(own[SquaredErrors]) / std::max(1.0, own[Kept]);
-    change[c] = Eigen::Vector2d(own[WeightedLevel], own[WeightedOne]) / std::max(1e-30, own[Weight]);
+    change[c] = Eigen::Vector2d(own[WeightedLevel], own[WeightedOne]) / std::max(smallestDivisor, own[Weight]);
     if (c < FlatClasses)
     {
       reference += own[Kept] * ratio[c];
@@ -175,6 +177,18 @@ FirstBadClass(const ClassTable & table)
     }
   }
   return Classes;
+}
+
+/** Returns whether the roughest class is below the model. */
+bool
+IsRoughestBelow(const ClassTable & table)
+{
+  std::size_t roughest = Classes - 1;
+  while (roughest > InPixels.firstTestedClass && !(table.kept[roughest] > 0.0))
+  {
+    --roughest;
+  }
+  return table.excess[roughest] < -std::max(Significance.oneTest * table.error[roughest], InPixels.leastDeviation);
 }
 
 /** Returns the variance of the slope of a line through the classes 0 ... \a end - 1, by instrumental variables as the
@@ -234,6 +248,7 @@ TestClasses(const ProjectedVariance &         projected,
     fit.pixels.push_back(sums[ClassSums * c + Pixels]);
   }
   const ClassTable table = MakeTable(sums, line.line.covariance, fit.ratio);
+  fit.isBelowModel = IsRoughestBelow(table);
   fit.firstBad = FirstBadClass(table);
   if (fit.firstBad < Classes && line.line.gain > 0.0)
   {

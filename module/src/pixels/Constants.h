@@ -77,9 +77,9 @@ struct PixelsConstants
    * to 2 %, and its pixels are of about one level. */
   static constexpr std::size_t rejectionTileSide{ 16 }; // a constant expression: the size of arrays
   double                       leastPixelsOfRejectionTile{ 64.0 };
-  /** Number of tiles that suffice. Of twice as many or more every second tile is used, of three times as many every
-   * third, and so on. Chosen empirically: the medians at 16 levels are known to 0.2 %. Half and twice this number
-   * change no gain of 1024 x 1024 pixels by more than 0.05 of its error. */
+  /** Number of tiles that suffice. Every second tile is used if there are twice as many or more, every third if there
+   * are three times as many, and so on. Chosen empirically: the medians at 16 levels are known to 0.2 %. Half and twice
+   * this number change no gain of 1024 x 1024 pixels by more than 0.05 of its error. */
   std::size_t enoughRejectionTiles{ 1024 };
   /** Largest number of levels, and smallest number of tiles at each level. Chosen empirically. */
   std::size_t mostRejectionLevels{ 16 };
@@ -150,12 +150,12 @@ struct PixelsConstants
   double negligiblePattern{ 0.25 };
   ///@}
 
-  /** \name Noise of companded codes */
+  /** \name Noise of companded digital numbers */
   ///@{
   /** Relative uncertainty of the quantization noise [1]. Chosen empirically on data companded by square roots, powers
    * and logarithms to 8 and 10 bits, at four gains. A scene of few levels left 0 to 6 % of this noise in the slope
    * where the quantization step is as large as the noise; a texture left less. */
-  double errorOfCodeNoise{ 0.05 };
+  double errorOfQuantisationNoise{ 0.05 };
   /** Error of the variance at one level because the expanded digital numbers are rounded to their unit, relative to the
    * unit times the square root of noise and step [1]. Chosen empirically on charts whose darkest patch has one
    * level. */
@@ -199,6 +199,10 @@ struct PatternConstants
   /** Dispersion of the lines of tiles about one zero, above 1, that counts in the error alone, however significant it
    * is [1]. Chosen by its effect: it widens the error by 12 %. */
   double smallDispersion{ 0.25 };
+  /** Least excess of what the derivatives explain in single tiles, relative to chance, that is motion of their own [1].
+   * Chosen empirically, on bursts in which half of the scene sways by 0.05 pixels,
+   * and on bursts under two lamps. */
+  double leastLocalMotion{ 0.1 };
   /** Limits for local illumination to be a drift of the offset: side of a tile [pixel], largest chi-square about one
    * line, relative to the number of tiles [1], and the smallest chi-square that the line explains,
    * relative to that chi-square [1]. Chosen empirically. */
@@ -265,8 +269,8 @@ struct StepConstants
   /** Fraction of its size that a step must keep beside a parabola [1]; a smooth non-linearity keeps nothing. Chosen
    * empirically. */
   double leastBesideCurve{ 0.5 };
-  /** Smallest number of bins on either side of a step. Chosen empirically: fewer bins do not determine a line. */
-  std::size_t leastBins{ 4 };
+  /** Smallest number of bins on either side of a step, whose slope both sides share. A single bin may be an outlier. */
+  std::size_t leastBins{ 2 };
   /** Half width, in standard deviations of the noise, of the interval about the step in which pixels do not count,
    * because they are of either amplifier in some frames [1]. Beyond it, fewer than 5 % of a pixel's values are of the
    * other amplifier. */

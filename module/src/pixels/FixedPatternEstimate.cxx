@@ -65,7 +65,7 @@ struct Square
   RelativeRoughness(std::size_t chooser, double blackDn) const
   {
     const double signalDn = half[chooser].level - blackDn;
-    return this->Roughness(chooser) / std::max(1e-12, signalDn * signalDn);
+    return this->Roughness(chooser) / std::max(smallestDivisor, signalDn * signalDn);
   }
 };
 
@@ -213,13 +213,16 @@ EstimateFixedPattern(const ReferenceFrame & frame,
     std::min(squares.size(),
              std::max(InPattern.fewestPatternTiles,
                       static_cast<std::size_t>(InPattern.flattestFraction * static_cast<double>(squares.size()))));
+  // Tiles at the black level do not determine the pattern of the gain. A guard against division by 0.
+  constexpr double leastSignal = 1e-6; // relative to the standard deviation of the levels
+  const double     leastDn = leastSignal * std::sqrt(pattern.levelVarianceDn2);
   // Each half measures once, so that a mirrored frame has the same pattern.
   double gainSquare = 0.0;
   double offsetSquareDn2 = 0.0;
   for (const std::size_t chooser : { 0, 1 })
   {
     const auto   measured = [&](const Square & square) -> const HalfTile & { return square.half[1 - chooser]; };
-    const auto   fluxOf = [&](const Square & square) { return std::max(1e-6, measured(square).level - blackDn); };
+    const auto   fluxOf = [&](const Square & square) { return std::max(leastDn, measured(square).level - blackDn); };
     const auto   relative = [&](const Square & square) { return square.RelativeRoughness(chooser, blackDn); };
     const auto   roughness = [&](const Square & square) { return square.Roughness(chooser); };
     const double gain = UpperMean(

@@ -26,8 +26,8 @@ StandardDeviationsOf(double chi2, double dof)
   return (std::cbrt(chi2 / dof) - 1.0 + s) / std::sqrt(s);
 }
 
-/** Returns the standard deviations of chi-square by which the \a count coefficients from \a first on differ from those
- * of a uniform sensor: for a smooth field, all except the constant are 0; for parts, all are equal. */
+/** Returns the standard deviations of chi-square by which the \a count coefficients from \a first on differ from the
+ * coefficients of a uniform sensor: for a smooth field, all except the constant are 0; for parts, all are equal. */
 double
 SignificanceOf(const PartRegression & fit, Eigen::Index first, Eigen::Index count)
 {
@@ -165,7 +165,7 @@ IsClearlyDark(const PartRegression & fit, const std::vector<TileExcess> & tiles,
   return fit.darks > 1 && criterion < uniform && !AreLevelsBetter(tiles, scale, criterion);
 }
 
-/** Returns the fit of the lowest criterion among those that \a isMeant accepts; null: none is below \a limit. */
+/** Returns the fit with the lowest criterion among the fits that \a isMeant accepts; null: none is below \a limit. */
 template <typename TFunction>
 const PartRegression *
 FindLowest(const std::vector<PartRegression> & fits,

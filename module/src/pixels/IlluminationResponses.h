@@ -13,6 +13,9 @@
 #include <optional>
 #include <vector>
 
+/** \file
+ * The level at which the lines of many tiles cross zero together. */
+
 namespace sensornoise
 {
 
@@ -35,6 +38,22 @@ struct IlluminationResponses
 
 /** Terms of a surface in a tile: 1 and I, the mean minus the centre, and both times the place (x, y) in the tile. */
 using Surface = Eigen::Matrix<double, 6, 1>;
+
+/** Number of the terms of a surface whose coefficients vary linearly over a tile, and of one whose coefficients are
+ * also curved. */
+inline constexpr int LinearTerms = Surface::SizeAtCompileTime;
+inline constexpr int CurvedTerms = 2 * LinearTerms;
+
+/** Terms of a curved surface: the terms of Surface, then x^2, x y and y^2, and then these times I. */
+using CurvedSurface = Eigen::Matrix<double, CurvedTerms, 1>;
+
+/** Returns the terms of \a linear, and the same times the place \a x, \a y of second order. */
+inline CurvedSurface
+WithCurvature(const Surface & linear, double x, double y)
+{
+  const Eigen::Vector3d second(x * x, x * y, y * y);
+  return (CurvedSurface() << linear, second * linear(0), second * linear(1)).finished();
+}
 
 /** Division of the frame into tiles within which local illumination has one pattern. */
 struct Tiles
@@ -67,12 +86,21 @@ struct Tiles
   }
 };
 
-/** Returns a map of the responses to each illumination component, without the part that motion leaked into them by
- * chance [DN]. They are 0 outside the mask. The leakage is kappa_k times the derivatives, with kappa common to the
- * frame. It is estimated against lines in the mean that are free in every 8 x 8 tile and whose coefficients vary
- * linearly over it (Frisch & Waugh 1933), so that local illumination does not bias it. Even derivatives resemble the
- * mean locally, so their leakage would shift the offset. */
-SensorNoise_EXPORT std::vector<std::vector<double>>
+/** Responses of the pixels without motion. */
+struct ResponsesWithoutMotion
+{
+  std::vector<std::vector<double>> responses; ///< a map for each illumination component [DN]; 0 outside the mask
+  /** Whether the derivatives along x and y explain more of the responses in single tiles than chance does: parts of the
+   * scene move by themselves, and no tile determines an offset. */
+  bool isMotionLocal{ false };
+};
+
+/** Returns the responses to each illumination component, without the part that motion leaked into them by chance. The
+ * leakage is kappa_k times the derivatives, with kappa common to the frame. It is estimated against lines in the mean
+ * that are free in every 8 x 8 tile and whose coefficients vary linearly over it (Frisch & Waugh 1933), so that local
+ * illumination does not bias it. Even derivatives resemble the mean locally, so their leakage would shift the offset.
+ */
+SensorNoise_EXPORT ResponsesWithoutMotion
 RemoveMotionLeakage(const IlluminationResponses & data, const ParallelFor & parallelFor);
 
 /** Dark offset from the responses of the pixels to the illumination components. */
@@ -90,15 +118,17 @@ struct LocalOffset
   bool        doLinesMeet{ false }; ///< whether they cross zero at one level, up to a small dispersion
 };
 
-/** Estimates the dark offset where the illumination is local. The response of a pixel to an illumination component is
- * S_j = rho_j (mean - mu), with rho_j nearly linear or quadratic over a tile. Without the slopes and curvature of
- * rho_j, the lines of all tiles and components cross zero at mu. Tiles of 8 to 64 pixels and strips of rows are tried.
- * Linear terms do not suffice where curvature is significant. Where rho_j varies even more within tiles, their lines do
- * not meet in one zero. Of the fits whose lines meet, the one with the smallest error is used that agrees with the fits
- * of larger errors (Lepski 1990). The dispersion of the lines widens the error. Null if no tile determines a line.
- * Estimator.md, 3.7. */
+/** Estimates the dark offset where the illumination is local, from \a responses without motion. The response of a pixel
+ * to an illumination component is S_j = rho_j (mean - mu), with rho_j nearly linear or quadratic over a tile. Without
+ * the slopes and curvature of rho_j, the lines of all tiles and components cross zero at mu. Tiles of 8 to 64 pixels
+ * and strips of rows are tried. Linear terms do not suffice where curvature is significant. Where rho_j varies even
+ * more within tiles, their lines do not meet in one zero. Among the fits whose lines meet, the fit with the smallest
+ * error is used that agrees with the fits of larger errors (Lepski 1990). The dispersion of the lines widens the error.
+ * Null if no tile determines a line. Estimator.md, 3.7. */
 SensorNoise_EXPORT std::optional<LocalOffset>
-FindLocalOffset(const IlluminationResponses & data, const ParallelFor & parallelFor = SerialFor);
+FindLocalOffset(const IlluminationResponses &            data,
+                const std::vector<std::vector<double>> & responses,
+                const ParallelFor &                      parallelFor = SerialFor);
 
 /** Sums that give the standard deviation over time of local illumination for any offset. */
 struct SensorNoise_EXPORT LocalFlicker
@@ -124,6 +154,52 @@ SumLocalFlicker(const IlluminationResponses & data);
  * offset drifts, and there is no second light source that changes. */
 SensorNoise_EXPORT bool
 IsOffsetDrift(const IlluminationResponses & data);
+
+/** Sums for the lines of a tile in which the illumination may have gradients, one for each response. They are the Gram
+ * matrix of 1 and I, the mean minus the centre, corrected for the noise of the means, and for each response z the sums
+ * r1 = sum w z and r2 = sum w I z.
+ */
+struct TileLines
+{
+  double              g11{ 0.0 };
+  double              g12{ 0.0 };
+  double              g22{ 0.0 };
+  std::vector<double> r1;
+  std::vector<double> r2;
+
+  double
+  Determinant() const
+  {
+    return g11 * g22 - g12 * g12;
+  }
+  /** Returns the inverse variance of the slope of a line that crosses zero at \a m. */
+  double
+  Precision(double m) const
+  {
+    return g22 - 2.0 * m * g12 + m * m * g11;
+  }
+};
+
+/** Returns the sum of squares of the responses that lines through zero at \a m explain. */
+double
+Explained(const std::vector<TileLines> & tiles, double m);
+
+/** Returns the zero that explains most, within \a range of \a start. */
+double
+FindCommonZero(const std::vector<TileLines> & tiles, double start, double range);
+
+/** Sums for the error of a common zero. */
+struct ZeroErrors
+{
+  double full{ 0.0 };        ///< sum of squares that free lines explain
+  double information{ 0.0 }; ///< information on the zero [1/DN^2]
+  double scatter{ 0.0 };     ///< variance of this information [1/DN^4]
+  double number{ 0.0 };      ///< number of lines
+};
+
+/** Returns the sums for the error of the common zero \a zero. */
+ZeroErrors
+SumErrors(const std::vector<TileLines> & tiles, double zero);
 
 } // namespace sensornoise
 

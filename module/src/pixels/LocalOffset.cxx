@@ -6,8 +6,8 @@
 #include "base/Eigen.h"
 #include "base/Constants.h"
 #include "sensornoise/Parallel.h"
-#include "pixels/CommonZero.h"
 #include "pixels/Constants.h"
+#include "pixels/ProjectionSums.h"
 #include "pixels/VarianceLine.h"
 #include "scene/ReferenceFrame.h"
 
@@ -42,8 +42,11 @@ FitTiles(const std::vector<TileLines> & tiles, const IlluminationResponses & dat
   const double top = Explained(tiles, result.offset);
   result.phi = errors.number > 1.0 ? (errors.full - top) / (errors.number - 1.0) : 1.0;
   const double widening = std::max(1.0, result.phi);
-  result.doLinesMeet =
-    result.phi - 1.0 < std::max(InPattern.smallDispersion, Significance.oneTest * std::sqrt(2.0 / errors.number));
+  // A few lines that disperse twice as much as by chance do not meet, either. Where the noise of the means explains
+  // more than all, the lines have no meaning.
+  const double chance = Significance.oneTest * std::sqrt(2.0 / errors.number);
+  result.doLinesMeet = result.phi - 1.0 < std::max(InPattern.smallDispersion, std::min(1.0, chance)) &&
+                       1.0 - result.phi < std::max(1.0 + InPattern.smallDispersion, chance);
   result.standardError = std::sqrt(widening / information);
   const double far =
     std::max(Explained(tiles, start - 20.0 * data.rangeDn), Explained(tiles, start + 20.0 * data.rangeDn));
@@ -56,28 +59,12 @@ FitTiles(const std::vector<TileLines> & tiles, const IlluminationResponses & dat
   return result;
 }
 
-/** Number of the terms of a surface whose coefficients vary linearly over a tile, and of one whose coefficients are
- * also curved. */
-constexpr int Linear = Surface::SizeAtCompileTime;
-constexpr int Curved = 2 * Linear;
-
-/** Terms of a curved surface: those of Surface, then x^2, x y and y^2, and then these times I. */
-using CurvedSurface = Eigen::Matrix<double, Curved, 1>;
-
-/** Returns the terms of \a linear, and the same times the place \a x, \a y of second order. */
-CurvedSurface
-WithCurvature(const Surface & linear, double x, double y)
-{
-  const Eigen::Vector3d second(x * x, x * y, y * y);
-  return (CurvedSurface() << linear, second * linear(0), second * linear(1)).finished();
-}
-
 /** Sums over a tile of the products of the terms of its surface, and of these terms with each response. */
 struct TileMoments
 {
-  double                                n{ 0.0 };
-  Eigen::Matrix<double, Curved, Curved> gram{ Eigen::Matrix<double, Curved, Curved>::Zero() };
-  std::vector<CurvedSurface>            products;
+  double                                          n{ 0.0 };
+  Eigen::Matrix<double, CurvedTerms, CurvedTerms> gram{ Eigen::Matrix<double, CurvedTerms, CurvedTerms>::Zero() };
+  std::vector<CurvedSurface>                      products;
 
   /** Returns the sums of 1 and I after the regression of both on the other terms of the first \a terms (Frisch & Waugh
    * 1933). Null if the contrast of the tile does not determine I x and I y: they differ from x and y by no more than
@@ -155,12 +142,13 @@ SumTiles(const IlluminationResponses &            data,
 bool
 IsCurvedWithin(const std::vector<TileMoments> & tiles, double zero, bool areStrips)
 {
-  const Eigen::Index                    known = Linear / 2 + (areStrips ? 1 : 0); // 1, x, y, and y^2 in strips
-  const Eigen::Index                    tested = Linear - known;
-  Eigen::Matrix<double, Curved, Linear> ofSignal = Eigen::Matrix<double, Curved, Linear>::Zero(); // I minus the zero
-  constexpr std::array<int, Linear>     unit{ 0, 2, 3, 8, 6, 7 };
-  constexpr std::array<int, Linear>     mean{ 1, 4, 5, 11, 9, 10 };
-  for (int k = 0; k < Linear; ++k)
+  const Eigen::Index known = LinearTerms / 2 + (areStrips ? 1 : 0); // 1, x, y, and y^2 in strips
+  const Eigen::Index tested = LinearTerms - known;
+  Eigen::Matrix<double, CurvedTerms, LinearTerms> ofSignal =
+    Eigen::Matrix<double, CurvedTerms, LinearTerms>::Zero(); // I minus the zero
+  constexpr std::array<int, LinearTerms> unit{ 0, 2, 3, 8, 6, 7 };
+  constexpr std::array<int, LinearTerms> mean{ 1, 4, 5, 11, 9, 10 };
+  for (int k = 0; k < LinearTerms; ++k)
   {
     ofSignal(mean[static_cast<std::size_t>(k)], k) = 1.0;
     ofSignal(unit[static_cast<std::size_t>(k)], k) = -zero;
@@ -225,12 +213,12 @@ FitSurfaces(const TriedTiles &                       partition,
 {
   const std::vector<TileMoments> tiles = SumTiles(data, responses, partition.height, partition.width);
   std::vector<LocalOffset>       fits;
-  if (std::optional<LocalOffset> fit = FitPartition(tiles, data, Linear))
+  if (std::optional<LocalOffset> fit = FitPartition(tiles, data, LinearTerms))
   {
     fit->doLinesMeet = fit->doLinesMeet && !IsCurvedWithin(tiles, fit->offset, partition.isOfStrips);
     fits.push_back(*fit);
   }
-  if (std::optional<LocalOffset> fit = partition.mayBeCurved ? FitPartition(tiles, data, Curved) : std::nullopt)
+  if (std::optional<LocalOffset> fit = partition.mayBeCurved ? FitPartition(tiles, data, CurvedTerms) : std::nullopt)
   {
     fit->doLinesMeet = fit->doLinesMeet && fit->tiles > 1; // only the lines of other tiles test it
     fits.push_back(*fit);
@@ -269,10 +257,11 @@ ChoosePartition(std::vector<LocalOffset> fits)
 } // namespace
 
 std::optional<LocalOffset>
-FindLocalOffset(const IlluminationResponses & data, const ParallelFor & parallelFor)
+FindLocalOffset(const IlluminationResponses &            data,
+                const std::vector<std::vector<double>> & responses,
+                const ParallelFor &                      parallelFor)
 {
   const std::size_t                            width = data.frame.geometry.width;
-  const auto                                   responses = RemoveMotionLeakage(data, parallelFor);
   constexpr std::size_t                        trials = 6;
   const std::array<TriedTiles, trials>         partitions{ { { 64, 64, false, true },
                                                              { 32, 32, false, true },
@@ -288,6 +277,38 @@ FindLocalOffset(const IlluminationResponses & data, const ParallelFor & parallel
     found.insert(found.end(), ofPartition.begin(), ofPartition.end());
   }
   return ChoosePartition(std::move(found));
+}
+
+double
+LocalFlicker::Sd(double offset) const
+{
+  const double flux = wII - 2.0 * offset * wI + offset * offset * w;
+  return std::sqrt(std::max(0.0, energy / (flux * (frames - 1.0))));
+}
+
+LocalFlicker
+SumLocalFlicker(const IlluminationResponses & data)
+{
+  const ReferenceFrame & frame = data.frame;
+  const std::size_t      factors = data.factors;
+  LocalFlicker           sums;
+  sums.frames = static_cast<double>(frame.frames);
+  for (std::size_t p = 0; p < data.mask.size(); ++p)
+  {
+    if (data.mask[p] != 0)
+    {
+      const double noise = data.line.At(frame.neighbourMean[p]);
+      const double centred = frame.mean[p] - data.centreDn;
+      for (std::size_t j = 0; j < factors; ++j)
+      {
+        sums.energy += std::pow(data.coordinates.At(p, j), 2) / noise - 1.0;
+      }
+      sums.w += 1.0 / noise;
+      sums.wI += centred / noise;
+      sums.wII += centred * centred / noise;
+    }
+  }
+  return sums;
 }
 
 } // namespace sensornoise

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/PartTiles.h"
+#include "pixels/GainByParts.h"
 
 #include "base/Constants.h"
 #include "pixels/Constants.h"

@@ -6,10 +6,12 @@
 #include "SensorNoiseExport.h"
 #include "base/PixelLayout.h"
 #include "sensornoise/FrameGeometry.h"
+#include "sensornoise/Parallel.h"
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace sensornoise
@@ -136,6 +138,20 @@ private:
 #define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT ProjectedFrames<TPixel>
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
 #undef SensorNoise_EXTERN
+
+struct InitialNoiseModel;
+struct ReferenceFrame;
+
+/** Returns the norm of the integer series of a TemporalBasis, a power of 2 of at most TemporalBasis::Unit, with which
+ * 32 bits are enough for the third pass's sums of integer frames; null: they are not enough.
+ *
+ * They are enough under two conditions. The sum of series times deviation from the mean is within 2^31 for every usable
+ * pixel of \a frame. The illumination and the motion that the rounded series do not remove change the variance by at
+ * most InPixels.largestRoundingError of its standard error. \a model gives the noise variance. Estimator.md, 6. */
+SensorNoise_EXPORT std::optional<double>
+UnitOfNarrowSums(const ReferenceFrame &    frame,
+                 const InitialNoiseModel & model,
+                 const ParallelFor &       parallelFor = SerialFor);
 
 } // namespace sensornoise
 

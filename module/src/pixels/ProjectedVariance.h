@@ -6,9 +6,8 @@
 #include "SensorNoiseExport.h"
 #include "pixels/RoughnessClasses.h"
 #include "pixels/VarianceLine.h"
-#include "pixels/CodeNoise.h"
+#include "pixels/QuantisationNoise.h"
 #include "pixels/ProjectionSums.h"
-#include "pixels/UnequalIllumination.h"
 #include "sensornoise/Parallel.h"
 
 #include <cstddef>
@@ -52,8 +51,9 @@ struct FrameIllumination
 class SensorNoise_EXPORT ProjectedSquares
 {
 public:
-  /** \a squares are the residual squares for the components of \a basis. The remainder of \a codeNoise, which is not a
-   * line in the level, is subtracted. References to frame, basis and mask are kept, and must outlive the object. */
+  /** \a squares are the residual squares for the components of \a basis. The remainder of \a quantisationNoise, which
+   * is not a line in the level, is subtracted. References to frame, basis and mask are kept, and must outlive the
+   * object. */
   ProjectedSquares(const ReferenceFrame &            frame,
                    const TemporalBasis &             basis,
                    const MotionSeries &              motion,
@@ -63,7 +63,7 @@ public:
                    const ParallelFor &               parallelFor,
                    const FrameIllumination &         illumination = {},
                    const ReplacedSquares &           replaced = {},
-                   const CodeNoise &                 codeNoise = {});
+                   const QuantisationNoise &         quantisationNoise = {});
 
   /** Returns the variance of every pixel with the correction of \a gain [DN/e-]; 0 outside the mask [DN^2]. */
   PixelVariance

@@ -22,7 +22,7 @@ namespace sensornoise
 class TemporalBasis;
 struct ReferenceFrame;
 
-/** How a sum of the third pass is held. */
+/** Storage of a sum of the third pass. */
 enum class SumWidth : std::uint8_t
 {
   Wide,  ///< as a double, 8 bytes

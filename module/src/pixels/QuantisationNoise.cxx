@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/CodeNoise.h"
+#include "pixels/QuantisationNoise.h"
 
 #include "base/Quantiles.h"
-#include "moments/Codes.h"
+#include "moments/StackMaps.h"
 #include "pixels/Constants.h"
 #include "pixels/StaticVariance.h"
 #include "pixels/VarianceLine.h"
@@ -24,7 +24,7 @@ constexpr std::size_t RemainderLevels = 513;
 /** Returns the quantization noise of a pixel of the mean \a levelDn and the standard deviation \a sdDn [DN^2]: the
  * expectation over a normal distribution, by the five-point Gauss-Hermite rule. */
 double
-MeanVarianceAt(const CodeSteps & steps, double levelDn, double sdDn)
+MeanVarianceAt(const QuantisationSteps & steps, double levelDn, double sdDn)
 {
   constexpr std::array<double, 3> nodes{ 0.0, 1.3556261799742659, 2.8569700138728056 };
   constexpr std::array<double, 3> weights{ 0.53333333333333333, 0.22207592200561266, 0.01125741132772069 };
@@ -39,7 +39,7 @@ MeanVarianceAt(const CodeSteps & steps, double levelDn, double sdDn)
 /** Splits the excess into a line and a remainder. Before, remaindersDn2 holds the whole excess. The line is fitted to
  * the usable pixels with the weights of the variance fit. */
 void
-PartOffLine(CodeNoise & noise, const ReferenceFrame & frame, const InitialNoiseModel & model)
+PartOffLine(QuantisationNoise & noise, const ReferenceFrame & frame, const InitialNoiseModel & model)
 {
   double weight = 0.0, x = 0.0, xx = 0.0, v = 0.0, xv = 0.0;
   for (const std::size_t p : SamplePixels(frame.usable))
@@ -68,14 +68,17 @@ PartOffLine(CodeNoise & noise, const ReferenceFrame & frame, const InitialNoiseM
 }
 } // namespace
 
-CodeNoise
-MakeCodeNoise(const CodeRange & codes, const ReferenceFrame & frame, const InitialNoiseModel & model, double darkStepDn)
+QuantisationNoise
+MakeQuantisationNoise(const DnRange &           dnRange,
+                      const ReferenceFrame &    frame,
+                      const InitialNoiseModel & model,
+                      double                    darkStepDn)
 {
-  CodeNoise noise;
-  noise.darkVarianceDn2 = codes.quantisationStepDn * codes.quantisationStepDn / 12.0;
+  QuantisationNoise noise;
+  noise.darkVarianceDn2 = dnRange.quantisationStepDn * dnRange.quantisationStepDn / 12.0;
   double brightestDn = -1.0;
   bool   isFirst = true;
-  for (std::size_t p = 0; p < frame.usable.size() && codes.steps.IsCompanded(); ++p)
+  for (std::size_t p = 0; p < frame.usable.size() && dnRange.steps.IsCompanded(); ++p)
   {
     if (frame.usable[p] != 0)
     {
@@ -89,25 +92,25 @@ MakeCodeNoise(const CodeRange & codes, const ReferenceFrame & frame, const Initi
     return noise;
   }
   noise.darkVarianceDn2 =
-    darkStepDn > 0.0 ? darkStepDn * darkStepDn / 12.0 : codes.steps.GetTable().front().varianceDn2;
+    darkStepDn > 0.0 ? darkStepDn * darkStepDn / 12.0 : dnRange.steps.GetTable().front().varianceDn2;
   const double darkNoiseDn = std::sqrt(model.NoiseVariance(model.darkestDn));
-  noise.darkErrorDn2 =
-    InPixels.errorOfRounding * codes.steps.GetUnitDn() * std::sqrt(darkNoiseDn * codes.steps.StepAt(model.darkestDn));
+  noise.darkErrorDn2 = InPixels.errorOfRounding * dnRange.steps.GetUnitDn() *
+                       std::sqrt(darkNoiseDn * dnRange.steps.StepAt(model.darkestDn));
   noise.spacingDn = (brightestDn - noise.lowestDn) / static_cast<double>(RemainderLevels - 1);
   for (std::size_t i = 0; i < RemainderLevels; ++i)
   {
     const double level = noise.lowestDn + static_cast<double>(i) * noise.spacingDn;
     const double sd = std::sqrt(model.NoiseVariance(level));
-    noise.remaindersDn2.push_back(MeanVarianceAt(codes.steps, level, sd) - noise.darkVarianceDn2);
+    noise.remaindersDn2.push_back(MeanVarianceAt(dnRange.steps, level, sd) - noise.darkVarianceDn2);
   }
   PartOffLine(noise, frame, model);
   return noise;
 }
 
 Eigen::Matrix2d
-CodeNoise::ErrorOfLine(double pivotDn) const
+QuantisationNoise::ErrorOfLine(double pivotDn) const
 {
-  const double    slope = InPixels.errorOfCodeNoise * slopeDn;
+  const double    slope = InPixels.errorOfQuantisationNoise * slopeDn;
   Eigen::Matrix2d error;
   error << 1.0, -pivotDn, -pivotDn, pivotDn * pivotDn;
   error *= slope * slope;
@@ -116,9 +119,9 @@ CodeNoise::ErrorOfLine(double pivotDn) const
 }
 
 StaticVariance
-WithoutLineOfCodes(StaticVariance variance)
+SubtractQuantisationLine(StaticVariance variance)
 {
-  const CodeNoise & noise = variance.codeNoise;
+  const QuantisationNoise & noise = variance.quantisationNoise;
   for (VarianceLine * line :
        { &variance.line, &variance.instrumentalLine, &variance.curve.line, &variance.ofOwnLevels.line })
   {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#ifndef sensornoise_pixels_CodeNoise_h
-#define sensornoise_pixels_CodeNoise_h
+#ifndef sensornoise_pixels_QuantisationNoise_h
+#define sensornoise_pixels_QuantisationNoise_h
 
 #include "SensorNoiseExport.h"
 #include "base/Eigen.h"
@@ -18,14 +18,14 @@ namespace sensornoise
 
 struct StaticVariance;
 
-/** \class CodeNoise
+/** \class QuantisationNoise
  * \brief Quantization noise of companded data beyond the quantization noise in the dark, as a function of the level.
  *
  * The excess is split into a line in the level and a remainder. For data that are companded by a square root, the line
  * is all of it. The remainder is subtracted from the variance of every pixel, so that the variance can be fitted by a
  * line. The line is subtracted after the fit: until then the variance includes it, as the scatter of the pixels does.
  * With uniform quantization the excess is 0. */
-struct SensorNoise_EXPORT CodeNoise
+struct SensorNoise_EXPORT QuantisationNoise
 {
   /** Quantization noise in the dark, which stays in the intercept [DN^2]. */
   double darkVarianceDn2{ 0.0 };
@@ -38,9 +38,9 @@ struct SensorNoise_EXPORT CodeNoise
 
   double darkErrorDn2{ 0.0 }; ///< standard error of darkVarianceDn2 [DN^2]
 
-  /** Returns the covariance of gain and intercept that the uncertainty of this noise adds: InPixels.errorOfCodeNoise of
-   * the slope, and darkErrorDn2. \a pivotDn is the level at which an error of the slope leaves the line unchanged [DN].
-   * Zero with uniform quantization. */
+  /** Returns the covariance of gain and intercept that the uncertainty of this noise adds:
+   * InPixels.errorOfQuantisationNoise of the slope, and darkErrorDn2. \a pivotDn is the level at which an error of the
+   * slope leaves the line unchanged [DN]. Zero with uniform quantization. */
   Eigen::Matrix2d
   ErrorOfLine(double pivotDn) const;
 
@@ -61,19 +61,19 @@ struct SensorNoise_EXPORT CodeNoise
   }
 };
 
-/** Computes the quantization noise of \a codes at the levels of the usable pixels of \a frame. The values of a pixel
+/** Computes the quantization noise of \a dnRange at the levels of the usable pixels of \a frame. The values of a pixel
  * over time are taken to be normally distributed, with the variance of \a model. \a darkStepDn is the quantization step
- * in the dark as measured in dark frames [DN]; 0: not measured, the first step of \a codes is used. */
-SensorNoise_EXPORT CodeNoise
-MakeCodeNoise(const CodeRange &         codes,
-              const ReferenceFrame &    frame,
-              const InitialNoiseModel & model,
-              double                    darkStepDn);
+ * in the dark as measured in dark frames [DN]; 0: not measured, the first step of \a dnRange is used. */
+SensorNoise_EXPORT QuantisationNoise
+MakeQuantisationNoise(const DnRange &           dnRange,
+                      const ReferenceFrame &    frame,
+                      const InitialNoiseModel & model,
+                      double                    darkStepDn);
 
-/** Returns \a variance without the line of its code noise in all fitted lines, and with the covariance of this line in
- * theirs. */
+/** Returns \a variance without the line of its quantization noise in all fitted lines, and with the covariance of this
+ * line in theirs. */
 SensorNoise_EXPORT StaticVariance
-WithoutLineOfCodes(StaticVariance variance);
+SubtractQuantisationLine(StaticVariance variance);
 
 } // namespace sensornoise
 

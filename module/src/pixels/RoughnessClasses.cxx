@@ -9,6 +9,7 @@
 #include "base/Stencils.h"
 #include "pixels/Constants.h"
 #include "pixels/ProjectedVariance.h"
+#include "pixels/StaticVariance.h"
 #include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
 
@@ -323,6 +324,44 @@ FindBrighterPixels(const ProjectedVariance &         projected,
     return std::nullopt;
   }
   return found;
+}
+
+void
+SetRatiosOfLevels(RejectionModel & model, const ProjectedVariance & projected, const std::vector<std::uint8_t> & mask)
+{
+  /** Sums over the pixels of a bin. */
+  struct BinSums
+  {
+    double pixels{ 0.0 };
+    double level{ 0.0 };
+    double ratio{ 0.0 };
+  };
+  const VarianceData             data = projected.GetData(mask);
+  const LevelBins                bins(projected.GetFrame().neighbourMean, mask);
+  const std::vector<std::size_t> medians = FindMedianClasses(projected, mask, bins);
+  std::vector<BinSums>           sums(InPixels.levelBins);
+  for (std::size_t p = 0; p < mask.size(); ++p)
+  {
+    const std::size_t bin = bins.Of(p);
+    if (mask[p] != 0 && projected.ClassOf(p) <= medians[bin])
+    {
+      sums[bin].pixels += 1.0;
+      sums[bin].level += data.mean[p];
+      sums[bin].ratio += data.variance[p] / model.line.At(data.mean[p]);
+    }
+  }
+  model.levels.clear();
+  model.ratios.clear();
+  for (const BinSums & own : sums)
+  {
+    const double level = own.level / std::max(1.0, own.pixels);
+    if (own.pixels >= static_cast<double>(InPixels.leastPixelsOfLevel) &&
+        (model.levels.empty() || level > model.levels.back()))
+    {
+      model.levels.push_back(level);
+      model.ratios.push_back(std::max(InCommon.leastVarianceRatio, own.ratio / own.pixels));
+    }
+  }
 }
 
 bool

@@ -19,6 +19,7 @@ class ProjectedSquares;
 class ProjectedVariance;
 struct InitialNoiseModel;
 struct ReferenceFrame;
+struct RejectionModel;
 
 /** Number of classes into which pixels are sorted by the roughness of their surroundings: the energy of the derivatives
  * in a neighbourhood as wide as the motion, over the noise. */
@@ -60,6 +61,11 @@ FindBrighterPixels(const ProjectedVariance &         projected,
                    const std::vector<std::uint8_t> & usable,
                    const std::vector<std::uint8_t> & flat,
                    const ParallelFor &               parallelFor);
+
+/** Sets the levels and ratios of \a model to the mean variance over its line of the flatter half of the pixels of \a
+ * mask at each level: pixels are then compared with pixels of their own level. Estimator.md, 3.5. */
+SensorNoise_EXPORT void
+SetRatiosOfLevels(RejectionModel & model, const ProjectedVariance & projected, const std::vector<std::uint8_t> & mask);
 
 /** Returns whether the variance of most pixels of \a mask agrees with \a line within sampling noise. The variance of a
  * signal lies on one line with the variance of the dark pixels; the variance by motion does not. */

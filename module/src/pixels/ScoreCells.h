@@ -51,15 +51,48 @@ private:
 /** Returns the factor by which the variance of the slope of \a fit is larger than for independent pixels [1]: the sum
  * over the cells of their squared sums of scores, over the sum of the squared scores (cluster-robust covariance, Liang
  * & Zeger 1986, DOI 10.1093/biomet/73.1.13). 1 up to InPattern.leastLikeness, which chance may reach. */
-SensorNoise_EXPORT double
-WideningByCells(const VarianceFit & fit, const VarianceData & data, const FrameGeometry & geometry);
+inline double
+WideningByCells(const VarianceFit & fit, const VarianceData & data, const FrameGeometry & geometry)
+{
+  const ScoreCells     cells(geometry);
+  const VarianceLine & line = fit.GetLine();
+  // The sums of the scores of each cell, and last the sum of the squared scores of all pixels.
+  const std::vector<double> sums =
+    fit.SumWeighed(cells.Count() + 1, [&](std::size_t p, const VarianceFit::Weighed & weighed, double * own) {
+      const double residual = weighed.value - line.intercept - line.gain * data.mean[p];
+      const double score = weighed.weight * residual * (data.mean[p] - line.pivotDn);
+      own[cells.Of(p)] += score;
+      own[cells.Count()] += score * score;
+    });
+  double ofCells = 0.0;
+  for (std::size_t c = 0; c < cells.Count(); ++c)
+  {
+    ofCells += sums[c] * sums[c];
+  }
+  return ofCells > InPattern.leastLikeness * sums.back() ? ofCells / sums.back() : 1.0;
+}
 
-/** Returns the factor by which the variance of a slope is larger if the deviations of the cells are an excess [1]. What
- * moves adds variance, and never takes any: its mean over the cells is about as large as its scatter, and not smaller
- * by the root of the number of cells that matter. \a scores are the sums of the scores of the cells, \a squares is the
- * sum of the squared scores of the pixels. 1 up to InPattern.leastLikeness. */
-SensorNoise_EXPORT double
-WideningOfExcess(const std::vector<double> & scores, double squares);
+/** Returns the factor by which the variance of a slope is larger if the deviations of the cells are an excess [1]. A
+ * moving object adds variance and never reduces it. The mean of its variance over the cells is about as large as its
+ * scatter, and not smaller by the root of the number of cells that contribute. \a scores are the sums of the scores of
+ * the cells, \a squares is the sum of the squared scores of the pixels. 1 up to InPattern.leastLikeness. */
+inline double
+WideningOfExcess(const std::vector<double> & scores, double squares)
+{
+  double ofCells = 0.0;
+  double fourth = 0.0;
+  for (const double score : scores)
+  {
+    ofCells += score * score;
+    fourth += score * score * score * score;
+  }
+  if (!(ofCells > InPattern.leastLikeness * squares))
+  {
+    return 1.0;
+  }
+  const double cells = ofCells * ofCells / fourth; // number of cells that matter
+  return 1.0 + (ofCells / squares - 1.0) * cells;
+}
 
 } // namespace sensornoise
 

@@ -7,7 +7,6 @@
 #include "pixels/Constants.h"
 #include "pixels/RoughnessClasses.h"
 #include "pixels/GainByParts.h"
-#include "pixels/UnequalIllumination.h"
 #include "pixels/FixedPatternEstimate.h"
 #include "pixels/ProjectedVariance.h"
 #include "pixels/ScoreCells.h"
@@ -125,6 +124,12 @@ FitAllPixels(const VarianceData & data, const VarianceLine & start, double black
   return fit;
 }
 
+std::size_t
+CountPixels(const std::vector<std::uint8_t> & mask)
+{
+  return static_cast<std::size_t>(std::count(mask.begin(), mask.end(), std::uint8_t{ 1 }));
+}
+
 /** Sets classes, mask and use of the pixels by the rejection model \a line. Returns the number of pixels in rejected
  * neighbourhoods. */
 std::size_t
@@ -153,7 +158,7 @@ SelectPixels(const ProjectedVariance &         projected,
               use[p] = usable[p] != 0 ? own : use[p];
               mask[p] = isRough ? 0 : mask[p];
             });
-  return static_cast<std::size_t>(std::count(rejected.begin(), rejected.end(), std::uint8_t{ 1 }));
+  return CountPixels(rejected);
 }
 
 /** Returns tiles of the measured variance of the pixels of \a mask. */
@@ -224,7 +229,8 @@ CorrectForNoisyMeans(VarianceLine & line, double lowestDn, double highestDn, std
   const Eigen::Vector2d effect(1.0, -line.pivotDn);
   line.gain -= mean;
   line.intercept += mean * line.pivotDn;
-  line.covariance += (most - least) * (most - least) / 12.0 * effect * effect.transpose(); // of equal probabilities
+  line.covariance +=
+    (most - least) * (most - least) / 12.0 * effect * effect.transpose(); // variance of a uniform distribution
 }
 
 /** Levels and variance inflation that FitStaticVariance() is called with, see there. */
@@ -280,7 +286,18 @@ SelectStaticPixels(const ProjectedSquares &          squares,
     RejectionModel model = FitRejectionModel(drawn.line, drawn.projected, found.mask, premises.blackDn, parallelFor);
     model.varianceInflation = premises.varianceInflation;
     const ProjectedVariance projected = drawn.OfLine();
-    const std::size_t       numberRejected = SelectPixels(projected, model, usable, found, parallelFor);
+    std::size_t             numberRejected = SelectPixels(projected, model, usable, found, parallelFor);
+    if (found.classes.isBelowModel)
+    {
+      StaticVariance byLevels = found;
+      SetRatiosOfLevels(model, projected, usable);
+      const std::size_t rejectedByLevels = SelectPixels(projected, model, usable, byLevels, parallelFor);
+      if (CountPixels(byLevels.mask) > CountPixels(found.mask))
+      {
+        found = std::move(byLevels);
+        numberRejected = rejectedByLevels;
+      }
+    }
     isSettled = static_cast<double>(numberRejected) < InPixels.fewRejected * static_cast<double>(usable.size());
     drawn = FitFixedPointLine(projected, found.mask, model.line, parallelFor);
   }

@@ -5,7 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
-#include "pixels/CodeNoise.h"
+#include "pixels/QuantisationNoise.h"
 #include "pixels/GainByParts.h"
 #include "pixels/FixedPatternEstimate.h"
 #include "pixels/VarianceCurve.h"
@@ -165,6 +165,9 @@ struct ClassFit
   std::vector<double> ratio;
   /** Reduced chi-square of the ratios of the classes that are kept [1]. */
   double reducedChi2{ 1.0 };
+  /** Whether the roughest class is below the model, by its error and InPixels.leastDeviation: motion would add most to
+   * its variance, and takes none, so that the model is wrong at its levels. */
+  bool isBelowModel{ false };
   /** Largest relative deviation of a class that fails, but is kept because the gain needs it [1]. */
   double keptDeviation{ 0.0 };
 };
@@ -180,8 +183,8 @@ TestClasses(const ProjectedVariance &         projected,
 
 /** Marks the pixels of \a mask whose variance is less than the variance of their shot noise alone, by more than chance.
  * They are no measurements: cameras replace defective pixels, and pixels of the autofocus, by the mean of their
- * neighbours. What these pixels share with their neighbours would count twice in the sums over lags. Empty if there
- * are too few to matter. Estimator.md, 3.5. */
+ * neighbours. The noise that is common to these pixels and their neighbours would count twice in the sums over lags.
+ * Empty if there are too few to matter. Estimator.md, 3.5. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
 FindQuietPixels(const ProjectedVariance &         projected,
                 const VarianceLine &              line,
@@ -223,8 +226,8 @@ struct StaticVariance
    * parts. */
   GainByParts parts;
   /** Quantization noise of companded data. Its remainder has been subtracted from all of the above; its line has not,
-   * see WithoutLineOfCodes(). */
-  CodeNoise codeNoise;
+   * see SubtractQuantisationLine(). */
+  QuantisationNoise quantisationNoise;
   /** 1: a pixel that fits a static scene. Includes outliers, which a fit trims. */
   std::vector<std::uint8_t> mask;
   /** Values of PixelUse. Pixels of the mask that the final fit trims are PixelUse::Outlier. */
@@ -237,8 +240,8 @@ struct StaticVariance
   double varianceInflation{ 1.0 };
   /** Fraction of the sampled pixels that are computed from their neighbours, and left out [1]. */
   double interpolatedFraction{ 0.0 };
-  /** Variance that the pixels may lack, relative to the variance [1]: because some are computed from their neighbours
-   * and were not found, and because frames share a part of it that is too small to be corrected. */
+  /** Variance that the pixels may lack, relative to the variance [1]: because some pixels are computed from their
+   * neighbours and were not found, and because a noise correlation of frames is too small to be corrected. */
   double lostVariance{ 0.0 };
 };
 

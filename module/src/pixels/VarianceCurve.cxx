@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -57,11 +58,10 @@ VarianceCurve::ReducedChi2(double varianceInflation) const
 double
 VarianceCurve::Nonlinearity(double dispersion) const
 {
-  constexpr std::size_t groups = 16;
-  double                largest = 0.0;
-  for (std::size_t g = 0; g < groups; ++g)
+  double largest = 0.0;
+  for (std::size_t g = 0; g < Groups; ++g)
   {
-    const CurveBin group = this->SumOf(g * bins.size() / groups, (g + 1) * bins.size() / groups);
+    const CurveBin group = this->SumOf(g * bins.size() / Groups, (g + 1) * bins.size() / Groups);
     if (group.weight > 0.0)
     {
       const double excess = group.excess / group.weight;
@@ -131,6 +131,41 @@ VarianceCurve::FitHalves() const
     }
   }
   return slopes;
+}
+
+double
+VarianceCurve::SlopeVarianceByGroups() const
+{
+  const CurveBin      all = this->SumOf(0, bins.size());
+  const Slope         whole = this->SlopeOf(0, bins.size());
+  std::vector<double> slopes; // without one group each
+  double              information = 0.0;
+  for (std::size_t first = 0, b = 0; b < bins.size(); ++b)
+  {
+    const double x = bins[b].x / bins[b].weight - all.x / all.weight;
+    information += bins[b].weight * x * x;
+    if (information * Groups >= whole.information * static_cast<double>(slopes.size() + 1) || b + 1 == bins.size())
+    {
+      VarianceCurve rest = *this;
+      rest.bins.erase(rest.bins.begin() + static_cast<std::ptrdiff_t>(first),
+                      rest.bins.begin() + static_cast<std::ptrdiff_t>(b + 1));
+      const Slope slope = rest.SlopeOf(0, rest.bins.size());
+      if (!(slope.information > 0.0))
+      {
+        return 0.0;
+      }
+      slopes.push_back(slope.excess);
+      first = b + 1;
+    }
+  }
+  const auto   count = static_cast<double>(slopes.size());
+  const double mean = std::accumulate(slopes.begin(), slopes.end(), 0.0) / std::max(1.0, count);
+  double       squares = 0.0;
+  for (const double slope : slopes)
+  {
+    squares += (slope - mean) * (slope - mean);
+  }
+  return count > 1.0 ? squares * (count - 1.0) / count : 0.0;
 }
 
 namespace

@@ -162,6 +162,8 @@ struct SensorNoise_EXPORT VarianceCurve
 {
   /** Largest number of bins. */
   static constexpr std::size_t Bins = 64;
+  /** Number of groups of adjacent bins whose deviations are looked at together. */
+  static constexpr std::size_t Groups = 16;
 
   VarianceLine          line;
   std::vector<CurveBin> bins; ///< bins of equal numbers of pixels, from dark to bright
@@ -203,6 +205,11 @@ struct SensorNoise_EXPORT VarianceCurve
    * pixels and once by the information on the slope. A half of one level is left out. */
   std::vector<SlopeExcess>
   FitHalves() const;
+
+  /** Returns the variance of the slope by the jackknife over groups of adjacent bins, of about equal information on the
+   * slope [DN^2/e-^2]. It contains deviations that neighbouring levels share. 0 if a group has all the information. */
+  double
+  SlopeVarianceByGroups() const;
 
 private:
   /** Returns the sum of the bins [first, last). */
@@ -261,6 +268,7 @@ struct SensorNoise_EXPORT VarianceStep
   double slopeBelow{ 0.0 };
   double slopeAbove{ 0.0 };
   double errorOfSlopes{ 0.0 };
+  bool   isCertain{ false }; ///< whether the step describes the variance better than any smooth curve does
 
   /** Returns the deviations of \a curve, in which the step was found, from the two lines, without the levels about the
    * step. */
@@ -272,6 +280,11 @@ struct SensorNoise_EXPORT VarianceStep
  * line of as many parameters describes the variance as well. */
 SensorNoise_EXPORT std::optional<VarianceStep>
 FindVarianceStep(const VarianceCurve & curve);
+
+/** Finds a step that describes the variance better than a line does, and about as well as a smooth curve. Null if there
+ * is none, or if it is small. */
+SensorNoise_EXPORT std::optional<VarianceStep>
+FindPossibleStep(const VarianceCurve & curve);
 
 } // namespace sensornoise
 

@@ -72,7 +72,7 @@ FitMedians(const VarianceData & data, const ChiSquareTrim & trim)
   {
     return std::nullopt;
   }
-  line.lowestDn2 = std::max(1e-9, InPixels.lowestFraction * lowest);
+  line.lowestDn2 = std::max(smallestDivisor, InPixels.lowestFraction * lowest);
   line.gain = (s0 * r1 - s1 * r0) / determinant;
   line.intercept = (s2 * r0 - s1 * r1) / determinant - line.gain * line.pivotDn;
   return line;
@@ -346,7 +346,7 @@ VarianceFit::FillErrors()
       AddTerms(terms, sums, kept.weight, kept.x, m_IsByNeighbours ? kept.neighbours : kept.x, kept.value);
     });
   });
-  const double mean = m_IsByNeighbours ? s[WZ] / s[W] : 0.0; // of x it is 0: the pivot is the mean
+  const double mean = m_IsByNeighbours ? s[WZ] / s[W] : 0.0; // the mean of x is 0, because the pivot is the mean
   m_Line.covariance =
     Sandwich(m_Line, s[WWRRZZ] - 2.0 * mean * s[WWRRZ] + mean * mean * s[WWRR], s[WWRRZ] - mean * s[WWRR], s[WWRR]);
   const auto pixels = static_cast<double>(m_Dofs.values);
@@ -358,8 +358,6 @@ VarianceFit::FillErrors()
   {
     m_Line.curvature = s[WXXR] / quadratic;
     m_Line.curvatureSd = 1.0 / std::sqrt(quadratic);
-    m_Line.curvatureTilt = a;
-    m_Line.curvatureLift = b;
   }
   m_Line.trimmedFraction = (pixels - s[KeptPixels]) / pixels;
   m_Line.isDetermined = std::isfinite(m_Line.gain) && m_Line.covariance.allFinite();

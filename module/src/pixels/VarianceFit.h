@@ -70,8 +70,8 @@ enum class TrimRule : std::uint8_t
 /** \class VarianceFit
  * \brief Regression of the variance on the mean, by iteratively re-weighted least squares.
  *
- * The weights 1 / (2 V^2 / freedom + S) use V at the neighbours' mean, which is independent of the pixel's own noise. S
- * is the dispersion of the noise variance from pixel to pixel, which is measured with TrimRule::Distance. Outliers on
+ * The weights 1 / (2 V^2 / dof + S) use V at the neighbours' mean, which is independent of the pixel's own noise. S is
+ * the dispersion of the noise variance from pixel to pixel, which is measured with TrimRule::Distance. Outliers on
  * either side are trimmed. With TrimRule::Level the bias of the mean by trimming is corrected exactly. Estimator.md,
  * 3.6. */
 class SensorNoise_EXPORT VarianceFit
@@ -163,8 +163,8 @@ private:
     RunValues value;
   };
 
-  /** Weights, means above the pivot, those of the neighbours, and values of a run of pixels; all 0 outside the mask and
-   * at trimmed pixels. */
+  /** Weights, means above the pivot, means of the neighbours above it, and values of a run of pixels; all 0 outside the
+   * mask and at trimmed pixels. */
   struct KeptRun
   {
     RunValues weight;
@@ -261,7 +261,7 @@ private:
     double w{ 0.0 };           ///< sum of the weights
     double wx{ 0.0 };          ///< sum of the weights times the mean above the pivot
     double wxx{ 0.0 };         ///< sum of the weights times its square
-    double determinant{ 0.0 }; ///< of the normal equations
+    double determinant{ 0.0 }; ///< determinant of the normal equations
     double slope{ 0.0 };
     double atPivot{ 0.0 };          ///< value of the line at the pivot [DN^2]
     bool   isByNeighbours{ false }; ///< whether the neighbours' means are the instrument

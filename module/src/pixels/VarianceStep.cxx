@@ -170,7 +170,7 @@ VarianceStep::RestOf(const VarianceCurve & curve) const
 }
 
 std::optional<VarianceStep>
-FindVarianceStep(const VarianceCurve & curve)
+FindPossibleStep(const VarianceCurve & curve)
 {
   const std::vector<ExcessOfBin> bins = ComputeExcesses(curve);
   if (bins.size() < 2 * InSteps.leastBins + 1)
@@ -196,12 +196,15 @@ FindVarianceStep(const VarianceCurve & curve)
   step.line.intercept += fit.coefficients(0) - fit.coefficients(1) * curve.line.pivotDn;
   const double below = step.line.intercept + step.line.gain * step.levelDn;
   const double least = InSteps.leastSize * std::max({ below, below + step.sizeDn2, 0.0 });
-  if (std::abs(step.sizeDn2) < least || std::abs(step.sizeDn2) < Significance.manyTests * step.errorDn2 ||
-      LeastSmoothChi2(found->bins) - fit.chi2 < Significance.manyTests * Significance.manyTests * scatter ||
-      !IsSignificantBesideCurve(*found, scatter))
+  const double gained = LeastSmoothChi2(found->bins) - fit.chi2; // compared with a smooth curve
+  if (std::abs(step.sizeDn2) < least || std::abs(step.sizeDn2) < Significance.severalTests * step.errorDn2 ||
+      gained < -InCommon.strongEvidence * scatter)
   {
     return std::nullopt;
   }
+  step.isCertain = std::abs(step.sizeDn2) >= Significance.manyTests * step.errorDn2 &&
+                   gained >= Significance.manyTests * Significance.manyTests * scatter &&
+                   IsSignificantBesideCurve(*found, scatter);
   const double pivot = curve.line.pivotDn;
   auto &       covariance = step.line.covariance;
   covariance(0, 0) = fit.covariance(1, 1);
@@ -215,6 +218,13 @@ FindVarianceStep(const VarianceCurve & curve)
   step.slopeAbove = ofAbove.value;
   step.errorOfSlopes = std::max(ofBelow.error, ofAbove.error);
   return step;
+}
+
+std::optional<VarianceStep>
+FindVarianceStep(const VarianceCurve & curve)
+{
+  std::optional<VarianceStep> step = FindPossibleStep(curve);
+  return step && step->isCertain ? step : std::nullopt;
 }
 
 } // namespace sensornoise

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "published/PublishedEstimate.h"
+#include "published/PublishedPasses.h"
 
 #include "base/Constants.h"
 #include "base/PolynomialFit.h"

@@ -9,7 +9,6 @@
 #include "published/PublishedScene.h"
 #include "report/Quantities.h"
 #include "report/StackReport.h"
-#include "report/StackSettings.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/StackMethod.h"
 #include "sensornoise/Report.h"
@@ -196,7 +195,7 @@ PublishedSettings::Validate() const
   {
     throw std::invalid_argument("the shutter axis is " + std::to_string(shutterAxis) + "; expected 0 (x) or 1 (y)");
   }
-  ValidateCodeSettings(codes);
+  ValidateDnSettings(codes);
   ValidateExcessNoiseFactor(excessNoiseFactor);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "published/PublishedEstimate.h"
+#include "published/PublishedPasses.h"
 
 #include "base/Text.h"
 #include "base/PolynomialFit.h"
@@ -9,7 +9,6 @@
 #include "published/PublishedScene.h"
 #include "report/Quantities.h"
 #include "report/StackReport.h"
-#include "report/StackSettings.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -22,7 +21,8 @@ namespace sensornoise
 
 namespace
 {
-/** Residual variance of the offset line that is not said, over the variance of its noise [1]. Chosen. */
+/** Largest residual variance of the offset line without a warning, relative to the variance of its noise [1]. Chosen.
+ */
 constexpr double LargestOffsetLinePhi = 3.0;
 
 void
@@ -36,7 +36,7 @@ DescribeSettings(Report & report, const PublishedFindings & found)
                       { "rolling_shutter", std::string(NameOf(settings.rollingShutter)) },
                       { "sigma_rows", found.flicker.sigmaRows },
                       { "shutter_axis", std::string(settings.shutterAxis == 0 ? "x" : "y") } };
-  NoteCodes(report, settings.codes);
+  NoteDnSettings(report, settings.codes);
 }
 
 void
@@ -47,7 +47,9 @@ WarnOfWidening(Report & report, WarningCode code, const char * name, const IsoIn
     report.Warn(code,
                 std::string("too few pixels have the ") + name + " intensity: " + std::to_string(set.pixels.size()) +
                   " pixels at the quantile " + Text(set.quantile) + " were taken instead (" +
-                  std::to_string(set.wideningSteps) + " steps, Remark 3 of the paper)");
+                  CountText(set.wideningSteps, "step") +
+                  ", Remark 3 of the paper), which determine the offset less well. Include larger areas of one "
+                  "brightness in the scene");
   }
 }
 
@@ -58,13 +60,16 @@ WarnOfFlicker(Report & report, const FlickerEstimate & flicker)
   {
     report.Warn(WarningCode::RollingShutter,
                 "the flicker differs from row to row and is estimated over neighbourhoods of sigma_y = " +
-                  Text(flicker.sigmaRows) + " rows");
+                  Text(flicker.sigmaRows) +
+                  " rows, which needs bright pixels in all of them. Use constant illumination to avoid this");
     const auto unknown = std::count(flicker.rowKnown.begin(), flicker.rowKnown.end(), 0);
     if (unknown > 0)
     {
-      report.Warn(WarningCode::LinesWithoutFlicker,
-                  "the brightest pixels do not reach " + std::to_string(unknown) + " of " +
-                    std::to_string(flicker.rows) + " rows, whose flicker is not known: their pixels are left out");
+      report.Warn(
+        WarningCode::LinesWithoutFlicker,
+        "the brightest pixels do not reach " + std::to_string(unknown) + " of " + std::to_string(flicker.rows) +
+          " rows, whose flicker is not known: their pixels are left out. Include bright areas in all rows, or use "
+          "--method refined");
     }
   }
   if (flicker.offsetLinePhi > LargestOffsetLinePhi)

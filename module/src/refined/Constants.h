@@ -149,6 +149,12 @@ struct RefinedConstants
   /** Smallest fraction of the frames' signal in the dark frames that counts [1]. Chosen by its effect: the offset
    * changes by that fraction of the mean signal. */
   double leastSignalOfDark{ 0.01 };
+  /** Quantile of the levels of the tiles of dark frames that represents the level without charge [1]. Chosen
+   * empirically. */
+  double darkestTiles{ 0.05 };
+  /** Largest slope of the variance of dark frames over their level that is charge, relative to the gain, whose slope it
+   * is [1]. Chosen empirically: amplifiers of unlike offset and read noise make any slope. */
+  double mostSlopeOfCharge{ 1.5 };
   ///@}
 
   /** \name The illumination of rows */

@@ -34,29 +34,31 @@ PercentOf(const MeasuredNumber & number)
   return Measured(100.0 * number.value, 100.0 * number.standardError) + " %";
 }
 
+/** Returns "the noise correlation of pixels 1 row apart is 5.00 +- 0.30 %". */
 std::string
-NeighbourAt(const Lag & lag)
+CorrelationOf(const LagCoefficient & neighbour)
 {
-  const auto count = [](int apart, const char * what) {
+  const Lag & lag = neighbour.lag;
+  const auto  count = [](int apart, const char * what) {
     return std::to_string(std::abs(apart)) + " " + what + (std::abs(apart) == 1 ? "" : "s");
   };
   const std::string distance = lag.y == 0   ? count(lag.x, "column")
                                : lag.x == 0 ? count(lag.y, "row")
                                             : count(lag.x, "column") + " and " + count(lag.y, "row");
-  return "pixels " + distance + " apart share ";
+  return "the noise correlation of pixels " + distance + " apart is " + PercentOf(neighbour.coefficient);
 }
 
-/** Returns how the gain follows from the variance, and then \a action, a sentence. */
+/** Returns how the gain follows from the variance, and then \a action, a command. */
 std::string
 Consequence(const Report & report, const std::string & action)
 {
   if (!report.gain.value || !report.varianceSlope.value)
   {
-    return action.empty() ? "" : ". " + action;
+    return ". " + action;
   }
   return ". The slope of the variance (variance_slope) is " +
          Text(std::round(100.0 * *report.varianceSlope.value / *report.gain.value)) +
-         " % of the gain, which is from the covariance over all lags" + (action.empty() ? "" : ". " + action);
+         " % of the gain, which is from the covariance over all lags. " + action;
 }
 
 /** Returns whether the noise is normally distributed, as after a linear filter. Then the covariances are the reason why
@@ -111,12 +113,11 @@ WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const Lag
   }
   if (correlation.isByIllumination && space != nullptr)
   {
-    report.Warn(
-      WarningCode::NoiseNotLinear,
-      NeighbourAt(space->lag) + PercentOf(space->coefficient) +
-        " of their noise, which grows with the square of the signal: the illumination changes from place to "
-        "place, in patterns too fine to be removed (caustics, haze, moving shadows). Choose an evenly lit part "
-        "(--roi), or steady the illumination");
+    report.Warn(WarningCode::NoiseNotLinear,
+                CorrelationOf(*space) +
+                  " and grows with the square of the signal: the illumination changes from place to place, in patterns "
+                  "too fine to be removed (caustics, haze, moving shadows). Choose an evenly lit part "
+                  "(--roi), or steady the illumination");
     return;
   }
   if (correlation.isBySensitivity)
@@ -161,11 +162,12 @@ WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const Lag
   {
     report.Warn(
       WarningCode::NoiseNotLinear,
-      NeighbourAt(space->lag) + PercentOf(space->coefficient) +
-        " of their noise, which does not grow with the signal as after a filter: periodic interference, or blocks of "
-        "rounded pixels (compression). Record raw frames, and look for the source of the interference in cables, power "
-        "supply and read-out clock (" +
-        kurtosis + ": the noise is normal)");
+      CorrelationOf(*space) +
+        " and does not grow with the signal as after a filter: periodic interference, or blocks of rounded pixels "
+        "(compression). The noise is normal (" +
+        kurtosis +
+        "). Record raw frames, and look for the source of the interference in cables, power supply and read-out "
+        "clock");
     return;
   }
   const bool isOfPixels = own.Exceeds(0.0, Significance.severalTests);
@@ -193,16 +195,17 @@ TextOf(const EnlargementTrace & trace, const std::optional<Interval> & gain)
   return text + ". Give the frames as the camera read them";
 }
 
-/** Returns an addition to the action where the covariance grows with the signal alone: by a filter before the read-out,
- * or events of several electrons. */
+/** Returns a clause where the covariance grows with the signal alone, by a filter before the read-out or events of
+ * several electrons; else an empty text. */
 std::string
 BeforeReadOut(const NoiseCorrelation & correlation)
 {
   return correlation.ProbabilityOfLateNoise() > 0.5
-           ? "; their noise is spread before the read-out, so that the gain is per event where one event frees several "
+           ? ". The noise is spread before the read-out, so that the gain is per event where one event frees several "
              "electrons (scintillator, intensifier)"
            : "";
 }
+
 void
 NoteInterference(Report & report)
 {
@@ -237,30 +240,28 @@ WarnOfCorrelation(Report & report, const NoiseCorrelation & correlation)
       break;
     case NoiseKind::Temporal:
       report.Warn(WarningCode::NoiseCorrelated,
-                  "the camera mixes its frames: frames " + std::to_string(time->lag.t) + " apart share " +
-                    PercentOf(time->coefficient) + " of their noise" +
+                  "the camera mixes its frames: the noise correlation of frames " + std::to_string(time->lag.t) +
+                    " apart is " + PercentOf(time->coefficient) +
                     Consequence(report, "Switch the temporal noise reduction off"));
       break;
     case NoiseKind::Filtered:
       report.Warn(WarningCode::NoiseCorrelated,
-                  "the camera smooths, resamples or sharpens its frames: " + NeighbourAt(space->lag) +
-                    PercentOf(space->coefficient) + " of their noise" +
-                    Consequence(report, "Set the camera to raw frames" + BeforeReadOut(correlation)));
+                  "the camera smooths, resamples or sharpens its frames: " + CorrelationOf(*space) +
+                    BeforeReadOut(correlation) + Consequence(report, "Set the camera to raw frames"));
       break;
     case NoiseKind::Enlarged:
       report.Warn(WarningCode::FramesEnlarged, TextOf(*correlation.enlargement, report.gain.bracket));
       break;
     case NoiseKind::Crosstalk:
       report.Warn(WarningCode::NoiseCorrelated,
-                  "neighbours are coupled, or slightly filtered: " + NeighbourAt(space->lag) +
-                    PercentOf(space->coefficient) + " of their noise" +
+                  "neighbours are coupled, or slightly filtered: " + CorrelationOf(*space) +
                     Consequence(report, "Set the camera to raw frames, if it filters"));
       break;
     case NoiseKind::BrighterFatter:
       report.Warn(WarningCode::NoiseCorrelated,
-                  "charge repels charge in bright pixels (brighter-fatter effect): " + NeighbourAt(space->lag) +
-                    PercentOf(space->coefficient) + " of their noise, in proportion to the square of the signal" +
-                    Consequence(report, ""));
+                  "charge repels charge in bright pixels (brighter-fatter effect): " + CorrelationOf(*space) +
+                    ", and grows with the square of the signal" +
+                    Consequence(report, "Use `gain` for electrons, and `variance_slope` for the noise of the frames"));
       break;
     case NoiseKind::White:
     case NoiseKind::NotMeasured:

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/GainEstimate.h"
 
+#include "base/ChiSquare.h"
 #include "base/Constants.h"
 #include "base/Eigen.h"
 #include "sensornoise/Report.h"
@@ -57,6 +58,18 @@ PointOf(const RefinedResults & found)
         offset / pixels, dark.standardErrorDn * fewer, variance / pixels, dark.variance->standardErrorDn2 * fewer
       };
     }
+  }
+  return point;
+}
+
+/** Adds the error by quantization to a variance that quantization hides: any smaller one may look like it. */
+DarkPoint
+AddHiddenNoise(DarkPoint point, double stepDn)
+{
+  const double hiddenDn2 = InCommon.hiddenVariance * stepDn * stepDn;
+  if (point.varianceDn2 < hiddenDn2)
+  {
+    point.varianceErrorDn2 = std::hypot(point.varianceErrorDn2, hiddenDn2);
   }
   return point;
 }
@@ -141,12 +154,17 @@ GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
 void
 CombineWithDarkPoint(GainEstimate & estimate, const RefinedResults & found)
 {
-  const DarkPoint    dark = PointOf(found);
-  const bool         isNonlinear = estimate.IsNonlinear();
+  const DarkPoint dark = AddHiddenNoise(PointOf(found), found.scene.summary.codes.quantisationStepDn);
+  // Smaller deviations from the line do not explain a difference, but are in its error.
+  const bool         isNonlinear = estimate.IsCurved();
   const GainEstimate before = estimate;
-  const double       contradiction = MoveToPoint(estimate, dark);
-  const auto         atOffset = estimate.atOffset;
-  const bool         isFar = estimate.curve.DarkestFraction(dark.offsetDn) > InCommon.darkFraction;
+  if (!isNonlinear)
+  {
+    estimate.covariance += SlopeCovariance(0.5 * (estimate.below + estimate.above), estimate.line.pivotDn);
+  }
+  const double contradiction = MoveToPoint(estimate, dark);
+  const auto   atOffset = estimate.atOffset;
+  const bool   isFar = estimate.curve.DarkestFraction(dark.offsetDn) > InCommon.darkFraction;
   estimate.isLinearityTested =
     std::sqrt(before.covariance(0, 0)) < 0.5 * InRefined.largestNonlinearity * std::abs(before.line.gain);
   const double difference = std::abs(dark.varianceDn2 - atOffset->valueDn2);
@@ -169,6 +187,12 @@ CombineWithDarkPoint(GainEstimate & estimate, const RefinedResults & found)
     estimate.line.intercept = dark.varianceDn2 - gains.mean * dark.offsetDn;
     estimate.covariance = gains.CovarianceOfLine(dark);
     estimate.below = estimate.above = gains.scatter;
+    if (!isNonlinear)
+    {
+      const double fraction = SizeBeyondChance(1.0, 1.0 / (contradiction * contradiction), Significance.hint);
+      estimate.covariance += SlopeCovariance(fraction * (before.line.gain - gains.mean), estimate.line.pivotDn);
+      estimate.darkDifferenceDn2 = fraction * difference;
+    }
   }
 }
 

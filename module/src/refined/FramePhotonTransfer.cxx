@@ -5,7 +5,7 @@
 #include "base/ChiSquare.h"
 #include "correlation/Constants.h"
 #include "moments/Constants.h"
-#include "pixels/PartTiles.h"
+#include "pixels/GainByParts.h"
 #include "refined/Constants.h"
 
 #include <algorithm>

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/GainEstimate.h"
 
+#include "base/ChiSquare.h"
 #include "base/Constants.h"
 #include "sensornoise/Settings.h"
 #include "pixels/FixedPatternEstimate.h"
 #include "pixels/VarianceCurve.h"
 #include "pixels/ProjectedVariance.h"
 #include "refined/Constants.h"
+#include "refined/RefinedEstimate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,16 +22,6 @@ namespace sensornoise
 
 namespace
 {
-/** Returns a covariance of gain and intercept that adds \a errorOfSlope to the gain, and nothing to the variance at the
- * pivot. */
-Eigen::Matrix2d
-SlopeCovariance(double errorOfSlope, double pivotDn)
-{
-  Eigen::Matrix2d added;
-  added << 1.0, -pivotDn, -pivotDn, pivotDn * pivotDn;
-  return errorOfSlope * errorOfSlope * added;
-}
-
 /** Returns the remaining bias of the gain by large vibrations, for which the expansion in derivatives fails [DN/e-]. */
 double
 ErrorOfVibration(const VarianceLine & line, const InitialNoiseModel & model)
@@ -110,17 +102,24 @@ ApplyStep(GainEstimate &            estimate,
   }
 }
 
-/** Extends the interval to the gains of both amplifiers. */
+/** Extends the interval to the gains of both amplifiers, or to the slope beside a step that is possible but not
+ * certain.
+ */
 void
-ExtendIntervalByStep(GainEstimate & estimate)
+ExtendIntervalByStep(GainEstimate & estimate, const VarianceCurve & ofOwnLevels)
 {
+  const auto extend = [&](double slope) {
+    double & side = slope < 0.0 ? estimate.below : estimate.above;
+    side = std::max(side, std::abs(slope));
+  };
   if (estimate.step)
   {
-    for (const double slope : { estimate.step->slopeBelow, estimate.step->slopeAbove })
-    {
-      double & side = slope < 0.0 ? estimate.below : estimate.above;
-      side = std::max(side, std::abs(slope));
-    }
+    extend(estimate.step->slopeBelow);
+    extend(estimate.step->slopeAbove);
+  }
+  else if (const auto possible = FindPossibleStep(ofOwnLevels))
+  {
+    extend(possible->line.gain - estimate.line.gain);
   }
 }
 
@@ -137,13 +136,6 @@ ExtendIntervalByIllumination(GainEstimate & estimate, const RefinedResults & fou
     estimate.below = std::max(estimate.below, estimate.line.gain - ofVariance);
     estimate.above = std::max(estimate.above, ofVariance - estimate.line.gain);
   }
-}
-
-/** Returns the size of a difference without its statistical scatter, \a z standard deviations. */
-double
-SizeBeyondChance(double difference, double variance, double z)
-{
-  return std::sqrt(std::max(0.0, difference * difference - z * z * variance));
 }
 
 /** Extends the interval to the gains of the darker and the brighter half of the levels, where they differ significantly
@@ -218,10 +210,13 @@ FindModelError(GainEstimate &               estimate,
   {
     ApplyMeanGain(estimate, curve, blackDn, dispersion);
   }
-  if (!estimate.IsNonlinear())
+  const double beyond = BeyondChance(estimate.reducedChi2, static_cast<double>(curve.bins.size()) - 2.0);
+  if (!estimate.IsCurved() && beyond > 1.0)
   {
-    // The remaining deviations scatter about a line that is straight enough.
-    estimate.covariance *= BeyondChance(estimate.reducedChi2, static_cast<double>(curve.bins.size()) - 2.0);
+    // The remaining deviations scatter about a line that is straight enough, and may be alike at neighbouring levels.
+    estimate.covariance *= beyond;
+    const double ofGroups = curve.SlopeVarianceByGroups() - estimate.covariance(0, 0);
+    estimate.covariance += SlopeCovariance(std::sqrt(std::max(0.0, ofGroups)), estimate.line.pivotDn);
   }
 }
 /** Returns the estimate by frames of unequal illumination alone. */
@@ -273,10 +268,16 @@ CombineWithFrames(GainEstimate & estimate, const SensorLines & lines, double bla
 }
 } // namespace
 
+bool
+GainEstimate::IsCurved() const
+{
+  return this->IsNonlinear() && nonlinearity > InRefined.leastNonlinearity;
+}
+
 double
 GainEstimate::RelativeModelError() const
 {
-  return this->IsNonlinear() ? 0.5 * (below + above) / std::max(1e-9, line.gain) : 0.0;
+  return this->IsNonlinear() ? 0.5 * (below + above) / std::max(smallestDivisor, line.gain) : 0.0;
 }
 
 double
@@ -291,6 +292,24 @@ GainEstimate::StandardError() const
   return std::hypot(std::sqrt(covariance(0, 0)), 0.5 * (below + above));
 }
 
+namespace
+{
+/** Returns whether the known offset lies above the level that does not flicker, beyond its error, and by so much that
+ * the shot noise of the difference changes the dark variance. No steady illumination explains that. */
+bool
+IsKnownOffsetAboveFlicker(const RefinedResults & found, const GainEstimate & gain)
+{
+  const KnownOffset &  known = *found.settings.offset;
+  const OffsetLimits   limits = LimitsOf(found, gain, found.variance.quantisationNoise.darkVarianceDn2);
+  const OffsetEstimate flicker = EstimateOffset(found, gain, limits);
+  const double         differenceDn = known.valueDn - flicker.valueDn;
+  const double varianceDn2 = known.variance ? known.variance->valueDn2 : std::max(0.0, gain.line.At(flicker.valueDn));
+  return flicker.IsIdentified() &&
+         differenceDn > Significance.oneTest * std::hypot(flicker.standardErrorDn, known.standardErrorDn) &&
+         differenceDn * gain.line.gain > InCommon.leastDarkDifference * varianceDn2;
+}
+} // namespace
+
 GainEstimate
 EstimateGain(const RefinedResults & found, const SensorLines & lines)
 {
@@ -300,17 +319,19 @@ EstimateGain(const RefinedResults & found, const SensorLines & lines)
   estimate.reducedChi2 = lines.curve.ReducedChi2(variance.varianceInflation);
   ChooseLine(estimate, lines, variance, found.scene.model);
   ApplyStep(estimate, lines, variance, found.scene.model);
-  estimate.scale = estimate.line.At(estimate.line.pivotDn) / std::max(1e-9, estimate.line.pivotDn - found.blackDn);
+  estimate.scale =
+    estimate.line.At(estimate.line.pivotDn) / std::max(smallestDivisor, estimate.line.pivotDn - found.blackDn);
   const double dispersion =
     std::min(DispersionOfClasses(variance), InRefined.largestDispersion * variance.varianceInflation);
   FindModelError(estimate, estimate.curve, variance.pattern, found.blackDn, dispersion);
-  ExtendIntervalByStep(estimate);
+  ExtendIntervalByStep(estimate, lines.ofOwnLevels);
   ExtendIntervalByIllumination(estimate, found);
   CombineWithFrames(estimate, lines, found.blackDn, variance.varianceInflation);
-  if (found.settings.offset && found.settings.offset->variance)
+  if (found.settings.offset)
   {
-    estimate.isDarkRejected = found.darkSignal.has_value();
-    if (!estimate.isDarkRejected)
+    estimate.isOffsetAboveFlicker = IsKnownOffsetAboveFlicker(found, estimate);
+    estimate.isDarkRejected = found.settings.offset->variance && (found.darkSignal || estimate.isOffsetAboveFlicker);
+    if (found.settings.offset->variance && !estimate.isDarkRejected)
     {
       CombineWithDarkPoint(estimate, found);
     }

@@ -42,21 +42,21 @@ SensorNoise_EXPORT double
 FilterFactor(const NoiseCorrelation & correlation);
 
 /** Returns the variance of a pixel at zero signal before a filter, without the noise of rows and columns [DN^2].
- * \a varianceDn2 is the measured variance [DN^2]. \a codesDn2 is the variance of the quantization noise, which was
- * added after the filter [DN^2]. */
+ * \a varianceDn2 is the measured variance [DN^2]. \a quantisationDn2 is the variance of the quantization noise, which
+ * was added after the filter [DN^2]. */
 SensorNoise_EXPORT double
-VarianceOfSensor(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2);
+VarianceOfSensor(double varianceDn2, const NoiseCorrelation & correlation, double quantisationDn2);
 
 /** Returns the standard deviation of VarianceOfSensor() over the shapes of the correlation: the filter may lie before
  * the read-out or after it [DN^2]. */
 SensorNoise_EXPORT double
-StandardDeviationOfShapes(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2);
+StandardDeviationOfShapes(double varianceDn2, const NoiseCorrelation & correlation, double quantisationDn2);
 
 /** Returns the lines of the sensor's variance: with the covariances summed over all lags, and without the noise of
- * whole rows and columns. The signal is measured from \a blackDn [DN]; \a codesDn2 is the variance of the quantization
- * noise [DN^2]. */
+ * whole rows and columns. The signal is measured from \a blackDn [DN]; \a quantisationDn2 is the variance of the
+ * quantization noise [DN^2]. */
 SensorNoise_EXPORT SensorLines
-AddCovariances(const SensorLines & lines, const NoiseCorrelation & correlation, double blackDn, double codesDn2);
+AddCovariances(const SensorLines & lines, const NoiseCorrelation & correlation, double blackDn, double quantisationDn2);
 
 /** Gain and intercept of the sensor, with their complete errors. */
 struct GainEstimate
@@ -91,8 +91,14 @@ struct GainEstimate
    * non-linear response may explain their difference from the line. */
   std::optional<DarkVariance> atOffset;
 
-  /** Whether the dark frames contradict the line of the bright frames or contain signal, and are not used for the gain.
-   */
+  /** Difference of the variance between the dark frames and the line at their offset, without its scatter by chance
+   * [DN^2]; 0 where a non-linear response may explain it. */
+  double darkDifferenceDn2{ 0.0 };
+
+  /** Whether the known offset lies above the level that does not flicker: it is not the offset of the frames. */
+  bool isOffsetAboveFlicker{ false };
+  /** Whether the dark frames contradict the line of the bright frames or their flicker, or contain signal. Then they
+   * are not used for the gain. */
   bool isDarkRejected{ false };
   /** Whether the line of the bright frames alone is precise enough for dark frames to test the linearity of the
    * response; false if all levels are equal. */
@@ -104,6 +110,10 @@ struct GainEstimate
   {
     return below > 0.0 || above > 0.0;
   }
+  /** Returns whether the response is visibly non-linear: the variance also deviates from its line by a size that
+   * counts. */
+  bool
+  IsCurved() const;
   /** Returns the relative error of the gain by a non-linear response [1]; 0 if the response is linear. */
   double
   RelativeModelError() const;
@@ -130,6 +140,16 @@ EstimateGain(const RefinedResults & found)
   return EstimateGain(found, LinesOf(found.variance));
 }
 
+/** Returns a covariance of gain and intercept that adds \a errorOfSlope to the gain, and nothing to the variance at the
+ * pivot. */
+inline Eigen::Matrix2d
+SlopeCovariance(double errorOfSlope, double pivotDn)
+{
+  Eigen::Matrix2d added;
+  added << 1.0, -pivotDn, -pivotDn, pivotDn * pivotDn;
+  return errorOfSlope * errorOfSlope * added;
+}
+
 /** Moves the line towards the point (mu, sigma^2) of the dark frames, their offset and variance. If all bright levels
  * are equal, this is the photon transfer of EMVA 1288, gain = (V - sigma^2) / (mean - mu).
  *
@@ -140,7 +160,11 @@ EstimateGain(const RefinedResults & found)
  * A non-linear response may explain the difference if it is visible, or if the bright frames have no levels near the
  * dark offset. Then GainEstimate::atOffset is not set. If the response is visibly non-linear, or the difference is
  * smaller but significant, the gain is the mean of the gains of the levels, (V - sigma^2) / (mean - mu). Its error is
- * their scatter. */
+ * their scatter.
+ *
+ * A difference that is significant, and not by a non-linear response, may have two causes: chance, or dark frames of
+ * another black level or read noise. The errors of gain, offset and read noise then hold both, by the difference beyond
+ * chance. */
 SensorNoise_EXPORT void
 CombineWithDarkPoint(GainEstimate & estimate, const RefinedResults & found);
 

@@ -19,7 +19,7 @@ namespace sensornoise
 
 namespace
 {
-/** Returns the question whether frames and dark frames were exchanged, if the dark frames are brighter; else
+/** Returns the advice to check whether frames and dark frames were exchanged, if the dark frames are brighter; else
  * \a otherwise. */
 std::string
 AskIfExchanged(const RefinedResults & found, const std::string & otherwise)
@@ -30,7 +30,7 @@ AskIfExchanged(const RefinedResults & found, const std::string & otherwise)
     return otherwise;
   }
   return "The dark frames are brighter than the frames, with " + Rounded(known->valueDn) + " DN against " +
-         RoundedApart(found.scene.model.brightestDn, known->valueDn) + " DN: are they exchanged?";
+         RoundedApart(found.scene.model.brightestDn, known->valueDn) + " DN. Check whether they are exchanged";
 }
 
 /** Returns why the variance does not fit a sensor of one gain, and what to do. */
@@ -39,7 +39,7 @@ TextOfFailure(const RefinedResults & found, const TestedGain & tested)
 {
   const GainEstimate & gain = tested.line;
   const std::string    notRaw = ": the frames are not raw (gamma, compression), not linear";
-  const bool           hasCodes = found.scene.summary.codes.clipHighDn.has_value();
+  const bool           hasClipLevel = found.scene.summary.codes.clipHighDn.has_value();
   switch (tested.verdict)
   {
     case GainVerdict::FramesDiffer:
@@ -67,7 +67,7 @@ TextOfFailure(const RefinedResults & found, const TestedGain & tested)
       return "the variance deviates from its line by " +
              PercentApart(gain.nonlinearity, InRefined.largestNonlinearity) + " of itself (expected less than " +
              Percent(InRefined.largestNonlinearity) + ")" + notRaw +
-             (hasCodes
+             (hasClipLevel
                 ? ", or of several gains. Record raw frames, or fit the linear part alone: --level-range LOW,HIGH"
                 : ", or saturated. Record raw frames, or give the levels at which they saturate: --clip LOW,HIGH");
     case GainVerdict::GainDependsOnOffset:
@@ -127,7 +127,7 @@ TextOfLevels(const RefinedResults & found, const GainEstimate & gain)
   const double                 levels = std::sqrt(std::max(0.0, pattern.levelVarianceDn2));
   const bool                   hasDark = found.settings.offset && found.settings.offset->darkFrames > 0;
   return "the levels of the scene do not determine the gain: they differ by " + Rounded(levels) + " DN rms, " +
-         Percent(levels / std::max(1e-9, gain.line.pivotDn - found.blackDn)) +
+         Percent(levels / std::max(smallestDivisor, gain.line.pivotDn - found.blackDn)) +
          " of the signal, and fixed-pattern noise may explain " + Percent(std::min(1.0, pattern.LargestFraction())) +
          " of that. The gain is known only to +- " + Rounded(gain.StandardError()) + " of about " +
          Rounded(gain.Size()) + " DN/e-. " +
@@ -192,7 +192,7 @@ WarnOfStep(Report & report, const GainEstimate & gain)
   {
     const VarianceStep & step = *gain.step;
     const double         below = step.line.At(step.levelDn);
-    const double         larger = std::max({ 1e-9, below, below + step.sizeDn2 });
+    const double         larger = std::max({ smallestDivisor, below, below + step.sizeDn2 });
     report.Warn(
       WarningCode::VarianceSteps,
       "the variance steps by " + Measured(step.sizeDn2, step.errorDn2) + " DN^2 at " + Rounded(step.levelDn) + " DN, " +
@@ -212,7 +212,7 @@ WarnOfIdentified(Report & report, const TestedGain & tested)
     WarnOfParts(report, parts);
   }
   WarnOfStep(report, gain);
-  if (gain.nonlinearity > InRefined.leastNonlinearity && gain.IsNonlinear())
+  if (gain.IsCurved())
   {
     report.Warn(
       WarningCode::ResponseNotStraight,

@@ -103,8 +103,8 @@ StatusBy(GainVerdict verdict)
 double
 CorrectionByCorrelation(const RefinedResults & found, const GainEstimate & gain)
 {
-  const double correction = gain.line.gain / std::max(1e-9, found.variance.line.gain);
-  return std::max(correction, 1.0 / std::max(1e-9, correction));
+  const double correction = gain.line.gain / std::max(smallestDivisor, found.variance.line.gain);
+  return std::max(correction, 1.0 / std::max(smallestDivisor, correction));
 }
 
 std::optional<Interval>
@@ -132,7 +132,8 @@ FindFewLitFrames(const RefinedResults & found)
     (1.0 + Eigen::Map<const Eigen::VectorXd>(found.series.line.gamma.data(), frames).array()).max(0.0);
   const double          all = illumination.sum();
   const Eigen::VectorXd kept = (1.0 - 1.0 / static_cast<double>(frames)) - basis.cwiseAbs2().rowwise().sum().array();
-  const double          left = illumination.dot(kept) / all * static_cast<double>(frames) / std::max(1e-9, kept.sum());
+  const double          left =
+    illumination.dot(kept) / all * static_cast<double>(frames) / std::max(smallestDivisor, kept.sum());
   std::vector<Eigen::Index> order(static_cast<std::size_t>(frames));
   std::iota(order.begin(), order.end(), Eigen::Index{ 0 });
   std::stable_sort(

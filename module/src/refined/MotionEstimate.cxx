@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/RefinedEstimate.h"
 
-#include "base/Quadrature.h"
+#include "base/ChiSquare.h"
 #include "base/Stencils.h"
 #include "moments/Constants.h"
 #include "refined/Constants.h"
@@ -275,8 +275,8 @@ ProductOf(const std::vector<double> & a, const std::vector<double> & b, const Fr
 }
 
 /** Returns the covariance of the shifts along both axes without the covariance of their noise. Its error is the error
- * of a mean product of shifts with Gaussian noise, whose covariance in one frame is known. The systematic error is that
- * of MotionAlong(). */
+ * of a mean product of shifts with Gaussian noise, whose covariance in one frame is known. The systematic error is the
+ * systematic error of MotionAlong(). */
 Quantity
 CovarianceOf(const AxisMotion &            x,
              const AxisMotion &            y,

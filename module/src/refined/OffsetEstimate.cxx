@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "refined/OffsetEstimate.h"
+#include "refined/RefinedEstimate.h"
 
 #include "base/ChiSquare.h"
 #include "base/Constants.h"
 #include "base/Eigen.h"
-#include "base/Quadrature.h"
 #include "base/Quantiles.h"
 #include "moments/DarkFrames.h"
 #include "pixels/Constants.h"
@@ -113,7 +112,7 @@ FindFailure(const RefinedResults & found,
   const bool                         isLocal = found.HasLocalIllumination();
   const double                       slackDn = Significance.oneTest * estimate.standardErrorDn;
   const double                       slackBelowDn =
-    slackDn + Significance.hint * std::sqrt(gain.covariance(1, 1)) / std::max(1e-9, gain.line.gain);
+    slackDn + Significance.hint * std::sqrt(gain.covariance(1, 1)) / std::max(smallestDivisor, gain.line.gain);
   if (!found.series.frameOffsets.unlike.empty())
   {
     return OffsetFailure::UnlikeOffsets;
@@ -130,7 +129,7 @@ FindFailure(const RefinedResults & found,
   {
     return OffsetFailure::FaintFlicker;
   }
-  if (isLocal && (!local || found.MayLocalIlluminationBeNoise()))
+  if (isLocal && (!local || found.MayLocalIlluminationBeNoise() || found.IsMotionLocal()))
   {
     return OffsetFailure::LocalIllumination;
   }
@@ -150,9 +149,9 @@ FindFailure(const RefinedResults & found,
   return isLocal && !local->doLinesMeet ? OffsetFailure::OffsetsDisagree : OffsetFailure::None;
 }
 
-/** Returns the error of the offset \a offsetDn by rounding to codes [DN]. In a frame with little light all pixels have
- * about one level, so that rounding shifts all of them alike where the noise is below half a step. Levels that differ
- * by several steps are shifted both ways. */
+/** Returns the error of the offset \a offsetDn by rounding to digital numbers [DN]. In a frame with little illumination
+ * all pixels have about one level, so that rounding shifts all of them alike where the noise is below half a step.
+ * Levels that differ by several steps are shifted both ways. */
 double
 RoundingOfDarkestFrameDn(const RefinedResults & found, const GainEstimate & gain, double offsetDn)
 {
@@ -223,10 +222,11 @@ bool
 IsKnownOffsetOutOfLimits(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits)
 {
   const KnownOffset & known = *found.settings.offset;
-  const double        slackDn = Significance.oneTest * known.standardErrorDn +
-                         Significance.hint * std::sqrt(gain.covariance(1, 1)) / gain.line.gain;
-  const double rangeDn = found.scene.model.brightestDn - found.scene.model.darkestDn;
-  return (limits.lowestDn && known.valueDn < *limits.lowestDn - slackDn) ||
+  const double        slackDn = Significance.oneTest * known.standardErrorDn;
+  const double        errorDn = Significance.hint * std::sqrt(gain.covariance(1, 1)) / gain.line.gain;
+  const double        rangeDn = found.scene.model.brightestDn - found.scene.model.darkestDn;
+  // The line determines the lower limit alone.
+  return (limits.lowestDn && known.valueDn < *limits.lowestDn - slackDn - errorDn) ||
          known.valueDn > limits.highestDn + slackDn + InRefined.slackOfRange * rangeDn;
 }
 
@@ -237,7 +237,7 @@ ChooseOffset(const RefinedResults & found,
              const OffsetLimits &   limits)
 {
   const auto & known = found.settings.offset;
-  if (known && !gain.isDarkRejected && !IsKnownOffsetOutOfLimits(found, gain, limits))
+  if (known && !gain.isDarkRejected && !gain.isOffsetAboveFlicker && !IsKnownOffsetOutOfLimits(found, gain, limits))
   {
     return { known->valueDn, known->standardErrorDn };
   }

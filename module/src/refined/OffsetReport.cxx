@@ -30,10 +30,19 @@ TextOfOtherOffsets(const FrameOffsets & others, Eigen::Index frames)
          " frames differs by " + Rounded(others.stepDn) + " DN from the dark offset of the others" + Ask("");
 }
 
+/** Returns the clause that the known offset lies above the level that does not flicker. */
+std::string
+TextOfExcess(const KnownOffset & known, const OffsetEstimate & flicker)
+{
+  const double error = std::hypot(flicker.standardErrorDn, known.standardErrorDn);
+  return Measured(known.valueDn, known.standardErrorDn) + " DN, " + Measured(known.valueDn - flicker.valueDn, error) +
+         " DN above the level that does not flicker, which no steady illumination explains";
+}
+
 void
 WarnOfDarkFrames(Report & report, const RefinedResults & found, const RefinedEstimate & estimate)
 {
-  const double         quantisationDn2 = found.variance.codeNoise.darkVarianceDn2;
+  const double         quantisationDn2 = found.variance.quantisationNoise.darkVarianceDn2;
   const GainEstimate & gain = estimate.ofSensor.line;
   if (found.darkSignal)
   {
@@ -42,6 +51,13 @@ WarnOfDarkFrames(Report & report, const RefinedResults & found, const RefinedEst
       "the dark frames hold " + Measured(100.0 * found.darkSignal->value, 100.0 * found.darkSignal->standardError) +
         " % of the signal of the frames (expected less than " + Percent(InRefined.leastSignalOfDark) +
         "), so the gain is measured without them. Close the shutter, or cover the lens, and record them again");
+  }
+  else if (gain.isOffsetAboveFlicker)
+  {
+    report.Warn(WarningCode::DarkFramesDiffer,
+                "the mean level of the dark frames is " + TextOfExcess(*estimate.known, estimate.flickerOffset) +
+                  ", so the gain is measured without them. Record dark frames with the black level, exposure, gain and "
+                  "temperature of the frames");
   }
   else if (gain.isDarkRejected)
   {
@@ -56,6 +72,31 @@ WarnOfDarkFrames(Report & report, const RefinedResults & found, const RefinedEst
   }
 }
 
+/** Warns of charge in dark frames that are used. */
+void
+WarnOfDarkCharge(Report & report, const RefinedResults & found, const RefinedEstimate & estimate)
+{
+  const GainEstimate & gain = estimate.ofSensor.line;
+  if (!found.darkCharge || gain.isDarkRejected || !(gain.line.gain > 0.0))
+  {
+    return;
+  }
+  const DarkCharge & charge = *found.darkCharge;
+  const double       darkDn2 = estimate.known->variance->valueDn2;
+  const double       chargeDn2 = charge.VarianceDn2(gain.line.gain);
+  if (chargeDn2 > InCommon.leastDarkDifference * darkDn2 &&
+      charge.slope.value > Significance.severalTests * charge.slope.standardError)
+  {
+    report.Warn(WarningCode::DarkSignalVaries,
+                "the level of the dark frames is " + Rounded(charge.spreadDn) +
+                  " DN above its darkest places in the mean, and their variance grows with it by " +
+                  Measured(charge.slope.value, charge.slope.standardError) +
+                  " DN per DN, as of charge: " + Percent(chargeDn2 / darkDn2) +
+                  " of the dark variance. The errors of offset and read noise contain it. Cover the sensor and record "
+                  "the dark frames again, or cool it");
+  }
+}
+
 /** Warns if the known offset contradicts the offset of the flicker, or its limits. */
 void
 WarnOfKnownOffset(Report & report, const RefinedEstimate & estimate)
@@ -63,7 +104,8 @@ WarnOfKnownOffset(Report & report, const RefinedEstimate & estimate)
   const KnownOffset &    known = *estimate.known;
   const OffsetEstimate & flicker = estimate.flickerOffset;
   const OffsetLimits &   limits = estimate.limits;
-  if (estimate.isIlluminationSteady)
+  const bool             isAboveFlicker = estimate.ofSensor.line.isOffsetAboveFlicker;
+  if (estimate.isIlluminationSteady && !isAboveFlicker)
   {
     const double difference = flicker.valueDn - known.valueDn;
     const double error = std::hypot(flicker.standardErrorDn, known.standardErrorDn);
@@ -79,13 +121,20 @@ WarnOfKnownOffset(Report & report, const RefinedEstimate & estimate)
   {
     const bool        isDark = known.darkFrames > 0;
     const std::string lowest = limits.lowestDn ? Rounded(*limits.lowestDn) + " to " : "at most ";
+    report.Warn(
+      WarningCode::OffsetOutOfRange,
+      (isDark ? "the mean level of the dark frames is " : "the given offset is ") + Text(known.valueDn) +
+        " DN, but the darkest pixels and a read noise above 0 allow " + lowest +
+        RoundedApart(limits.highestDn, known.valueDn) + " DN: " +
+        (isDark
+           ? "check whether frames and dark frames are exchanged, or record dark frames with the setting of the frames"
+           : "leave it out, or measure it with dark frames (--dark)"));
+  }
+  else if (isAboveFlicker && !known.variance)
+  {
     report.Warn(WarningCode::OffsetOutOfRange,
-                (isDark ? "the mean level of the dark frames is " : "the given offset is ") + Text(known.valueDn) +
-                  " DN, but the darkest pixels and a read noise above 0 allow " + lowest +
-                  RoundedApart(limits.highestDn, known.valueDn) + " DN: " +
-                  (isDark
-                     ? "are frames and dark frames exchanged? Else record dark frames with the setting of the frames"
-                     : "leave it out, or measure it with dark frames (--dark)"));
+                "the given offset is " + TextOfExcess(known, flicker) +
+                  ": leave it out, or measure it with dark frames (--dark)");
   }
 }
 
@@ -105,6 +154,11 @@ TextOfUnknownFlicker(const SeriesOfFlicker & flicker)
     return "the illumination change is known only to within " +
            PercentApart(flicker.scaleError, InCommon.largestRelativeError) + "; " +
            Percent(InCommon.largestRelativeError) + " is needed for the flicker" + giveOffset;
+  }
+  if (flicker.failure == FlickerFailure::LocalMotion)
+  {
+    return "parts of the scene move by themselves, which changes their levels as a flicker does. Record a scene that "
+           "is still, or choose a part of it: --roi";
   }
   return "the flicker is not distinguished from the noise of the frames: its standard deviation may be " +
          (flicker.limit && flicker.limit->high ? RoundedApart(*flicker.limit->high, 1.0) : std::string("of any size")) +
@@ -129,7 +183,11 @@ ReasonOf(const OffsetEstimate & offset, const RefinedResults & found)
     case OffsetFailure::FaintFlicker:
       return DescribeInsignificantFlicker(found.reestimated.line.flickerZ) + Ask(moreFlicker);
     case OffsetFailure::LocalIllumination:
-      return "the illumination changes differently over the frame, and no part of it determines the offset" + Ask("");
+      return found.IsMotionLocal()
+               ? "parts of the scene move by themselves, which changes their levels as a flicker does" +
+                   Ask(", or record a scene that is still")
+               : "the illumination changes differently over the frame, and no part of it determines the offset" +
+                   Ask("");
     case OffsetFailure::Unbounded:
       return "the flicker leaves the offset without bounds" + Ask(moreFlicker);
     case OffsetFailure::WideInterval:
@@ -173,6 +231,7 @@ WarnOfOffset(Report & report, const RefinedResults & found, const RefinedEstimat
   if (estimate.known && estimate.known->variance)
   {
     WarnOfDarkFrames(report, found, estimate);
+    WarnOfDarkCharge(report, found, estimate);
   }
   if (estimate.dark.readNoise.status == EstimateStatus::UpperLimit)
   {

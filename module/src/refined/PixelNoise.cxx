@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "refined/PixelNoise.h"
+#include "refined/RefinedResults.h"
 
-#include "correlation/FrameEnergies.h"
-#include "correlation/Interference.h"
-#include "correlation/InterpolatedPixels.h"
+#include "correlation/ProcessingSigns.h"
 #include "correlation/NoiseCorrelation.h"
 #include "correlation/NoiseResiduals.h"
 #include "moments/DarkFrames.h"
@@ -212,19 +210,19 @@ AllowForLines(NoiseResiduals &     residuals,
 }
 
 ProjectedSquares
-ProjectSquares(ResidualSquares         squares,
-               const StaticScene &     scene,
-               const SceneSeries &     series,
-               const ReplacedSquares & replaced,
-               const CodeNoise &       codeNoise,
-               const ParallelFor &     parallelFor)
+ProjectSquares(ResidualSquares           squares,
+               const StaticScene &       scene,
+               const SceneSeries &       series,
+               const ReplacedSquares &   replaced,
+               const QuantisationNoise & quantisationNoise,
+               const ParallelFor &       parallelFor)
 {
   // If the levels do not identify the offset, no line of the pixels determines the fraction of shot noise.
   const FrameIllumination illumination{ series.line.gamma,
                                         series.offset + scene.model.centreDn,
                                         !scene.changesStrongly || series.isOffsetIdentifiable };
   return { scene.frame,        series.basis, series.motion, std::move(squares), scene.model,
-           scene.frame.usable, parallelFor,  illumination,  replaced,           codeNoise };
+           scene.frame.usable, parallelFor,  illumination,  replaced,           quantisationNoise };
 }
 
 /** Returns the gain by which the variances are corrected before the first line [DN/e-]. The initial model contains the
@@ -268,11 +266,11 @@ MeasurePixelNoise(ResidualSquares                          squares,
                   const StaticScene &                      scene,
                   const std::optional<const SceneSeries> & series,
                   const RefinedSettings &                  settings,
-                  const CodeNoise &                        codeNoise,
+                  const QuantisationNoise &                quantisationNoise,
                   bool                                     isOneScene,
                   const ParallelFor &                      parallelFor)
 {
-  const double              codesDn2 = codeNoise.darkVarianceDn2;
+  const double              quantisationDn2 = quantisationNoise.darkVarianceDn2;
   const double              blackDn = BlackLevel(settings, scene, series);
   const double              offsetDn = series->offset + scene.model.centreDn;
   std::vector<std::uint8_t> pixelUse = scene.pixelUse;
@@ -291,12 +289,12 @@ MeasurePixelNoise(ResidualSquares                          squares,
     allowed = AllowForLines(residuals, scene, { chosen, pixelUse }, signalDn, areSeriesLeft, parallelFor);
   }
   ProjectedSquares projected =
-    ProjectSquares(std::move(squares), scene, *series, allowed.replaced, codeNoise, parallelFor);
+    ProjectSquares(std::move(squares), scene, *series, allowed.replaced, quantisationNoise, parallelFor);
   const double firstGain = FirstGain(scene, *series);
   const auto   fit = [&](double varianceInflation) {
     StaticVariance variance =
       FitStaticVariance(projected, chosen, pixelUse, firstGain, offsetDn, blackDn, parallelFor, varianceInflation);
-    variance.codeNoise = codeNoise;
+    variance.quantisationNoise = quantisationNoise;
     return variance;
   };
   PixelNoise noise{ fit(1.0), {}, {}, allowed.lines, {} };
@@ -317,7 +315,7 @@ MeasurePixelNoise(ResidualSquares                          squares,
                                     projected,
                                     scene,
                                     { series->line.gamma, offsetDn, zeroDn },
-                                    series->local.IsLocal() || allowed.lines.isTakenOff };
+                                    series->local.IsLocal() || allowed.lines.isSubtracted };
   const auto            allowForFrames = [&] {
     noise.variance.fromFrames = LineOfFrames(noise.variance, comparison, parallelFor);
     if (comparison.AreUnequal())
@@ -326,21 +324,21 @@ MeasurePixelNoise(ResidualSquares                          squares,
     }
   };
   allowForFrames();
-  noise.correlation = MeasureWithoutInterference(residuals, codesDn2, parallelFor);
+  noise.correlation = MeasureWithoutInterference(residuals, quantisationDn2, parallelFor);
   const double varianceInflation = VarianceInflation(noise.correlation.space);
   if (noise.correlation.IsCorrelated() && varianceInflation > InRefined.leastVarianceInflation)
   {
     noise.variance = fit(varianceInflation);
     take();
     allowForFrames();
-    noise.correlation = MeasureWithoutInterference(residuals, codesDn2, parallelFor);
+    noise.correlation = MeasureWithoutInterference(residuals, quantisationDn2, parallelFor);
     // Near an edge, the spatial covariance is a mean over both sides, and the pixel's variance is not on the line.
     LeaveOutEdges(scene.frame, noise.variance.line, chosen, pixelUse);
     noise.variance = fit(varianceInflation);
   }
   noise.variance.interpolatedFraction = interpolated.fraction;
   MeasureFrames(noise, comparison, blackDn, isOneScene, parallelFor);
-  MeasureSettledFrames(noise.correlation, residuals, codesDn2, parallelFor);
+  MeasureSettledFrames(noise.correlation, residuals, quantisationDn2, parallelFor);
   noise.variance.lostVariance = LostVariance(interpolated, FractionNotCompared(chosen, residuals), noise.correlation);
   if (noise.correlation.kind != NoiseKind::NotMeasured)
   {

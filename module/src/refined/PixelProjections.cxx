@@ -11,7 +11,6 @@
 #include "moments/StackFrames.h"
 #include "pixels/ProjectedFrames.h"
 #include "refined/Constants.h"
-#include "refined/MemoryNeed.h"
 #include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
 #include "sensornoise/FrameGeometry.h"

@@ -3,7 +3,7 @@
 #include "refined/RefinedEstimate.h"
 
 #include "base/Constants.h"
-#include "base/Quadrature.h"
+#include "base/ChiSquare.h"
 #include "pixels/VarianceCurve.h"
 #include "refined/Constants.h"
 #include "refined/GainEstimate.h"
@@ -71,7 +71,7 @@ EstimateFlicker(const RefinedResults & found, const UsedOffset & offset, double 
   }
   flicker.scaleError = std::abs(line.sensitivity) * offset.errorDn;
   flicker.limit = flicker.sd.interval95;
-  flicker.failure = FindFailure(flicker);
+  flicker.failure = found.IsMotionLocal() ? FlickerFailure::LocalMotion : FindFailure(flicker);
   if (flicker.failure != FlickerFailure::None)
   {
     flicker.sd = Quantity::Without(EstimateStatus::NotIdentifiable);
@@ -84,14 +84,14 @@ namespace
 /** Returns the settings with the dark variance of the sensor before filters, without the noise of rows and columns.
  * Dark frames passed the same filter. */
 RefinedSettings
-SettingsOfSensor(const RefinedResults & found, double codesDn2)
+SettingsOfSensor(const RefinedResults & found, double quantisationDn2)
 {
   RefinedSettings settings = found.settings;
   if (settings.offset && settings.offset->variance)
   {
     DarkVariance & dark = *settings.offset->variance;
-    const double   spread = StandardDeviationOfShapes(dark.valueDn2, found.correlation, codesDn2);
-    dark.valueDn2 = VarianceOfSensor(dark.valueDn2, found.correlation, codesDn2);
+    const double   spread = StandardDeviationOfShapes(dark.valueDn2, found.correlation, quantisationDn2);
+    dark.valueDn2 = VarianceOfSensor(dark.valueDn2, found.correlation, quantisationDn2);
     dark.standardErrorDn2 =
       AddInQuadrature(FilterFactor(found.correlation) * dark.standardErrorDn2,
                       FilterFactor(found.correlation) * found.correlation.StructuredNoise().standardError,
@@ -151,10 +151,10 @@ FindUncheckedFraction(const RefinedResults & found, const GainEstimate & gain, d
 RefinedEstimate
 EstimateBy(const RefinedResults & found, const GainEstimate & gain)
 {
-  const double    codesDn2 = found.variance.codeNoise.darkVarianceDn2;
+  const double    quantisationDn2 = found.variance.quantisationNoise.darkVarianceDn2;
   RefinedEstimate estimate;
   estimate.known = found.settings.offset;
-  estimate.limits = LimitsOf(found, gain, codesDn2);
+  estimate.limits = LimitsOf(found, gain, quantisationDn2);
   estimate.flickerOffset = EstimateOffset(found, gain, estimate.limits);
   const UsedOffset offset = ChooseOffset(found, gain, estimate.flickerOffset, estimate.limits);
   estimate.flicker = EstimateFlicker(found, offset, gain.RelativeModelError());
@@ -163,13 +163,13 @@ EstimateBy(const RefinedResults & found, const GainEstimate & gain)
   estimate.effectOfLines = EffectOfLineIllumination(
     found.lines.left, found.scene.model.brightestDn - found.blackDn, gain.line.gain, InRefined.largestLineIllumination);
   const GainVerdict verdict = TestSensor(found, gain, estimate.effectOfLines);
-  estimate.ofSensor = QuantitiesBy(verdict, gain, found, codesDn2);
+  estimate.ofSensor = QuantitiesBy(verdict, gain, found, quantisationDn2);
   if (verdict != GainVerdict::Identified)
   {
-    estimate.dark = QuantitiesOfDarkFrames(found.settings, codesDn2, StatusBy(verdict));
+    estimate.dark = QuantitiesOfDarkFrames(found.settings, quantisationDn2, StatusBy(verdict));
     return estimate;
   }
-  estimate.dark = QuantitiesByOffset(found, gain, estimate.limits, estimate.flickerOffset, codesDn2);
+  estimate.dark = QuantitiesByOffset(found, gain, estimate.limits, estimate.flickerOffset, quantisationDn2);
   if (estimate.known)
   {
     const OffsetEstimate & flicker = estimate.flickerOffset;
@@ -218,17 +218,19 @@ WithholdGain(RefinedEstimate estimate)
 RefinedEstimate
 EstimateRefined(const RefinedResults & found)
 {
-  const double       codesDn2 = found.variance.codeNoise.darkVarianceDn2;
+  const double       quantisationDn2 = found.variance.quantisationNoise.darkVarianceDn2;
   const GainEstimate ofFrames = EstimateGain(found);
   RefinedEstimate    estimate;
   if (found.correlation.IsCorrelated() || found.correlation.StructuredNoise().value > 0.0)
   {
-    const RefinedSettings settings = SettingsOfSensor(found, codesDn2);
-    const SensorLines     lines = AddCovariances(LinesOf(found.variance), found.correlation, found.blackDn, codesDn2);
-    const RefinedResults  sensor = { settings,       found.scene,       found.series,
-                                     found.variance, found.reestimated, found.correctedVariance,
-                                     found.blackDn,  found.correlation, found.frameNoise,
-                                     found.lines,    found.exposures,   found.darkSignal };
+    const RefinedSettings settings = SettingsOfSensor(found, quantisationDn2);
+    const SensorLines     lines =
+      AddCovariances(LinesOf(found.variance), found.correlation, found.blackDn, quantisationDn2);
+    const RefinedResults sensor = { settings,        found.scene,       found.series,
+                                    found.variance,  found.reestimated, found.correctedVariance,
+                                    found.blackDn,   found.correlation, found.frameNoise,
+                                    found.lines,     found.exposures,   found.darkSignal,
+                                    found.darkCharge };
     estimate = EstimateBy(sensor, EstimateGain(sensor, lines));
   }
   else

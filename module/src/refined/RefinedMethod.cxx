@@ -5,9 +5,9 @@
 #include "base/FreeMemory.h"
 #include "base/Text.h"
 #include "moments/Exposures.h"
-#include "refined/MemoryNeed.h"
+#include "refined/PixelProjections.h"
 #include "refined/RefinedPasses.h"
-#include "report/StackSettings.h"
+#include "report/StackReport.h"
 #include "sensornoise/Settings.h"
 
 #include <cmath>
@@ -22,7 +22,7 @@ namespace sensornoise
 void
 RefinedSettings::Validate() const
 {
-  ValidateCodeSettings(codes);
+  ValidateDnSettings(codes);
   ValidateExposures(exposures);
   ValidateExcessNoiseFactor(excessNoiseFactor);
   if (levelRangeDn)

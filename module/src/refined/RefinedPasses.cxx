@@ -7,13 +7,12 @@
 #include "moments/Constants.h"
 #include "moments/DarkFrames.h"
 #include "moments/StackMaps.h"
-#include "pixels/NarrowSums.h"
+#include "pixels/ProjectedFrames.h"
 #include "refined/RefinedResults.h"
-#include "refined/MemoryNeed.h"
+#include "refined/PixelProjections.h"
 #include "refined/RefinedReport.h"
 #include "report/StackReport.h"
 #include "report/Quantities.h"
-#include "report/StackSettings.h"
 #include "series/FrameSums.h"
 #include "series/FrameRegressors.h"
 
@@ -340,7 +339,7 @@ RefinedPasses<TPixel>::EndProjections()
       return false;
     }
   }
-  // The components are weighted with all noise, the noise of codes included.
+  // The components are weighted with all noise, the noise of digital numbers included.
   m_Reestimated.emplace(ReestimateComponents(
     *m_FrameSums, *m_Series, m_Projections->TakeCoordinates(), m_Noise->variance, m_CorrectedVariance, m_ParallelFor));
   m_Projections.reset();
@@ -367,13 +366,13 @@ RefinedPasses<TPixel>::MeasureNoise()
   m_Scene->frame.neighbourMean = ComputeNeighbourMean(m_Scene->frame, m_ParallelFor);
   const ReferenceFrame &         frame = m_Scene->frame;
   const std::vector<std::size_t> counted = m_Distinct.Counted();
-  const CodeNoise                codeNoise = this->FindCodeNoise();
+  const QuantisationNoise        quantisationNoise = this->FindQuantisationNoise();
   m_Noise.emplace(MeasurePixelNoise(m_Projections->TakeSquares(),
                                     m_Projections->TakeSample(),
                                     *m_Scene,
                                     m_Series,
                                     m_Settings,
-                                    codeNoise,
+                                    quantisationNoise,
                                     !m_Thumbnails.FindChange(counted).IsLarge(),
                                     m_ParallelFor));
   if (!m_Noise->variance.line.isDetermined)
@@ -385,25 +384,26 @@ RefinedPasses<TPixel>::MeasureNoise()
   }
   m_CorrectedVariance = std::move(m_Noise->correctedVariance);
   ForPixels(m_CorrectedVariance.size(), m_ParallelFor, [&](std::size_t p) {
-    m_CorrectedVariance[p] = frame.usable[p] != 0 ? m_CorrectedVariance[p] + codeNoise.RemainderAt(frame.mean[p])
-                                                  : std::numeric_limits<double>::quiet_NaN();
+    m_CorrectedVariance[p] = frame.usable[p] != 0
+                               ? m_CorrectedVariance[p] + quantisationNoise.RemainderAt(frame.mean[p])
+                               : std::numeric_limits<double>::quiet_NaN();
   });
 }
 
 template <typename TPixel>
-CodeNoise
-RefinedPasses<TPixel>::FindCodeNoise() const
+QuantisationNoise
+RefinedPasses<TPixel>::FindQuantisationNoise() const
 {
   const auto & offset = m_Settings.offset;
   const double darkStepDn = offset && offset->maps ? offset->maps->stepDn : 0.0;
-  return MakeCodeNoise(m_Scene->summary.codes, m_Scene->frame, m_Scene->model, darkStepDn);
+  return MakeQuantisationNoise(m_Scene->summary.codes, m_Scene->frame, m_Scene->model, darkStepDn);
 }
 
 template <typename TPixel>
 Report
 RefinedPasses<TPixel>::MakeMeasuredReport() const
 {
-  const StaticVariance variance = WithoutLineOfCodes(m_Noise->variance);
+  const StaticVariance variance = SubtractQuantisationLine(m_Noise->variance);
   return MakeRefinedReport({ m_Settings,
                              *m_Scene,
                              *m_Series,
@@ -415,7 +415,8 @@ RefinedPasses<TPixel>::MakeMeasuredReport() const
                              WithIndicesOfStack(m_Noise->frames, m_Distinct.Counted()),
                              m_Noise->lines,
                              m_ExposureFit ? &*m_ExposureFit : nullptr,
-                             FindDarkSignal(m_Settings.offset, m_Scene->frame, variance.pixelUse, m_ParallelFor) },
+                             FindDarkSignal(m_Settings.offset, m_Scene->frame, variance.pixelUse, m_ParallelFor),
+                             FindDarkCharge(m_Settings.offset, m_Geometry, m_ParallelFor) },
                            m_ParallelFor);
 }
 

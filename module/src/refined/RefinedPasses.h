@@ -10,14 +10,13 @@
 #include "moments/Exposures.h"
 #include "moments/StackMaps.h"
 #include "moments/StackPasses.h"
-#include "refined/PixelNoise.h"
 #include "refined/PixelProjections.h"
 #include "refined/RefinedResults.h"
 #include "sensornoise/Settings.h"
 #include "sensornoise/Report.h"
 #include "scene/StaticScene.h"
 #include "series/FrameSums.h"
-#include "series/ProductNoise.h"
+#include "series/FrameEquations.h"
 #include "series/SceneSeries.h"
 
 #include <cstddef>
@@ -35,14 +34,13 @@ namespace sensornoise
 /** \class RefinedPasses
  * \brief Gain, offset and read noise at the theoretical limit, in three passes over the stack.
  *
- * Pass 1 gathers the temporal moments: the mean image, an initial noise model, and the clipped pixels. Pass 2
- * regresses every frame on the mean image and its derivatives. It gives the offset and the temporal components:
- * flicker, local illumination and motion. Pass 3 projects every pixel's time series on these components. The residual
- * is sensor noise, and its regression on the mean gives gain and intercept. If the illumination changes strongly, the
- * stack is read once more between passes 1 and 2, see LevelProjection. Usage, also by several processes, as
- * StackPasses. The sums of a process have 16 kB for each frame in pass 2, 8 bytes for each pixel and temporal
- * component in pass 3 (4 where that is enough, see UnitOfNarrowSums()), and 8 bytes for each pixel in the further
- * pass.
+ * Pass 1 gathers the temporal moments: the mean image, an initial noise model, and the clipped pixels. Pass 2 regresses
+ * every frame on the mean image and its derivatives. It gives the offset and the temporal components: flicker, local
+ * illumination and motion. Pass 3 projects every pixel's time series on these components. The residual is sensor noise,
+ * and its regression on the mean gives gain and intercept. If the illumination changes strongly, the stack is read once
+ * more between passes 1 and 2, see LevelProjection. Usage, also by several processes, as StackPasses. The sums of a
+ * process have 16 kB for each frame in pass 2, and 8 bytes for each pixel in the further pass. In pass 3 they have 8
+ * bytes for each pixel and temporal component, or 4 where UnitOfNarrowSums() finds that enough.
  *
  * Identical frames are counted once: the result is the result of the distinct frames, and the series in the report
  * repeat the values of a frame's original.
@@ -230,9 +228,9 @@ private:
   /** Discards all results of the passes after the moments. */
   void
   ForgetFindings();
-  /** Returns the quantization noise of companded codes. */
-  CodeNoise
-  FindCodeNoise() const;
+  /** Returns the quantization noise of companded digital numbers. */
+  QuantisationNoise
+  FindQuantisationNoise() const;
   Report
   MakeMeasuredReport() const;
   void

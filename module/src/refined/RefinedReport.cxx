@@ -8,10 +8,9 @@
 #include "correlation/NoiseCorrelation.h"
 #include "pixels/VarianceLine.h"
 #include "refined/Constants.h"
-#include "refined/PixelNoise.h"
+#include "refined/RefinedResults.h"
 #include "refined/RefinedEstimate.h"
 #include "report/StackReport.h"
-#include "report/StackSettings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,12 +41,11 @@ RangeOfLevels(const RefinedResults & found, PixelUse use)
                         : Rounded(Quantile(levels, 0.05)) + " to " + Rounded(Quantile(levels, 0.95)) + " DN";
 }
 
+/** Warns of illumination that differs within a frame, and of its part that is not removed. */
 void
-WarnOfScene(Report & report, const RefinedResults & found)
+WarnOfIllumination(Report & report, const RefinedResults & found)
 {
-  const auto total = static_cast<double>(found.scene.frame.geometry.Pixels());
-  const auto percent = [total](std::size_t pixels) { return Percent(static_cast<double>(pixels) / total); };
-  if (found.lines.isTakenOff)
+  if (found.lines.isSubtracted)
   {
     const double square = std::max(0.0, found.lines.found.value);
     report.Warn(
@@ -55,7 +53,9 @@ WarnOfScene(Report & report, const RefinedResults & found)
       "the illumination differs from " + found.lines.NameOfLine() + " to " + found.lines.NameOfLine() +
         " within a frame by " + Percent(std::sqrt(square)) +
         " rms: pulsed illumination under a rolling shutter, or interlaced frames. Gain and intercept are from " +
-        percent(found.lines.pixels) + " of the pixels, without the noise common to each " + found.lines.NameOfLine());
+        Percent(static_cast<double>(found.lines.pixels) / static_cast<double>(found.scene.frame.geometry.Pixels())) +
+        " of the pixels, without the noise common to each " + found.lines.NameOfLine() +
+        ", and their errors are larger. Use illumination without pulses if they are too large");
   }
   else if (found.series.local.IsLocal())
   {
@@ -64,15 +64,25 @@ WarnOfScene(Report & report, const RefinedResults & found)
       report.Warn(WarningCode::OffsetDrift,
                   "the dark offset of all pixels drifts over the burst. Let the camera warm up before the recording");
     }
+    else if (found.IsMotionLocal())
+    {
+      report.Warn(
+        WarningCode::LocalLight,
+        "parts of the scene move by themselves, or the illumination changes differently over the frame, which "
+        "gain and intercept allow for, at larger errors. Record a scene that is still, or choose a part of "
+        "it (--roi)");
+    }
     else
     {
       const auto        count = found.series.local.series.cols();
       const std::string how = count == 0
                                 ? "its flicker differs by " + Percent(found.series.local.unevenness.size) + " rms"
                                 : std::to_string(count) + " further temporal component" + (count == 1 ? "" : "s");
-      report.Warn(WarningCode::LocalLight,
-                  "the illumination changes differently over the frame (" + how +
-                    "): a rolling shutter, several light sources or bleaching, which gain and intercept allow for");
+      report.Warn(
+        WarningCode::LocalLight,
+        "the illumination changes differently over the frame (" + how +
+          "): a rolling shutter, several light sources or bleaching, which gain and intercept allow for, at larger "
+          "errors. Use one light source without pulses if they are too large");
     }
   }
   if (found.lines.remainingVariance > 0.0)
@@ -84,24 +94,37 @@ WarnOfScene(Report & report, const RefinedResults & found)
                   Rounded(InRefined.slopeOfRemaining) +
                   " times as much. Record more frames, or choose an evenly lit part: --roi");
   }
+}
+
+void
+WarnOfScene(Report & report, const RefinedResults & found)
+{
+  WarnOfIllumination(report, found);
+  const auto total = static_cast<double>(found.scene.frame.geometry.Pixels());
+  const auto percent = [total](std::size_t pixels) { return Percent(static_cast<double>(pixels) / total); };
   if (static_cast<double>(found.variance.notStatic) > InRefined.reportedFraction * total)
   {
-    report.Warn(WarningCode::NotStatic,
-                percent(found.variance.notStatic) +
-                  " of the pixels lie where something moves or changes, and are left out. Nine tenths of them have " +
-                  RangeOfLevels(found, PixelUse::NotStatic) + "; of the pixels used, " +
-                  RangeOfLevels(found, PixelUse::Used));
+    report.Warn(
+      WarningCode::NotStatic,
+      percent(found.variance.notStatic) +
+        " of the pixels lie where something moves or changes, and are left out, because the change adds to their "
+        "variance. Nine tenths of them have " +
+        RangeOfLevels(found, PixelUse::NotStatic) + "; of the pixels used, " + RangeOfLevels(found, PixelUse::Used) +
+        ". Look at the map of pixel use (--maps) to see where they are");
   }
   const std::optional<FullWells> & wells = found.scene.fullWells;
   const std::size_t                clipped = found.scene.nearClip + found.scene.summary.clipped;
   if (static_cast<double>(clipped) > InRefined.reportedFraction * total)
   {
     report.Warn(WarningCode::NearClipLevel,
-                percent(clipped) + " of the pixels reach a clip level or could have, and are left out" +
+                percent(clipped) +
+                  " of the pixels reach a clip level or could have, and are left out, because clipping reduces their "
+                  "variance" +
                   (wells ? ". The noise vanishes at " + Rounded(wells->levelDn) +
                              " DN: there the full wells of the pixels end, which differ by " +
                              Percent(wells->spreadDn / wells->levelDn) + " rms"
-                         : ""));
+                         : "") +
+                  ". Change the exposure to keep them");
   }
   std::string unlike;
   if (found.variance.line.trimmedFraction > InRefined.reportedTrimmed)
@@ -116,7 +139,10 @@ WarnOfScene(Report & report, const RefinedResults & found)
   }
   if (!unlike.empty())
   {
-    report.Warn(WarningCode::NoisyPixels, unlike + ". They are left out");
+    report.Warn(WarningCode::NoisyPixels,
+                unlike +
+                  ". They are left out, because their variance is not the variance of a typical pixel. Look at the map "
+                  "of pixel use (--maps) to see where they are");
   }
 }
 
@@ -132,12 +158,12 @@ WarnOfBorder(Report & report, const StaticScene & scene)
   }
   if (!strips.empty())
   {
-    report.Warn(
-      WarningCode::BorderLeftOut,
-      std::to_string(scene.border.Pixels(scene.frame.geometry)) + " pixels along the border, " +
-        Percent(static_cast<double>(scene.border.Pixels(scene.frame.geometry)) /
-                static_cast<double>(scene.frame.geometry.Pixels())) +
-        " of the frame, have one level, end within a pixel, and are left out as no part of the scene: " + strips);
+    report.Warn(WarningCode::BorderLeftOut,
+                std::to_string(scene.border.Pixels(scene.frame.geometry)) + " pixels along the border, " +
+                  Percent(static_cast<double>(scene.border.Pixels(scene.frame.geometry)) /
+                          static_cast<double>(scene.frame.geometry.Pixels())) +
+                  " of the frame, have one level, end within a pixel, and are left out as no part of the scene: " +
+                  strips + ". Use the results as they are, or choose the lit area: --roi");
   }
 }
 
@@ -168,7 +194,7 @@ DescribeInput(const RefinedSettings & settings, const StaticScene & scene, const
       report.settings.emplace_back("dark_variance_standard_error", variance->standardErrorDn2);
     }
   }
-  NoteCodes(report, settings.codes);
+  NoteDnSettings(report, settings.codes);
   DescribeStack(report, scene.frame.geometry, scene.frame.frames, scene.summary, scene.valid, pixelUse);
   WarnOfStack(report, scene.frame.frames, scene.summary);
   WarnOfBorder(report, scene);
@@ -275,7 +301,7 @@ MakeFailedReport(const RefinedSettings &           settings,
 {
   Report report = DescribeInput(settings, scene, pixelUse);
   report.Warn(failureReason.GetCode(), failureReason.what());
-  CopyDark(report, QuantitiesOfDarkFrames(settings, CodesVariance(scene), EstimateStatus::Failed));
+  CopyDark(report, QuantitiesOfDarkFrames(settings, QuantisationVariance(scene), EstimateStatus::Failed));
   return report;
 }
 

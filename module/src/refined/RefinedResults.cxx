@@ -4,14 +4,13 @@
 
 #include "base/Constants.h"
 #include "base/Eigen.h"
-#include "correlation/Jackknife.h"
+#include "correlation/CorrelationSums.h"
 #include "moments/DarkFrames.h"
 #include "pixels/IlluminationResponses.h"
 #include "refined/Constants.h"
 #include "scene/ReferenceFrame.h"
 #include "sensornoise/Report.h"
 #include "series/FrameEquations.h"
-#include "series/ProductNoise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -96,7 +95,9 @@ ReestimateComponents(const FrameSums &           sums,
     reestimated.isOffsetDrift = IsOffsetDrift(illumination);
     if (!reestimated.isOffsetDrift)
     {
-      reestimated.localOffset = FindLocalOffset(illumination, parallelFor);
+      const ResponsesWithoutMotion responses = RemoveMotionLeakage(illumination, parallelFor);
+      reestimated.isMotionLocal = responses.isMotionLocal;
+      reestimated.localOffset = FindLocalOffset(illumination, responses.responses, parallelFor);
     }
     reestimated.localFlicker = SumLocalFlicker(illumination);
   }
@@ -190,7 +191,7 @@ SubtractLineIllumination(LineIllumination &          lines,
                          std::vector<std::uint8_t> & pixelUse,
                          const ParallelFor &         parallelFor)
 {
-  const std::vector<float>  left = residuals.TakeOffLines(lines.axis, chosen, parallelFor);
+  const std::vector<float>  left = residuals.SubtractLines(lines.axis, chosen, parallelFor);
   const SampleTiles &       tiles = residuals.GetTiles();
   std::vector<std::uint8_t> sampled(chosen.size(), 0);
   ReplacedSquares           replaced;
@@ -216,117 +217,9 @@ SubtractLineIllumination(LineIllumination &          lines,
     }
   }
   chosen = std::move(sampled);
-  lines.isTakenOff = true;
+  lines.isSubtracted = true;
   lines.pixels = static_cast<std::size_t>(std::count(chosen.begin(), chosen.end(), std::uint8_t{ 1 }));
   return replaced;
-}
-
-namespace
-{
-constexpr std::size_t TileSide = 16; ///< [pixels]; glow and vignetting hardly change within a tile
-constexpr std::size_t MostBlocks = 32;
-constexpr std::size_t FewestBlocks = 4;
-constexpr double      FewestPixels = 16.0; ///< in a tile
-
-/** Sums over tiles of the centred signal x, bright minus dark mean, and of the centred dark mean y. */
-struct SignalSums
-{
-  double square{ 0.0 };  ///< sum of x^2 without noise [DN^2]
-  double product{ 0.0 }; ///< sum of x y without noise [DN^2]
-
-  SignalSums &
-  operator+=(const SignalSums & other)
-  {
-    square += other.square;
-    product += other.product;
-    return *this;
-  }
-  /** Returns the fraction b of the signal in the dark frames [1], from the regression of y on x, b / (1 - b). */
-  double
-  Fraction() const
-  {
-    return square + product != 0.0 ? product / (square + product) : 0.0;
-  }
-};
-
-/** Returns the sums of the tile at \a left, \a top; empty sums where the contrast of the scene is below
- * InRefined.leastContrastOfTile. */
-SignalSums
-SumTile(const DarkMaps &                  dark,
-        const ReferenceFrame &            bright,
-        const std::vector<std::uint8_t> & pixelUse,
-        std::size_t                       left,
-        std::size_t                       top)
-{
-  const auto frames = static_cast<double>(bright.frames);
-  const auto darkFrames = static_cast<double>(dark.frames);
-  double     pixels = 0.0, x = 0.0, y = 0.0, noise = 0.0, shared = 0.0;
-  SignalSums sums;
-  for (std::size_t row = top; row < std::min(top + TileSide, bright.geometry.height); ++row)
-  {
-    for (std::size_t column = left; column < std::min(left + TileSide, bright.geometry.width); ++column)
-    {
-      const std::size_t p = row * bright.geometry.width + column;
-      if (dark.usable[p] == 0 || pixelUse[p] != static_cast<std::uint8_t>(PixelUse::Used))
-      {
-        continue;
-      }
-      const double signal = bright.mean[p] - dark.offsetDn[p];
-      pixels += 1.0;
-      x += signal;
-      y += dark.offsetDn[p];
-      sums.square += signal * signal;
-      sums.product += signal * dark.offsetDn[p];
-      shared += dark.varianceDn2[p] / darkFrames;
-      noise += bright.variance[p] / frames;
-    }
-  }
-  if (pixels < FewestPixels)
-  {
-    return {};
-  }
-  const double fewer = 1.0 - 1.0 / pixels;
-  sums.square -= x * x / pixels + fewer * (noise + shared);
-  sums.product -= x * y / pixels - fewer * shared;
-  const double contrast = InRefined.leastContrastOfTile * x / pixels;
-  return sums.square > contrast * contrast * pixels ? sums : SignalSums();
-}
-} // namespace
-
-std::optional<MeasuredNumber>
-FindDarkSignal(const std::optional<KnownOffset> & offset,
-               const ReferenceFrame &             bright,
-               const std::vector<std::uint8_t> &  pixelUse,
-               const ParallelFor &                parallelFor)
-{
-  if (!offset || !offset->maps || offset->maps->usable.size() != pixelUse.size())
-  {
-    return std::nullopt;
-  }
-  const std::size_t       rows = (bright.geometry.height + TileSide - 1) / TileSide;
-  std::vector<SignalSums> blocks(std::min(rows, MostBlocks));
-  const std::size_t       count = blocks.size();
-  parallelFor(count, [&](std::size_t block) {
-    for (std::size_t row = block * rows / count; row < (block + 1) * rows / count; ++row)
-    {
-      for (std::size_t left = 0; left < bright.geometry.width; left += TileSide)
-      {
-        blocks[block] += SumTile(*offset->maps, bright, pixelUse, left, row * TileSide);
-      }
-    }
-  });
-  const auto isEmpty = [](const SignalSums & sum) { return !(sum.square > 0.0); };
-  blocks.erase(std::remove_if(blocks.begin(), blocks.end(), isEmpty), blocks.end());
-  if (blocks.size() < FewestBlocks)
-  {
-    return std::nullopt;
-  }
-  const JackknifeEstimate estimate =
-    Jackknife(blocks, [](const SignalSums & sums) { return Eigen::VectorXd::Constant(1, sums.Fraction()); });
-  const MeasuredNumber fraction{ estimate.value(0), estimate.StandardError(0) };
-  const bool           counts =
-    fraction.value > InRefined.leastSignalOfDark && fraction.value > Significance.severalTests * fraction.standardError;
-  return counts ? std::optional<MeasuredNumber>(fraction) : std::nullopt;
 }
 
 } // namespace sensornoise

@@ -4,6 +4,7 @@
 #define sensornoise_refined_RefinedResults_h
 
 #include "SensorNoiseExport.h"
+#include "correlation/FrameSample.h"
 #include "correlation/NoiseCorrelation.h"
 #include "correlation/NoiseResiduals.h"
 #include "moments/Exposures.h"
@@ -11,6 +12,7 @@
 #include "pixels/ProjectedVariance.h"
 #include "pixels/ProjectionSums.h"
 #include "pixels/StaticVariance.h"
+#include "pixels/VarianceLine.h"
 #include "refined/FramePhotonTransfer.h"
 #include "scene/ReferenceFrame.h"
 #include "scene/StaticScene.h"
@@ -43,6 +45,7 @@ struct ReestimatedComponents
   Eigen::Vector2d                 scaleErrors{ Eigen::Vector2d::Zero() };
   std::optional<InstrumentShifts> shifts;
   bool                            isOffsetDrift{ false }; ///< whether the local illumination is a drifting offset
+  bool                            isMotionLocal{ false }; ///< see ResponsesWithoutMotion
   std::optional<LocalOffset>      localOffset;            ///< only under local illumination
   LocalFlicker                    localFlicker;
 };
@@ -68,7 +71,7 @@ struct LineIllumination
   MeasuredNumber found;
   MeasuredNumber left;
   /** Whether it was subtracted, and the number of pixels of the noise sample, which were measured without it. */
-  bool        isTakenOff{ false };
+  bool        isSubtracted{ false };
   std::size_t pixels{ 0 };
   /** Variance by other changes of the illumination that remains in a pixel's variance, relative to it [1]; 0: none is
    * significant. */
@@ -104,6 +107,18 @@ SubtractLineIllumination(LineIllumination &          lines,
                          std::vector<std::uint8_t> & pixelUse,
                          const ParallelFor &         parallelFor);
 
+/** Charge in the dark frames that differs from place to place, see FindDarkCharge(). */
+struct DarkCharge
+{
+  MeasuredNumber slope;    ///< slope of the variance over the level of the dark frames [DN]; charge has the gain
+  double         spreadDn; ///< mean level above the darkest tiles [DN]
+
+  /** Returns the mean variance of the charge above the darkest tiles, beyond chance [DN^2]. Returns 0 if the slope is
+   * not explained by charge. \a gain is the gain of the frames [DN/e-]. */
+  double
+  VarianceDn2(double gain) const;
+};
+
 /** Results of the passes of the refined method, from which its report is made. */
 struct RefinedResults
 {
@@ -121,6 +136,8 @@ struct RefinedResults
   const ExposureFit * exposures{ nullptr };
   /** Fraction of the signal in the dark frames, see FindDarkSignal() [1]; null: none. */
   std::optional<MeasuredNumber> darkSignal{};
+  /** Charge in the dark frames; null: not known. */
+  std::optional<DarkCharge> darkCharge{};
 
   /** Return a level of the mean frame in the frame of the lowest or the highest illumination factor, if the frames have
    * a photon transfer; else the level itself [DN]. */
@@ -152,6 +169,13 @@ struct RefinedResults
   {
     return series.local.IsLocal() && !reestimated.isOffsetDrift;
   }
+  /** Returns whether parts of the scene move by themselves, which looks like local illumination. Under strong changes
+   * of the illumination the noise of bright places is too uneven for the test. */
+  bool
+  IsMotionLocal() const
+  {
+    return this->HasLocalIllumination() && reestimated.isMotionLocal && !scene.changesStrongly;
+  }
   /** Returns whether slow noise, as behind noise reduction in time, may have made the temporal components of the local
    * illumination: they determine neither an offset nor a flicker. */
   bool
@@ -181,6 +205,70 @@ FindDarkSignal(const std::optional<KnownOffset> & offset,
                const ReferenceFrame &             bright,
                const std::vector<std::uint8_t> &  pixelUse,
                const ParallelFor &                parallelFor);
+
+/** Returns the charge in the dark frames, by dark current, glow or light, as the regression of the variance on the
+ * level of their tiles. Returns null if there are no maps of the dark frames, or too few tiles. Estimator.md, 3.9. */
+SensorNoise_EXPORT std::optional<DarkCharge>
+FindDarkCharge(const std::optional<KnownOffset> & offset,
+               const FrameGeometry &              geometry,
+               const ParallelFor &                parallelFor);
+
+/** Returns the black level [DN]: the given offset, else the offset from the flicker if it is identifiable, else the
+ * lower clip level, or 0 if there is none. The latter two are limited to the darkest level. The black level separates
+ * signal and offset approximately where the frames do not determine the offset. */
+SensorNoise_EXPORT double
+BlackLevel(const RefinedSettings &                  settings,
+           const StaticScene &                      scene,
+           const std::optional<const SceneSeries> & series);
+
+/** Returns the variance of the quantization noise [DN^2]. */
+inline double
+QuantisationVariance(const StaticScene & scene)
+{
+  const double step = scene.summary.codes.quantisationStepDn;
+  return step * step / 12.0;
+}
+
+/** Returns the mask of the usable pixels that have levels within the range of the settings, and that the dark frames do
+ * not show as defective. The reasons for other pixels are written to \a pixelUse. */
+SensorNoise_EXPORT std::vector<std::uint8_t>
+PixelsOfVariance(const StaticScene & scene, const RefinedSettings & settings, std::vector<std::uint8_t> & pixelUse);
+
+/** Removes pixels from \a chosen whose surroundings have another level, and marks them in \a pixelUse. Where frames
+ * were filtered, the variance of these pixels is a mean over other neighbours than their level, and lies on no line.
+ * \a line is the variance line of the frames without correction for filters. */
+SensorNoise_EXPORT void
+LeaveOutEdges(const ReferenceFrame &      frame,
+              const VarianceLine &        line,
+              std::vector<std::uint8_t> & chosen,
+              std::vector<std::uint8_t> & pixelUse);
+
+/** Results of the third pass: the noise of each pixel, and its spatial and temporal correlation. */
+struct PixelNoise
+{
+  StaticVariance   variance;
+  NoiseCorrelation correlation;
+  FrameNoise       frames; ///< indices among the distinct frames
+  LineIllumination lines;
+  /** Variance without flicker and motion [DN^2]; 0 at pixels that are not usable; empty: there is no line. */
+  std::vector<double> correctedVariance;
+};
+
+/** Fits the variance and measures the noise correlation. If the correlation is strong, the mean variance of a tile
+ * scatters more, and the pixels are tested a second time for a static scene. The remainder of \a quantisationNoise is
+ * subtracted from the variance of the pixels before it is fitted, and \a quantisationNoise becomes a member of the
+ * result. The noise of the frames is compared only if \a isOneScene. If too few pixels remain for a line, only the
+ * variance is set.
+ */
+SensorNoise_EXPORT PixelNoise
+MeasurePixelNoise(ResidualSquares                          squares,
+                  FrameSample                              sample,
+                  const StaticScene &                      scene,
+                  const std::optional<const SceneSeries> & series,
+                  const RefinedSettings &                  settings,
+                  const QuantisationNoise &                quantisationNoise,
+                  bool                                     isOneScene,
+                  const ParallelFor &                      parallelFor);
 
 } // namespace sensornoise
 

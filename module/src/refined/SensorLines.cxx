@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/GainEstimate.h"
 
+#include "base/Constants.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -53,10 +55,10 @@ MeanShape(const NoiseCorrelation & correlation)
 class TotalCovariance
 {
 public:
-  TotalCovariance(const NoiseCorrelation & correlation, double blackDn, double codesDn2)
+  TotalCovariance(const NoiseCorrelation & correlation, double blackDn, double quantisationDn2)
     : m_Mean(MeanShape(correlation))
     , m_BlackDn(blackDn)
-    , m_CodesDn2(codesDn2)
+    , m_QuantisationDn2(quantisationDn2)
     , m_StructuredDn2(correlation.StructuredNoise().value)
   {}
 
@@ -65,8 +67,8 @@ public:
   SensorOf(double varianceDn2, double levelDn) const
   {
     const double signal = levelDn - m_BlackDn;
-    const double noise = varianceDn2 - m_CodesDn2 - m_StructuredDn2;
-    return m_CodesDn2 + noise * this->Factor() + m_Mean.constantDn2 +
+    const double noise = varianceDn2 - m_QuantisationDn2 - m_StructuredDn2;
+    return m_QuantisationDn2 + noise * this->Factor() + m_Mean.constantDn2 +
            signal * (m_Mean.ofSignal + signal * m_Mean.ofSquare);
   }
   /** Returns the derivative of the sensor's variance with respect to a pixel's variance [1]. */
@@ -82,7 +84,7 @@ public:
     VarianceLine sensor = line;
     const double factor = this->Factor();
     sensor.gain = factor * line.gain + m_Mean.ofSignal + m_Mean.ofSquare * lineOfSquare(0);
-    sensor.intercept = m_CodesDn2 + factor * (line.intercept - m_CodesDn2 - m_StructuredDn2) +
+    sensor.intercept = m_QuantisationDn2 + factor * (line.intercept - m_QuantisationDn2 - m_StructuredDn2) +
                        m_Mean.ofSquare * lineOfSquare(1) - m_Mean.ofSignal * m_BlackDn + m_Mean.constantDn2;
     sensor.lowestDn2 = line.lowestDn2 * factor;
     sensor.covariance = line.covariance * (factor * factor);
@@ -96,7 +98,7 @@ public:
 private:
   WeightedShape m_Mean;
   double        m_BlackDn;
-  double        m_CodesDn2;
+  double        m_QuantisationDn2;
   double        m_StructuredDn2;
 };
 
@@ -198,10 +200,10 @@ ErrorOf(const NoiseCorrelation & correlation,
         const VarianceLine &     sensor,
         const Eigen::Vector2d &  lineOfSquare,
         double                   blackDn,
-        double                   codesDn2)
+        double                   quantisationDn2)
 {
   const auto unitOf = [&](const WeightedShape & shape) {
-    return Eigen::Vector2d(shape.ofVariance * Eigen::Vector2d(line.gain, line.intercept - codesDn2) +
+    return Eigen::Vector2d(shape.ofVariance * Eigen::Vector2d(line.gain, line.intercept - quantisationDn2) +
                            shape.ofSignal * Eigen::Vector2d(1.0, -blackDn) + shape.ofSquare * lineOfSquare +
                            Eigen::Vector2d(0.0, shape.constantDn2));
   };
@@ -209,10 +211,10 @@ ErrorOf(const NoiseCorrelation & correlation,
   const double    ofTime = 1.0 + MeanOf(correlation.timeShapes).ofVariance;
   Eigen::Matrix2d error = ofTime * ofTime * ErrorOfShapes(correlation.shapes, unitOf) +
                           ofSpace * ofSpace * ErrorOfShapes(correlation.timeShapes, unitOf);
-  const Eigen::Vector2d whole(sensor.gain, sensor.intercept - codesDn2);
+  const Eigen::Vector2d whole(sensor.gain, sensor.intercept - quantisationDn2);
   const double          beyond = std::hypot(ofTime * correlation.beyondReach,
                                    ofSpace * ProbabilityOfFilter(correlation) * correlation.beyondTimeLags);
-  const double          relative = beyond * line.gain / std::max(1e-9, sensor.gain);
+  const double          relative = beyond * line.gain / std::max(smallestDivisor, sensor.gain);
   error += relative * relative * whole * whole.transpose();
   // The structured noise is subtracted before the factor of the filter is applied.
   const double ofStructured = FilterFactor(correlation) * correlation.StructuredNoise().standardError;
@@ -236,15 +238,15 @@ FilterFactor(const NoiseCorrelation & correlation)
 }
 
 double
-VarianceOfSensor(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2)
+VarianceOfSensor(double varianceDn2, const NoiseCorrelation & correlation, double quantisationDn2)
 {
-  return TotalCovariance(correlation, 0.0, codesDn2).SensorOf(varianceDn2, 0.0);
+  return TotalCovariance(correlation, 0.0, quantisationDn2).SensorOf(varianceDn2, 0.0);
 }
 
 double
-StandardDeviationOfShapes(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2)
+StandardDeviationOfShapes(double varianceDn2, const NoiseCorrelation & correlation, double quantisationDn2)
 {
-  const double noise = varianceDn2 - codesDn2 - correlation.StructuredNoise().value;
+  const double noise = varianceDn2 - quantisationDn2 - correlation.StructuredNoise().value;
   const auto   covarianceOf = [noise](const WeightedShape & shape) {
     return shape.ofVariance * noise + shape.constantDn2;
   };
@@ -265,9 +267,9 @@ StandardDeviationOfShapes(double varianceDn2, const NoiseCorrelation & correlati
 }
 
 SensorLines
-AddCovariances(const SensorLines & lines, const NoiseCorrelation & correlation, double blackDn, double codesDn2)
+AddCovariances(const SensorLines & lines, const NoiseCorrelation & correlation, double blackDn, double quantisationDn2)
 {
-  const TotalCovariance shared(correlation, blackDn, codesDn2);
+  const TotalCovariance shared(correlation, blackDn, quantisationDn2);
   const Eigen::Vector2d square = LineOfSquare(lines.curve, blackDn);
   SensorLines           sensor;
   sensor.all = shared.SensorOf(lines.all, square);
@@ -276,7 +278,7 @@ AddCovariances(const SensorLines & lines, const NoiseCorrelation & correlation, 
   sensor.curve = CurveOfSensor(lines.curve, shared, shared.SensorOf(lines.curve.line, square));
   sensor.ofOwnLevels = CurveOfSensor(lines.ofOwnLevels, shared, shared.SensorOf(lines.ofOwnLevels.line, square));
   sensor.covarianceOfCorrelation =
-    lines.covarianceOfCorrelation + ErrorOf(correlation, lines.all, sensor.all, square, blackDn, codesDn2);
+    lines.covarianceOfCorrelation + ErrorOf(correlation, lines.all, sensor.all, square, blackDn, quantisationDn2);
   return sensor;
 }
 

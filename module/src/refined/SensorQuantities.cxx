@@ -5,7 +5,7 @@
 #include "base/ChiSquare.h"
 #include "base/Constants.h"
 #include "base/Eigen.h"
-#include "pixels/CodeNoise.h"
+#include "pixels/QuantisationNoise.h"
 #include "pixels/GainByParts.h"
 #include "refined/GainEstimate.h"
 #include "report/Quantities.h"
@@ -184,23 +184,23 @@ QuantitiesBy(GainVerdict verdict, const GainEstimate & line, const RefinedResult
     return tested;
   }
   tested.parts = FindUnlikeParts(found, line);
-  const CodeNoise & codes = found.variance.codeNoise;
-  const double      student = StudentOf(found);
-  const double      gain = line.line.gain;
-  const PartsRange  parts = RangeOf(tested.parts, gain);
-  const double      error = std::sqrt(line.covariance(0, 0));
+  const QuantisationNoise & quantisation = found.variance.quantisationNoise;
+  const double              student = StudentOf(found);
+  const double              gain = line.line.gain;
+  const PartsRange          parts = RangeOf(tested.parts, gain);
+  const double              error = std::sqrt(line.covariance(0, 0));
   tested.gain = WithError(gain, std::hypot(line.StandardError(), parts.rms * gain), student);
   tested.gain.interval95 = Interval{ gain * (1.0 - parts.below) - line.below - student * error * (1.0 - parts.below),
                                      gain * (1.0 + parts.above) + line.above + student * error * (1.0 + parts.above) };
   tested.varianceSlope = tested.gain;
-  tested.varianceSlope.value = gain + codes.slopeDn;
-  tested.varianceSlope.interval95 =
-    Interval{ *tested.gain.interval95->low + codes.slopeDn, *tested.gain.interval95->high + codes.slopeDn };
+  tested.varianceSlope.value = gain + quantisation.slopeDn;
+  tested.varianceSlope.interval95 = Interval{ *tested.gain.interval95->low + quantisation.slopeDn,
+                                              *tested.gain.interval95->high + quantisation.slopeDn };
   tested.gain.bracket = GainBounds(found, line);
   // The value at the pivot is precise, so that an error of the gain changes the intercept in the opposite direction.
   const double interceptError =
     std::hypot(std::sqrt(line.covariance(1, 1)), 0.5 * (line.below + line.above) * line.line.pivotDn);
-  tested.totalIntercept = WithError(line.line.intercept + codes.interceptDn2, interceptError, student);
+  tested.totalIntercept = WithError(line.line.intercept + quantisation.interceptDn2, interceptError, student);
   tested.intercept = WithError(line.line.intercept - quantisationDn2, interceptError, student);
   return tested;
 }
@@ -232,6 +232,27 @@ QuantitiesOfDarkFrames(const RefinedSettings & settings, double quantisationDn2,
   return dark;
 }
 
+namespace
+{
+/** Returns the settings with errors of the dark frames that hold their difference from the line of the frames, which
+ * another black level or another read noise explains, and their charge. */
+RefinedSettings
+WidenDarkErrors(const RefinedResults & found, const GainEstimate & gain)
+{
+  RefinedSettings settings = found.settings;
+  const double    chargeDn2 = found.darkCharge ? found.darkCharge->VarianceDn2(gain.line.gain) : 0.0;
+  const double    addedDn2 = std::hypot(gain.darkDifferenceDn2, chargeDn2);
+  if (addedDn2 > 0.0)
+  {
+    KnownOffset &  known = *settings.offset;
+    DarkVariance & variance = *known.variance;
+    known.standardErrorDn = std::hypot(known.standardErrorDn, addedDn2 / gain.line.gain);
+    variance.standardErrorDn2 = std::hypot(variance.standardErrorDn2, addedDn2);
+  }
+  return settings;
+}
+} // namespace
+
 DarkQuantities
 QuantitiesByOffset(const RefinedResults & found,
                    const GainEstimate &   gain,
@@ -250,8 +271,10 @@ QuantitiesByOffset(const RefinedResults & found,
   DarkQuantities   dark;
   if (known && known->variance)
   {
-    dark = QuantitiesOfDarkFrames(found.settings, quantisationDn2, EstimateStatus::Failed);
-    const DarkVariance square{ known->variance->valueDn2 - quantisationDn2, known->variance->standardErrorDn2 };
+    const RefinedSettings settings = WidenDarkErrors(found, gain);
+    dark = QuantitiesOfDarkFrames(settings, quantisationDn2, EstimateStatus::Failed);
+    const DarkVariance square{ known->variance->valueDn2 - quantisationDn2,
+                               settings.offset->variance->standardErrorDn2 };
     dark.readNoiseElectrons = InElectrons(dark.readNoise, square, gain, student);
   }
   else
@@ -263,13 +286,14 @@ QuantitiesByOffset(const RefinedResults & found,
   {
     dark.offset.interval95 = flicker.interval;
   }
+  const double errorDn = dark.offset.standardError.value_or(offset.errorDn);
   // The bracket contains the identified offset.
-  dark.offset.bracket = Interval{ limits.lowestDn, std::max(limits.highestDn, offset.valueDn + offset.errorDn) };
+  dark.offset.bracket = Interval{ limits.lowestDn, std::max(limits.highestDn, offset.valueDn + errorDn) };
   if (limits.lowestDn)
   {
-    dark.offset.bracket->low = std::min(*limits.lowestDn, offset.valueDn - offset.errorDn);
+    dark.offset.bracket->low = std::min(*limits.lowestDn, offset.valueDn - errorDn);
   }
-  dark.covariance = CovarianceOf(gain, offset.errorDn * offset.errorDn);
+  dark.covariance = CovarianceOf(gain, errorDn * errorDn);
   return dark;
 }
 

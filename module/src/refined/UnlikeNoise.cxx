@@ -30,7 +30,8 @@ MedianOf(std::vector<double> values)
 }
 
 /** Returns for each frame whether \a line predicts its noise variance in half of the tiles: the variance is above
- * LeastVarianceDn2(). The line knows little about the small variance of frames without light, and these have no gain.
+ * LeastVarianceDn2(). The line does not determine the small variance of frames without illumination, and these have no
+ * gain.
  */
 std::vector<bool>
 ArePredicted(const FrameEnergies & energies, const TileLevels & levels, const VarianceLine & line)

@@ -5,7 +5,7 @@
 #include "base/ChiSquare.h"
 #include "base/Constants.h"
 #include "base/Text.h"
-#include "report/JointChannels.h"
+#include "report/ReportParts.h"
 #include "report/Quantities.h"
 #include "sensornoise/FrameGeometry.h"
 

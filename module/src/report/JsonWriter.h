@@ -3,10 +3,12 @@
 #ifndef sensornoise_report_JsonWriter_h
 #define sensornoise_report_JsonWriter_h
 
-#include "SensorNoiseExport.h"
+#include "base/Text.h"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <variant>
@@ -20,7 +22,7 @@ namespace sensornoise
  *
  * A number has the fewest digits that are read back as the same double. NaN and infinity are written as null, because
  * JSON cannot represent them. Strings are UTF-8; quotes, backslashes and control characters are escaped. */
-class SensorNoise_EXPORT JsonWriter
+class JsonWriter
 {
 public:
   /** Constructs a writer that appends to \a text, which must outlive the writer. */
@@ -30,19 +32,64 @@ public:
 
   /** Writes a value: a number, true or false, a string, an array, or null for an empty optional. */
   void
-  Write(double number);
+  Write(double number)
+  {
+    if (!std::isfinite(number))
+    {
+      m_Text += "null";
+      return;
+    }
+    m_Text += ShortestText(number);
+  }
   void
-  Write(std::size_t number);
+  Write(std::size_t number)
+  {
+    m_Text += std::to_string(number);
+  }
   void
-  Write(int number);
+  Write(int number)
+  {
+    m_Text += std::to_string(number);
+  }
   void
-  Write(unsigned int number);
+  Write(unsigned int number)
+  {
+    m_Text += std::to_string(number);
+  }
   void
-  Write(bool truth);
+  Write(bool truth)
+  {
+    m_Text += truth ? "true" : "false";
+  }
   void
-  Write(const char * string);
+  Write(const char * string)
+  {
+    this->Write(std::string(string));
+  }
   void
-  Write(const std::string & string);
+  Write(const std::string & string)
+  {
+    m_Text += '"';
+    for (const char c : string)
+    {
+      if (c == '"' || c == '\\')
+      {
+        m_Text += '\\';
+        m_Text += c;
+      }
+      else if (static_cast<unsigned char>(c) < 0x20)
+      {
+        char buffer[8];
+        std::snprintf(buffer, sizeof(buffer), "\\u%04x", static_cast<unsigned int>(c));
+        m_Text += buffer;
+      }
+      else
+      {
+        m_Text += c;
+      }
+    }
+    m_Text += '"';
+  }
   template <typename T>
   void
   Write(const std::optional<T> & optional)
@@ -117,7 +164,12 @@ public:
 private:
   /** Writes the name of a member with its colon, after a comma unless the member is the first one. */
   void
-  Name(const char * name);
+  Name(const char * name)
+  {
+    m_Text += m_First ? "" : ", ";
+    this->Write(name);
+    m_Text += ": ";
+  }
   template <typename TValues>
   void
   WriteList(const TValues & values)

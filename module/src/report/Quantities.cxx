@@ -133,7 +133,10 @@ SetSensorParameters(Report & report, EstimateStatus status)
 namespace
 {
 /** Warnings that contradict the dark offset, and with it the read noise. */
-constexpr std::array AgainstDarkLevel{ WarningCode::DarkFramesDiffer, WarningCode::OffsetOutOfRange };
+constexpr std::array AgainstDarkLevel{ WarningCode::DarkFramesDiffer,
+                                       WarningCode::OffsetOutOfRange,
+                                       WarningCode::OffsetAboveDarkest,
+                                       WarningCode::OffsetLineMisfit };
 
 /** Replaces the value of an identified quantity, or its upper limit, by a status without a value. */
 void

@@ -6,11 +6,14 @@
 #include "base/Text.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdarg>
+#include <cstddef>
 #include <iterator>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -45,12 +48,12 @@ RangeOf(const Quantity & quantity)
   return quantity.interval95 ? quantity.interval95 : quantity.bracket;
 }
 
-/** Returns the value as text; for an upper limit "< " and the limit. */
+/** Returns the value as text; for an upper limit "< " and the limit, to three digits. */
 std::string
 Value(const Quantity & quantity)
 {
   const std::optional<Interval> & range = RangeOf(quantity);
-  return quantity.status == EstimateStatus::UpperLimit && range && range->high ? "< " + Number(range->high)
+  return quantity.status == EstimateStatus::UpperLimit && range && range->high ? "< " + Rounded(*range->high)
                                                                                : Number(quantity.value);
 }
 
@@ -80,10 +83,14 @@ RoundToError(const Quantity & quantity)
   return rounded;
 }
 
-/** Returns a bound of an interval, rounded like the value of the quantity. */
+/** Returns a bound of an interval, rounded like the value of the quantity or its upper limit. */
 std::string
 End(const std::optional<double> & end, const RoundedQuantity & rounded)
 {
+  if (end && rounded.value.front() == '<')
+  {
+    return Rounded(*end);
+  }
   constexpr int most = 15;
   return end && rounded.decimals >= 0 && rounded.decimals <= most && std::abs(*end) < 1e9
            ? Format("%.*f", rounded.decimals, *end)
@@ -92,7 +99,7 @@ End(const std::optional<double> & end, const RoundedQuantity & rounded)
 
 /** Returns bit depth, quantization step and clip levels, as far as they are known, each after a comma. */
 std::string
-DescribeCodes(const Report & report)
+DescribeDnRange(const Report & report)
 {
   std::string text;
   if (report.bitDepth)
@@ -105,8 +112,8 @@ DescribeCodes(const Report & report)
   }
   if (report.clipLowDn || report.clipHighDn)
   {
-    text +=
-      ", levels " + Number(report.clipLowDn) + " to " + Number(report.clipHighDn) + " DN (" + report.clipSource + ")";
+    text += ", levels " + Number(report.clipLowDn) + " to " + Number(report.clipHighDn) + " DN (" +
+            DescribeClipSource(report.clipSource) + ")";
   }
   return text;
 }
@@ -168,6 +175,21 @@ QuantityLine(const std::string & label, const std::string & unit, const Quantity
   line += PaddedRight(WithSigns(unit), 8) + " " + PaddedRight(NameOf(quantity.status), 17) + " ";
   line += range ? "[" + End(range->low, rounded) + ", " + End(range->high, rounded) + "]" : "";
   return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+}
+
+std::string
+DescribeClipSource(std::string source)
+{
+  const std::array<std::pair<std::string, std::string>, 2> words{ { { "code range", "DN range" },
+                                                                    { "pile-up", "repeated extreme values" } } };
+  for (const auto & [member, word] : words)
+  {
+    for (std::size_t at = source.find(member); at != std::string::npos; at = source.find(member))
+    {
+      source.replace(at, member.size(), word);
+    }
+  }
+  return source;
 }
 
 std::string
@@ -256,7 +278,7 @@ DescribeLinearity(const Report & report)
                 static_cast<int>(used),
                 linearity.levels.size(),
                 linearity.saturationDn.value_or(0.0)) +
-         linearity.saturationSource + "), offset of " +
+         DescribeClipSource(linearity.saturationSource) + "), offset of " +
          (linearity.offsetSource == "line" ? "the line" : linearity.offsetSource);
 }
 
@@ -278,7 +300,7 @@ MakeTable(const Report & report)
   std::string table = CountText(report.frames, "frame");
   table += TextOfCounted(report);
   table += Format(" of %zu x %zu pixels", report.width, report.height);
-  table += DescribeCodes(report) + "\n";
+  table += DescribeDnRange(report) + "\n";
   table += Format("%zu of %zu pixels used (%.1f %%), %zu clipped, %zu not finite\n",
                   report.pixels.used,
                   report.pixels.total,
@@ -320,7 +342,7 @@ std::string
 TextOf(const Warning & warning)
 {
   const WarningKind & kind = KindOf(warning.code);
-  return std::string(NameOf(kind.severity)) + ": " + warning.message + " [" + kind.name + "]\n";
+  return std::string(NameOf(kind.severity)) + ": " + WithSigns(warning.message) + " [" + kind.name + "]\n";
 }
 
 std::string

@@ -6,10 +6,11 @@
 #include "sensornoise/Report.h"
 #include "base/Text.h"
 #include "sensornoise/StepResults.h"
-#include "moments/MosaicLevels.h"
+#include "moments/StackMaps.h"
 #include "moments/StackFrames.h"
 #include "base/ChiSquare.h"
 #include "report/Quantities.h"
+#include "report/ReportParts.h"
 #include "moments/Constants.h"
 
 #include <algorithm>
@@ -25,14 +26,14 @@ namespace
 {
 /** Returns the range of the levels as text [DN]. Floating-point data may have only one clip level. */
 std::string
-TextOfLevels(const CodeRange & codes)
+TextOfLevels(const DnRange & dnRange)
 {
-  if (!codes.clipLowDn)
+  if (!dnRange.clipLowDn)
   {
-    return "up to " + Text(*codes.clipHighDn);
+    return "up to " + Text(*dnRange.clipHighDn);
   }
-  return codes.clipHighDn ? Text(*codes.clipLowDn) + " to " + Text(*codes.clipHighDn)
-                          : "from " + Text(*codes.clipLowDn);
+  return dnRange.clipHighDn ? Text(*dnRange.clipLowDn) + " to " + Text(*dnRange.clipHighDn)
+                            : "from " + Text(*dnRange.clipLowDn);
 }
 } // namespace
 
@@ -49,16 +50,16 @@ DescribeStack(Report &                          report,
   report.width = geometry.width;
   report.height = geometry.height;
 
-  const CodeRange & codes = summary.codes;
-  report.bitDepth = codes.bitDepth;
-  report.bitDepthSource = codes.bitDepthSource;
-  if (codes.quantisationStepDn > 0.0)
+  const DnRange & dnRange = summary.codes;
+  report.bitDepth = dnRange.bitDepth;
+  report.bitDepthSource = dnRange.bitDepthSource;
+  if (dnRange.quantisationStepDn > 0.0)
   {
-    report.quantisationStepDn = codes.quantisationStepDn;
+    report.quantisationStepDn = dnRange.quantisationStepDn;
   }
-  report.clipLowDn = codes.clipLowDn;
-  report.clipHighDn = codes.clipHighDn;
-  report.clipSource = codes.clipSource;
+  report.clipLowDn = dnRange.clipLowDn;
+  report.clipHighDn = dnRange.clipHighDn;
+  report.clipSource = dnRange.clipSource;
 
   report.pixels.total = geometry.Pixels();
   report.pixels.valid = valid;
@@ -71,43 +72,47 @@ DescribeStack(Report &                          report,
 void
 WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary)
 {
-  const CodeRange & codes = summary.codes;
+  const DnRange & dnRange = summary.codes;
   if (frames >= MinimumFrames && frames < 20)
   {
     report.Warn(WarningCode::FewFrames,
                 "only " + std::to_string(frames) +
                   " distinct frames: treat the results as indicative. Record at least 20");
   }
-  if (codes.clipSource.find("pile-up") != std::string::npos)
+  if (dnRange.clipSource.find("pile-up") != std::string::npos)
   {
     report.Warn(WarningCode::ClipLevelFound,
-                "the sensor attains only the levels " + TextOfLevels(codes) + " DN (" + codes.clipSource +
-                  "); pixels that reach an end are left out");
+                "the sensor attains only the levels " + TextOfLevels(dnRange) + " DN (" +
+                  DescribeClipSource(dnRange.clipSource) +
+                  "). Pixels that reach an end are left out, because clipping reduces their variance. Check these "
+                  "levels, and give the right ones (--clip) if they are wrong");
   }
-  if (codes.steps.IsCompanded())
+  if (dnRange.steps.IsCompanded())
   {
-    const auto &             table = codes.steps.GetTable();
-    const auto               byStep = [](const auto & a, const auto & b) { return a.stepDn < b.stepDn; };
-    const auto               ends = std::minmax_element(table.begin(), table.end(), byStep);
-    const CodeSteps::Local & fine = *ends.first;
-    const CodeSteps::Local & coarse = *ends.second;
-    report.Warn(
-      WarningCode::Companded,
-      "the quantization step is " + Rounded(fine.stepDn) + " DN at " + Rounded(fine.levelDn) + " DN and " +
-        RoundedApart(coarse.stepDn, fine.stepDn) + " DN at " + Rounded(coarse.levelDn) +
-        " DN: a tone curve to fewer bits was applied and undone, and the quantization noise depends on the level");
+    const auto &                     table = dnRange.steps.GetTable();
+    const auto                       byStep = [](const auto & a, const auto & b) { return a.stepDn < b.stepDn; };
+    const auto                       ends = std::minmax_element(table.begin(), table.end(), byStep);
+    const QuantisationSteps::Local & fine = *ends.first;
+    const QuantisationSteps::Local & coarse = *ends.second;
+    report.Warn(WarningCode::Companded,
+                "the quantization step is " + Rounded(fine.stepDn) + " DN at " + Rounded(fine.levelDn) + " DN and " +
+                  RoundedApart(coarse.stepDn, fine.stepDn) + " DN at " + Rounded(coarse.levelDn) +
+                  " DN: a tone curve to fewer bits was applied and undone, and the quantization noise depends on the "
+                  "level. Give the size of the steps (--step) if all are equal");
   }
-  if (!codes.isRegular)
+  if (!dnRange.isRegular)
   {
     report.Warn(WarningCode::IrregularCodes,
-                "the quantization step varies about " + Rounded(codes.quantisationStepDn) +
+                "the quantization step varies about " + Rounded(dnRange.quantisationStepDn) +
                   " DN: the frames were rescaled, and their quantization noise is not known. Give the frames as the "
                   "camera recorded them");
   }
   if (summary.notFinite > 0)
   {
     report.Warn(WarningCode::NotFinitePixels,
-                std::to_string(summary.notFinite) + " pixels are NaN or infinite in a frame and left out");
+                CountText(summary.notFinite, "pixel") + (summary.notFinite == 1 ? " is" : " are") +
+                  " NaN or infinite in a frame and left out, without a variance. Check the processing that wrote these "
+                  "values, as cameras do not record them");
   }
 }
 
@@ -264,15 +269,19 @@ ReportAllFrames(Report & report, const DistinctFrames & frames, const std::vecto
   {
     const Warning warning{ WarningCode::RepeatedFrames,
                            OfFrames(frames.Repeated(), frames.Given()) + " equal to an earlier one (" +
-                             TextOfRepeated(frames) + "; the first is 0): each is counted once" };
+                             TextOfRepeated(frames) +
+                             "; the first is 0): each is counted once, because a repetition has no "
+                             "new noise. Set the recorder to the frame rate of the camera" };
     report.warnings.insert(report.warnings.begin(), warning);
   }
   if (!leftOut.empty())
   {
-    const Warning warning{ WarningCode::FramesLeftOut,
-                           OfFrames(leftOut.size(), frames.Given()) + " unlike the others (" + TextOfLeftOut(leftOut) +
-                             "; the first is 0): all else is measured without " +
-                             (leftOut.size() == 1 ? "it" : "them") };
+    const Warning warning{
+      WarningCode::FramesLeftOut,
+      OfFrames(leftOut.size(), frames.Given()) + " unlike the others (" + TextOfLeftOut(leftOut) +
+        "; the first is 0) and would change the variance of all pixels: all else is measured without " +
+        (leftOut.size() == 1 ? "it. Check how it was recorded" : "them. Check how they were recorded")
+    };
     report.warnings.insert(report.warnings.begin(), warning);
   }
 }

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/StackSettings.h"
+#include "report/StackReport.h"
 
 #include "base/Text.h"
+#include "files/Zlib.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +12,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <zlib.h>
 
 namespace sensornoise
 {
@@ -45,7 +45,7 @@ InputFilesOf(const std::string & sha256, std::size_t files, std::uint64_t bytes)
 }
 
 void
-NoteCodes(Report & report, const CodeSettings & codes)
+NoteDnSettings(Report & report, const DnSettings & dnSettings)
 {
   const auto note = [&report](const char * name, const auto & given) {
     if (given)
@@ -53,10 +53,10 @@ NoteCodes(Report & report, const CodeSettings & codes)
       report.settings.emplace_back(name, static_cast<double>(*given));
     }
   };
-  note("bit_depth", codes.bitDepth);
-  note("clip_low", codes.clipLowDn);
-  note("clip_high", codes.clipHighDn);
-  note("quantisation_step", codes.quantisationStepDn);
+  note("bit_depth", dnSettings.bitDepth);
+  note("clip_low", dnSettings.clipLowDn);
+  note("clip_high", dnSettings.clipHighDn);
+  note("quantisation_step", dnSettings.quantisationStepDn);
 }
 
 void

@@ -119,13 +119,14 @@ struct SceneConstants
   std::size_t leastPixelsOfBorderLine{ 8 };
   /** Fraction of the pixels beside a strip that must differ from it [1]: parts of a scene may have the same level. */
   double leastBorderFraction{ 0.95 };
-  /** Largest median difference between the pixels of the lines after a strip, and largest difference between its last
-   * and its first line. Both are relative to the step at its end [1]. The image of an edge is not as sharp: with a
-   * Gaussian of 0.4 pixels, 0.16 of the step falls into the pixel before. The first was chosen empirically. */
+  /** Largest median difference between the pixels of the lines after a strip, and largest difference between the last
+   * and the first line of the strip. Both are relative to the step at the end of the strip [1]. The image of an edge is
+   * blurred more: with a Gaussian of 0.4 pixels, 0.16 of the step falls into the pixel before it. The first was chosen
+   * empirically. */
   double largestBorderSlope{ 0.34 };
   double largestBlur{ 0.08 };
-  /** Ratio of the standard deviation of the levels beside a strip to that in the strip from which the structure of the
-   * scene ends at the strip [1]. Chosen empirically. */
+  /** Ratio of the standard deviation of the levels beside a strip to the standard deviation in the strip, above which
+   * the structure of the scene ends at the strip [1]. Chosen empirically. */
   double leastStructure{ 8.0 };
   /** Quantile of the levels of the scene below which the level of a strip is dark [1]. */
   double darkestOfScene{ 0.02 };

@@ -18,8 +18,7 @@ namespace sensornoise
 
 namespace
 {
-constexpr std::size_t LevelBins =
-  128; // of equal count, by intensity: saturated areas of 1 % of the frame fill the last one
+constexpr std::size_t LevelBins = 128; // bins of equal count: saturated areas of 1 % of the frame fill the last bin
 
 /** Pixels sampled from a frame: their level, their variance, and how much the levels around them differ. */
 struct LevelSample
@@ -84,6 +83,7 @@ FindFullWells(const StackMaps & maps, const FrameGeometry & geometry)
   double                           darkest = -1.0; // variance of the darkest pixels
   double                           least = 0.0;    // variance that nearly all pixels next to the full wells exceed
   double                           noise = 0.0;    // median variance of these pixels
+  double                           noisyDn = 0.0;  // level of these pixels
   std::vector<std::vector<double>> smooth = SmoothVariances(sample, binOf);
   for (std::size_t b = 0; b < LevelBins; ++b)
   {
@@ -92,11 +92,20 @@ FindFullWells(const StackMaps & maps, const FrameGeometry & geometry)
       darkest = darkest < 0.0 ? Quantile(smooth[b], 0.5) : darkest;
       const double low = levels[b] >= nearTopDn ? Quantile(smooth[b], InScene.quantileBelowWells) : 0.0;
       noise = low > least ? Quantile(smooth[b], 0.5) : noise;
+      noisyDn = low > least ? levels[b] : noisyDn;
       least = std::max(least, low);
     }
   }
   const double saturated = InScene.varianceOfFullWells * least;
   if (!(medians.back() < saturated) || !(medians.back() <= InScene.largestMedianRatio * darkest))
+  {
+    return std::nullopt;
+  }
+  // Shot noise grows at most in proportion to the level above the end of the DN range. Dark pixels of more variance
+  // move, and the brightest are the quiet paper of a page.
+  const double lowDn = maps.summary.codes.clipLowDn.value_or(levels.front()); // not known: no comparison
+  const double ofLevels = (levels.front() - lowDn) / (noisyDn - lowDn);
+  if (ofLevels > 0.0 && darkest - medians.back() > InScene.largestMedianRatio * ofLevels * (noise - medians.back()))
   {
     return std::nullopt;
   }

@@ -40,7 +40,7 @@ SetCoefficients(InitialNoiseModel & model, const VarianceSample::Coefficients & 
 {
   model.interceptDn2 = std::max(theta(0), InScene.leastIntercept * QuantileOf(sample.raw, InScene.quantileOfIntercept));
   const double averageRaw = QuantileOf(sample.raw, 0.5);
-  const double averageX = std::max(1e-9, model.centreDn - model.darkestDn);
+  const double averageX = std::max(smallestDivisor, model.centreDn - model.darkestDn);
   model.slopeDn = theta(1) > 0.0 ? theta(1) / sample.scale : InScene.fallbackSlope * averageRaw / averageX;
   model.flickerVariance = std::max(0.0, theta(2)) / (sample.scale * sample.scale);
   model.vibrationXPixels2 = std::max(0.0, theta(3));
@@ -133,7 +133,7 @@ SampleVariance(const ReferenceFrame & frame, const std::vector<std::size_t> & pi
   sample.level.resize(n);
   sample.raw.resize(n);
   sample.energy.resize(n);
-  sample.scale = std::max(1e-9, model.brightestDn - model.darkestDn);
+  sample.scale = std::max(smallestDivisor, model.brightestDn - model.darkestDn);
   for (std::size_t i = 0; i < n; ++i)
   {
     const std::size_t p = pixels[i];

@@ -153,9 +153,9 @@ SquaredStepsNear(const double * mean, std::size_t width, std::size_t p);
  * If a fit excludes pixels that hold more than a tenth of the squared derivatives of the mean, but hardly any of the
  * smoother half of the pixels, it has excluded the motion itself. This fit starts from the motion that sums over 3 x 3
  * pixels show, and excludes the pixels whose variance is far above the largest that motion explains. Estimator.md, 3.2.
- * \param sample of \a pixels, at least one
- * \param prediction of the fit without sharp edges, with the pixels that it keeps
- * \param ratio of raw to explained variance above which a pixel is excluded [1] */
+ * \param sample sample of the variance at \a pixels, at least one of them
+ * \param prediction variance by the fit without sharp edges, with the pixels that it keeps
+ * \param ratio ratio of raw to explained variance above which a pixel is excluded [1] */
 SensorNoise_EXPORT std::optional<VarianceSample::Coefficients>
 FitSharpScene(const ReferenceFrame &           frame,
               const std::vector<std::size_t> & pixels,

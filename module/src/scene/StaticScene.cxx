@@ -229,10 +229,10 @@ LeaveOutFullWells(StackMaps & maps, const FullWells & wells)
   }
   maps.summary.clipped += pixels;
   maps.summary.clippedHigh += pixels;
-  CodeRange &  codes = maps.summary.codes;
-  const double step = codes.quantisationStepDn;
-  codes.clipHighDn = step > 0.0 ? step * std::round(wells.levelDn / step) : wells.levelDn;
-  codes.SetClipSources(codes.GetLowClipSource(), "full wells");
+  DnRange &    dnRange = maps.summary.codes;
+  const double step = dnRange.quantisationStepDn;
+  dnRange.clipHighDn = step > 0.0 ? step * std::round(wells.levelDn / step) : wells.levelDn;
+  dnRange.SetClipSources(dnRange.GetLowClipSource(), "full wells");
 }
 
 /** Sets the use of the pixels of the masked border, and of the pixels beside it, which have no centred difference. */
@@ -318,14 +318,14 @@ MakeStaticScene(StackMaps                         maps,
     }
     // Under strong changes of the illumination the range of a pixel is known only roughly: in a flat field all pixels
     // or none are in the guard band.
-    const CodeRange       codes = scene.changesStrongly ? scene.summary.AttainedCodes() : scene.summary.codes;
+    const DnRange         dnRange = scene.changesStrongly ? scene.summary.AttainedRange() : scene.summary.codes;
     std::optional<double> darkestNoiseDn2;
     if (strongChange)
     {
       darkestNoiseDn2 = strongChange->darkestNoiseDn2;
     }
     UsablePixels found = ExcludeCoarseAndGuarded(
-      scene.frame, scene.model, codes, frameMeans, std::move(scene.pixelUse), parallelFor, darkestNoiseDn2);
+      scene.frame, scene.model, dnRange, frameMeans, std::move(scene.pixelUse), parallelFor, darkestNoiseDn2);
     scene.frame.usable = std::move(found.usable);
     scene.pixelUse = std::move(found.pixelUse);
     scene.usable = found.count;

@@ -66,7 +66,7 @@ struct FullWells
   double firstLevelDn{ 0.0 }; ///< level from which a pixel may be saturated [DN]
 };
 
-/** Finds the full wells of the pixels in the maps of a stack. No digital number piles up there. But the brightest
+/** Finds the full wells of the pixels in the maps of a stack. Extreme values do not repeat there. But the brightest
  * pixels have less noise than pixels that are a little darker, as little as the darkest ones. Null: there are none.
  * Estimator.md, 3.2. */
 SensorNoise_EXPORT std::optional<FullWells>

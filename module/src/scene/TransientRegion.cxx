@@ -91,7 +91,7 @@ VarianceTiles::TestIllumination(const TileComparison &     comparison,
     for (const std::size_t i : own)
     {
       const double square = std::pow(m_Sample.TermsOf(i)(1) * m_Sample.scale, 2);
-      flickers.push_back((m_Sample.raw[i] / m_MedianRatio - prediction.variance[i]) / (square + 1e-9));
+      flickers.push_back((m_Sample.raw[i] / m_MedianRatio - prediction.variance[i]) / (square + smallestDivisor));
       excess += m_Sample.raw[i] - prediction.variance[i];
       signal += square;
     }
@@ -106,7 +106,7 @@ VarianceTiles::TestIllumination(const TileComparison &     comparison,
     cells += own.empty() ? 0.0 : 1.0;
     explained += !own.empty() && off <= InCommon.largestOutlierFraction * static_cast<double>(own.size()) ? 1.0 : 0.0;
   }
-  return { explained / std::max(1.0, cells), std::sqrt(std::max(0.0, excess / std::max(1e-30, signal))) };
+  return { explained / std::max(1.0, cells), std::sqrt(std::max(0.0, excess / std::max(smallestDivisor, signal))) };
 }
 
 namespace

@@ -125,7 +125,7 @@ FindPixelUse(const ReferenceFrame &            frame,
 UsablePixels
 ExcludeCoarseAndGuarded(const ReferenceFrame &        frame,
                         const InitialNoiseModel &     model,
-                        const CodeRange &             codes,
+                        const DnRange &               dnRange,
                         const std::vector<double> &   frameMeans,
                         std::vector<std::uint8_t>     pixelUse,
                         const ParallelFor &           parallelFor,
@@ -134,7 +134,7 @@ ExcludeCoarseAndGuarded(const ReferenceFrame &        frame,
   const FrameLevels       levels = LevelsOfFrames(frameMeans);
   const IlluminationRange range =
     darkestNoiseDn2 ? RangeOfStrongChange(model, levels, *darkestNoiseDn2) : RangeOfIllumination(model, levels);
-  const auto   guarded = FindGuardBand(frame, model, codes, range, parallelFor);
+  const auto   guarded = FindGuardBand(frame, model, dnRange, range, parallelFor);
   UsablePixels pixels;
   pixels.usable = frame.usable;
   pixels.pixelUse = std::move(pixelUse);
@@ -142,14 +142,14 @@ ExcludeCoarseAndGuarded(const ReferenceFrame &        frame,
     if (frame.usable[p] != 0)
     {
       const double level = frame.neighbourMean[p];
-      const double step = codes.StepAt(level);
+      const double step = dnRange.StepAt(level);
       const bool   isCoarse = step > 0.0 && model.NoiseVariance(level) < InCommon.hiddenVariance * step * step;
       if (isCoarse || guarded[p] != 0)
       {
-        pixels.pixelUse[p] = static_cast<std::uint8_t>(isCoarse ? PixelUse::CoarseCodes : PixelUse::NearClip);
+        pixels.pixelUse[p] = static_cast<std::uint8_t>(isCoarse ? PixelUse::CoarseQuantisation : PixelUse::NearClip);
         pixels.usable[p] = 0;
         count[isCoarse ? 1 : 2] += 1.0;
-        count[3] += isCoarse && codes.steps.IsCompanded() && level > model.centreDn ? 1.0 : 0.0;
+        count[3] += isCoarse && dnRange.steps.IsCompanded() && level > model.centreDn ? 1.0 : 0.0;
       }
       count[0] += 1.0;
     }
@@ -194,16 +194,16 @@ struct Guard
 };
 
 Guard
-GuardAbout(double offsetDn, const IlluminationRange & range, double centreDn, const CodeRange & codes, double sds)
+GuardAbout(double offsetDn, const IlluminationRange & range, double centreDn, const DnRange & dnRange, double sds)
 {
   constexpr double never = std::numeric_limits<double>::infinity();
-  const double     signal = std::max(1e-3, centreDn - offsetDn);
+  const double     signal = std::max(smallestDivisor, centreDn - offsetDn);
   const double     darkest = std::max(-1.0, range.lowestDn / signal);
   const double     brightest = range.highestDn / signal;
   const auto motionIn = [&range](double change) { return range.scalesMotion ? (1.0 + change) * (1.0 + change) : 1.0; };
   return { offsetDn,
-           codes.clipLowDn ? *codes.clipLowDn + 0.5 * codes.StepAt(*codes.clipLowDn) : -never,
-           codes.clipHighDn ? *codes.clipHighDn - 0.5 * codes.StepAt(*codes.clipHighDn) : never,
+           dnRange.clipLowDn ? *dnRange.clipLowDn + 0.5 * dnRange.StepAt(*dnRange.clipLowDn) : -never,
+           dnRange.clipHighDn ? *dnRange.clipHighDn - 0.5 * dnRange.StepAt(*dnRange.clipHighDn) : never,
            darkest,
            brightest,
            motionIn(darkest),
@@ -249,18 +249,18 @@ MarkGuarded(const ReferenceFrame & frame,
 std::vector<std::uint8_t>
 FindGuardBand(const ReferenceFrame &    frame,
               const InitialNoiseModel & model,
-              const CodeRange &         codes,
+              const DnRange &           dnRange,
               const IlluminationRange & range,
               const ParallelFor &       parallelFor,
               double                    sds)
 {
   std::vector<std::uint8_t> guarded(frame.mean.size(), 0);
-  if (!codes.clipLowDn && !codes.clipHighDn)
+  if (!dnRange.clipLowDn && !dnRange.clipHighDn)
   {
     return guarded;
   }
   const auto markAbout = [&](double offsetDn) {
-    const Guard guard = GuardAbout(offsetDn, range, model.centreDn, codes, sds);
+    const Guard guard = GuardAbout(offsetDn, range, model.centreDn, dnRange, sds);
     ForInnerBlocks(frame.geometry, parallelFor, [&](std::size_t begin, std::size_t end) {
       MarkGuarded(frame, model, guard, begin, end, guarded.data());
     });

@@ -133,7 +133,8 @@ struct UsablePixels
   double                    count{ 0.0 };  ///< number of usable pixels
   std::size_t               nearClip{ 0 }; ///< number of excluded pixels in the guard band
   std::size_t               coarse{ 0 };   ///< number of excluded pixels whose noise is below half a quantization step
-  /** Number of the coarse pixels of companded codes that are brighter than the centre; the fit does not need them. */
+  /** Number of the coarse pixels of companded digital numbers that are brighter than the centre; the fit does not need
+   * them. */
   std::size_t coarseWhereBright{ 0 };
 };
 
@@ -146,14 +147,14 @@ struct UsablePixels
 SensorNoise_EXPORT UsablePixels
 ExcludeCoarseAndGuarded(const ReferenceFrame &        frame,
                         const InitialNoiseModel &     model,
-                        const CodeRange &             codes,
+                        const DnRange &               dnRange,
                         const std::vector<double> &   frameMeans,
                         std::vector<std::uint8_t>     pixelUse,
                         const ParallelFor &           parallelFor,
                         const std::optional<double> & darkestNoiseDn2 = std::nullopt);
 
-/** Throws NothingToMeasure, CodesTooCoarse, if the quantization step \a stepDn [DN] hides the noise of more than a
- * fifth of the pixels, without the bright ones of companded codes. */
+/** Throws NothingToMeasure with WarningCode::CodesTooCoarse if the quantization step \a stepDn [DN] hides the noise of
+ * more than a fifth of the pixels, without the bright ones of companded digital numbers. */
 SensorNoise_EXPORT void
 RequireFineQuantization(const UsablePixels & pixels, double stepDn);
 
@@ -165,7 +166,8 @@ struct IlluminationRange
   double lowestOffsetDn{ 0.0 };  ///< smallest possible offset [DN]
   double highestOffsetDn{ 0.0 }; ///< largest possible offset, at most the mean of the darkest frame [DN]
   double lowestNoiseDn2{ 0.0 };  ///< upper bound of the noise variance in the darkest frame; may be infinite [DN^2]
-  /** Fraction of the model's noise variance that is noise, at high levels; the rest is by the illumination [1]. */
+  /** Fraction of the model's noise variance that is noise, at high levels; the rest is caused by the illumination [1].
+   */
   double fractionOfNoise{ 1.0 };
   /** Whether motion changes a frame in proportion to its brightness. A weak change moves the extreme by less than the
    * distance in standard deviations allows for. */
@@ -181,7 +183,7 @@ struct IlluminationRange
 SensorNoise_EXPORT std::vector<std::uint8_t>
 FindGuardBand(const ReferenceFrame &    frame,
               const InitialNoiseModel & model,
-              const CodeRange &         codes,
+              const DnRange &           dnRange,
               const IlluminationRange & range,
               const ParallelFor &       parallelFor,
               double                    sds = InScene.guardBandSds);

@@ -229,8 +229,8 @@ FindActiveColumns(const Eigen::MatrixXd & rawGram,
   }
 }
 
-/** Sets the equations of the illumination, with the motion partialled out. Returns the matrix that takes the motion off
- * the right-hand sides. */
+/** Sets the equations of the illumination, with the motion partialled out. Returns the matrix that subtracts the
+ * motion from the right-hand sides. */
 Eigen::MatrixX2d
 PartialOutMotion(FrameEquations & equations)
 {

@@ -140,7 +140,7 @@ public:
   /** The frame of \a regressors must outlive the object and its copies, without being moved. */
   explicit FrameSums(FrameRegressors regressors, const ParallelFor & parallelFor = SerialFor);
 
-  /** Sets the layout of the pixels of the frames to come; without it, the frames are stored one after the other. */
+  /** Sets the layout of the pixels of the frames that are added. By default, frames are stored one after the other. */
   void
   SetLayout(const PixelLayout & layout)
   {

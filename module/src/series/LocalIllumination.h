@@ -57,7 +57,8 @@ SensorNoise_EXPORT double
 MedianNoiseEigenvalue(double ratio);
 
 /** Dispersion over the cells of the size of the global flicker: where excitation light bleaches a spot, or a light
- * source that illuminates a part of the frame flickers. The series is the global one, so that it is no further series.
+ * source that illuminates a part of the frame flickers. Its temporal component is the global flicker, so that it is no
+ * further component.
  */
 struct Unevenness
 {

@@ -260,9 +260,9 @@ namespace
 /** Returns the shifts along \a axes as a linear function of the sums over a frame, ordered as in NoiseOfSums(): axes x
  * (active columns + 2) [pixel]. The flicker that is subtracted, v' r / v' G v from the sums of the illumination without
  * motion, is linear in the sums, and so are the coefficients of second order.
- * \param gram of the instruments
+ * \param gram Gram matrix of the instruments
  * \param inverse inverse of their products with the derivatives, axes x axes
- * \param direction of the flicker in the columns 0 and 1 */
+ * \param direction direction of the flicker in the columns 0 and 1 */
 Eigen::MatrixXd
 ShiftsOfSums(const FrameEquations &  equations,
              const MotionSeries &    motion,

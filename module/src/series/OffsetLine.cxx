@@ -142,9 +142,9 @@ LineOfRamp(const FrameEquations & equations, double offset)
   return line;
 }
 
-/** Returns the largest significant difference between the offset of \a line and those of the lines of \a fewer gradient
- * classes [DN]; 0: all agree. The pixels of the others are among its own, so that the variance of the difference is the
- * difference of the variances (Hausman 1978, DOI 10.2307/1913827). */
+/** Returns the largest significant difference between the offset of \a line and the offsets of the lines of \a fewer
+ * gradient classes [DN]; 0: all agree. The pixels of the others are among its own, so that the variance of the
+ * difference is the difference of the variances (Hausman 1978, DOI 10.2307/1913827). */
 double
 DifferenceToFewerClasses(const OffsetLine & line, const std::vector<OffsetLine> & fewer)
 {

@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/CollectedCharge.h"
+#include "simulation/SimulatedSensor.h"
 
 #include "base/Text.h"
 #include "sensornoise/Simulator.h"
-#include "simulation/FixedPattern.h"
 #include "simulation/FrameProcessing.h"
 #include "simulation/Random.h"
-#include "simulation/SettingChecks.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,7 @@
 #include "simulation/FrameProcessing.h"
 
 #include "sensornoise/Simulator.h"
-#include "simulation/CollectedCharge.h"
-#include "simulation/SettingChecks.h"
+#include "simulation/SimulatedSensor.h"
 
 #include <algorithm>
 #include <array>
@@ -70,14 +69,14 @@ CheckSettings(const DefectCorrectionSettings & settings)
 }
 
 DoubleFrame
-CorrectDefects(const DoubleFrame & codesDn, const DefectCorrectionSettings & settings, const ParallelFor & parallelFor)
+CorrectDefects(const DoubleFrame & valuesDn, const DefectCorrectionSettings & settings, const ParallelFor & parallelFor)
 {
-  DoubleFrame out = codesDn;
-  parallelFor(codesDn.height, [&](std::size_t y) {
-    for (std::size_t x = 0; x < codesDn.width; ++x)
+  DoubleFrame out = valuesDn;
+  parallelFor(valuesDn.height, [&](std::size_t y) {
+    for (std::size_t x = 0; x < valuesDn.width; ++x)
     {
-      const Neighbourhood around(codesDn, x, y);
-      if (around.count >= 2 && std::abs(codesDn.Row(y)[x] - around.Median()) > settings.thresholdSd * around.Sd())
+      const Neighbourhood around(valuesDn, x, y);
+      if (around.count >= 2 && std::abs(valuesDn.Row(y)[x] - around.Median()) > settings.thresholdSd * around.Sd())
       {
         out.Row(y)[x] = around.Median();
       }
@@ -133,13 +132,13 @@ CheckSettings(const MedianSettings & settings)
 }
 
 DoubleFrame
-FilterByMedian(const DoubleFrame & codesDn, const MedianSettings & settings, const ParallelFor & parallelFor)
+FilterByMedian(const DoubleFrame & valuesDn, const MedianSettings & settings, const ParallelFor & parallelFor)
 {
   const auto  radius = static_cast<std::ptrdiff_t>(settings.radiusPixels);
-  const auto  lastX = static_cast<std::ptrdiff_t>(codesDn.width) - 1;
-  const auto  lastY = static_cast<std::ptrdiff_t>(codesDn.height) - 1;
-  DoubleFrame out(codesDn.width, codesDn.height);
-  parallelFor(codesDn.height, [&](std::size_t y) {
+  const auto  lastX = static_cast<std::ptrdiff_t>(valuesDn.width) - 1;
+  const auto  lastY = static_cast<std::ptrdiff_t>(valuesDn.height) - 1;
+  DoubleFrame out(valuesDn.width, valuesDn.height);
+  parallelFor(valuesDn.height, [&](std::size_t y) {
     std::vector<double> square;
     for (std::ptrdiff_t x = 0; x <= lastX; ++x)
     {
@@ -147,10 +146,10 @@ FilterByMedian(const DoubleFrame & codesDn, const MedianSettings & settings, con
       for (std::ptrdiff_t dy = -radius; dy <= radius; ++dy)
       {
         const auto     row = std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(y) + dy, 0, lastY);
-        const double * codes = codesDn.Row(static_cast<std::size_t>(row));
+        const double * sourceDn = valuesDn.Row(static_cast<std::size_t>(row));
         for (std::ptrdiff_t dx = -radius; dx <= radius; ++dx)
         {
-          square.push_back(codes[std::clamp<std::ptrdiff_t>(x + dx, 0, lastX)]);
+          square.push_back(sourceDn[std::clamp<std::ptrdiff_t>(x + dx, 0, lastX)]);
         }
       }
       const auto middle = square.begin() + static_cast<std::ptrdiff_t>(square.size() / 2);
@@ -171,10 +170,10 @@ CheckSettings(const SmoothingSettings & settings)
 }
 
 DoubleFrame
-SmoothFrame(DoubleFrame codesDn, const SmoothingSettings & settings, const ParallelFor & parallelFor)
+SmoothFrame(DoubleFrame valuesDn, const SmoothingSettings & settings, const ParallelFor & parallelFor)
 {
-  codesDn.values = GaussianBlur(codesDn.values, codesDn.width, codesDn.height, settings.sdPixels, parallelFor);
-  return codesDn;
+  valuesDn.values = GaussianBlur(valuesDn.values, valuesDn.width, valuesDn.height, settings.sdPixels, parallelFor);
+  return valuesDn;
 }
 
 DoubleFrame
@@ -192,42 +191,42 @@ MoveCharge(DoubleFrame charge, const SensorFlaws & flaws, const ParallelFor & pa
 }
 
 DoubleFrame
-ProcessBeforeTemporalFilter(DoubleFrame codesDn, const SensorFlaws & flaws, const ParallelFor & parallelFor)
+ProcessBeforeTemporalFilter(DoubleFrame valuesDn, const SensorFlaws & flaws, const ParallelFor & parallelFor)
 {
   if (flaws.defectCorrection.IsOn())
   {
-    codesDn = CorrectDefects(codesDn, flaws.defectCorrection, parallelFor);
+    valuesDn = CorrectDefects(valuesDn, flaws.defectCorrection, parallelFor);
   }
-  return codesDn;
+  return valuesDn;
 }
 
 DoubleFrame
-ProcessAfterTemporalFilter(DoubleFrame         codesDn,
+ProcessAfterTemporalFilter(DoubleFrame         valuesDn,
                            const SensorFlaws & flaws,
                            unsigned int        bitDepth,
                            const ParallelFor & parallelFor)
 {
   if (flaws.median.IsOn())
   {
-    codesDn = FilterByMedian(codesDn, flaws.median, parallelFor);
+    valuesDn = FilterByMedian(valuesDn, flaws.median, parallelFor);
   }
   if (flaws.smoothing.IsOn())
   {
-    codesDn = SmoothFrame(std::move(codesDn), flaws.smoothing, parallelFor);
+    valuesDn = SmoothFrame(std::move(valuesDn), flaws.smoothing, parallelFor);
   }
   if (flaws.binning.IsOn())
   {
-    codesDn = BinFrame(codesDn, flaws.binning, parallelFor);
+    valuesDn = BinFrame(valuesDn, flaws.binning, parallelFor);
   }
   if (flaws.resampling.IsOn())
   {
-    codesDn = ResampleFrame(codesDn, flaws.resampling, parallelFor);
+    valuesDn = ResampleFrame(valuesDn, flaws.resampling, parallelFor);
   }
   if (flaws.blocks.IsOn())
   {
-    codesDn = QuantiseBlocks(codesDn, StepsOfQuality(flaws.blocks, bitDepth), parallelFor);
+    valuesDn = QuantiseBlocks(valuesDn, StepsOfQuality(flaws.blocks, bitDepth), parallelFor);
   }
-  return codesDn;
+  return valuesDn;
 }
 
 } // namespace sensornoise

@@ -4,6 +4,7 @@
 #define sensornoise_simulation_FrameProcessing_h
 
 #include "SensorNoiseExport.h"
+#include "base/Text.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/SensorFlaws.h"
 
@@ -14,15 +15,19 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 /** \file
- * The processing of whole frames: correction of defects, filters, resampling and lossy compression. */
+ * The processing of whole frames: correction of defects, filters, resampling and lossy compression.
+ *
+ * The checks of the settings throw messages that contain the value that was found and the expected range. */
 
 namespace sensornoise
 {
 
-/** One frame, row by row, of charges [e-] or of codes before they are rounded [DN]. */
+/** One frame, row by row, of charges [e-] or of digital numbers before they are rounded [DN]. */
 struct DoubleFrame
 {
   std::size_t         width{ 0 };
@@ -52,9 +57,11 @@ struct DoubleFrame
 SensorNoise_EXPORT void
 CheckSettings(const DefectCorrectionSettings & settings);
 
-/** Returns \a codesDn with corrected defects [DN]; every decision uses the uncorrected frame. */
+/** Returns \a valuesDn with corrected defects [DN]; every decision uses the uncorrected frame. */
 SensorNoise_EXPORT DoubleFrame
-CorrectDefects(const DoubleFrame & codesDn, const DefectCorrectionSettings & settings, const ParallelFor & parallelFor);
+CorrectDefects(const DoubleFrame &              valuesDn,
+               const DefectCorrectionSettings & settings,
+               const ParallelFor &              parallelFor);
 
 /** \throws std::invalid_argument that names the first setting that cannot be used. */
 SensorNoise_EXPORT void
@@ -93,17 +100,17 @@ private:
 SensorNoise_EXPORT void
 CheckSettings(const MedianSettings & settings);
 
-/** Returns \a codesDn filtered [DN]. */
+/** Returns \a valuesDn filtered [DN]. */
 SensorNoise_EXPORT DoubleFrame
-FilterByMedian(const DoubleFrame & codesDn, const MedianSettings & settings, const ParallelFor & parallelFor);
+FilterByMedian(const DoubleFrame & valuesDn, const MedianSettings & settings, const ParallelFor & parallelFor);
 
 /** \throws std::invalid_argument that names the first setting that cannot be used. */
 SensorNoise_EXPORT void
 CheckSettings(const SmoothingSettings & settings);
 
-/** Returns \a codesDn smoothed [DN]. */
+/** Returns \a valuesDn smoothed [DN]. */
 SensorNoise_EXPORT DoubleFrame
-SmoothFrame(DoubleFrame codesDn, const SmoothingSettings & settings, const ParallelFor & parallelFor);
+SmoothFrame(DoubleFrame valuesDn, const SmoothingSettings & settings, const ParallelFor & parallelFor);
 
 /** Returns whether a row depends on other rows of its frame, or on other frames. */
 inline bool
@@ -118,14 +125,14 @@ NeedsWholeFrames(const SensorFlaws & flaws)
 SensorNoise_EXPORT DoubleFrame
 MoveCharge(DoubleFrame charge, const SensorFlaws & flaws, const ParallelFor & parallelFor);
 
-/** Processes the codes [DN] before the temporal filter: correction of defects. */
+/** Processes the digital numbers [DN] before the temporal filter: correction of defects. */
 SensorNoise_EXPORT DoubleFrame
-ProcessBeforeTemporalFilter(DoubleFrame codesDn, const SensorFlaws & flaws, const ParallelFor & parallelFor);
+ProcessBeforeTemporalFilter(DoubleFrame valuesDn, const SensorFlaws & flaws, const ParallelFor & parallelFor);
 
-/** Processes the codes [DN] after the temporal filter: median, smoothing, binning, resampling, and last the compression
- * in blocks, which needs the \a bitDepth of the converter. */
+/** Processes the digital numbers [DN] after the temporal filter: median, smoothing, binning, resampling, and last the
+ * compression in blocks, which needs the \a bitDepth of the converter. */
 SensorNoise_EXPORT DoubleFrame
-ProcessAfterTemporalFilter(DoubleFrame         codesDn,
+ProcessAfterTemporalFilter(DoubleFrame         valuesDn,
                            const SensorFlaws & flaws,
                            unsigned int        bitDepth,
                            const ParallelFor & parallelFor);
@@ -203,17 +210,17 @@ private:
 SensorNoise_EXPORT void
 CheckSettings(const BinningSettings & settings);
 
-/** Returns \a codesDn binned, in the original size [DN]. Where whole squares fill the frame, its mean is kept. */
+/** Returns \a valuesDn binned, in the original size [DN]. Where whole squares fill the frame, its mean is kept. */
 SensorNoise_EXPORT DoubleFrame
-BinFrame(const DoubleFrame & codesDn, const BinningSettings & settings, const ParallelFor & parallelFor);
+BinFrame(const DoubleFrame & valuesDn, const BinningSettings & settings, const ParallelFor & parallelFor);
 
 /** \throws std::invalid_argument that names the first setting that cannot be used. */
 SensorNoise_EXPORT void
 CheckSettings(const ResamplingSettings & settings);
 
-/** Returns \a codesDn shifted [DN]. */
+/** Returns \a valuesDn shifted [DN]. */
 SensorNoise_EXPORT DoubleFrame
-ResampleFrame(const DoubleFrame & codesDn, const ResamplingSettings & settings, const ParallelFor & parallelFor);
+ResampleFrame(const DoubleFrame & valuesDn, const ResamplingSettings & settings, const ParallelFor & parallelFor);
 
 /** Quantization step of each coefficient [DN], row by row: vertical frequency 0 to 7, within it horizontal frequency 0
  * to 7. */
@@ -228,19 +235,44 @@ CheckSettings(const BlockSettings & settings, unsigned int bitDepth);
 SensorNoise_EXPORT BlockStepsDn
 StepsOfQuality(const BlockSettings & settings, unsigned int bitDepth);
 
-/** Returns \a codesDn with the coefficients of each block rounded to multiples of \a stepsDn, all above 0 [DN]. A block
- * that the edge of the frame cuts is filled with copies of its last column and row. */
+/** Returns \a valuesDn with the coefficients of each block rounded to multiples of \a stepsDn, all above 0 [DN]. A
+ * block that the edge of the frame cuts is filled with copies of its last column and row. */
 SensorNoise_EXPORT DoubleFrame
-QuantiseBlocks(const DoubleFrame & codesDn, const BlockStepsDn & stepsDn, const ParallelFor & parallelFor);
+QuantiseBlocks(const DoubleFrame & valuesDn, const BlockStepsDn & stepsDn, const ParallelFor & parallelFor);
 
 /** \throws std::invalid_argument if the setting cannot be used with a converter of \a bitDepth bits. */
 SensorNoise_EXPORT void
 CheckSettings(const CompandingSettings & settings, unsigned int bitDepth);
 
-/** Compands the codes and expands them again, in place [DN].
- * \param codesDn codes, which are clamped to 0 and 2^bitDepth - 1 first */
+/** Compands the digital numbers and expands them again, in place [DN].
+ * \param valuesDn digital numbers, which are clamped to 0 and 2^bitDepth - 1 first */
 SensorNoise_EXPORT void
-Compand(double * codesDn, std::size_t count, const CompandingSettings & settings, unsigned int bitDepth);
+Compand(double * valuesDn, std::size_t count, const CompandingSettings & settings, unsigned int bitDepth);
+
+/** \throws std::invalid_argument "the <name> is <found>; expected <expected>" unless \a isGood. */
+inline void
+RequireSetting(bool isGood, const char * name, double found, const char * expected)
+{
+  if (!isGood)
+  {
+    throw std::invalid_argument(std::string("the ") + name + " is " + Text(found) + "; expected " + expected);
+  }
+}
+
+/** \throws std::invalid_argument unless \a value is from 0 to 1e9: larger values have no meaning in any unit, and their
+ * products might not be finite. */
+inline void
+RequireNotNegative(double value, const char * name)
+{
+  RequireSetting(value >= 0.0 && value <= 1e9, name, value, "0 to 1e9");
+}
+
+/** \throws std::invalid_argument unless \a value is from 0 to 1. */
+inline void
+RequireFraction(double value, const char * name)
+{
+  RequireSetting(value >= 0.0 && value <= 1.0, name, value, "0 to 1");
+}
 
 } // namespace sensornoise
 

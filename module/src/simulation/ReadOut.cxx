@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/ReadOut.h"
+#include "simulation/SimulatedSensor.h"
 
 #include "base/Quantiles.h"
-#include "simulation/FixedPattern.h"
 #include "simulation/Random.h"
-#include "simulation/SettingChecks.h"
+#include "simulation/FrameProcessing.h"
 
 #include <array>
 #include <cmath>
@@ -78,7 +77,7 @@ CheckSettings(const ResponseSettings & settings)
       RequireSetting(size >= 0.0 && size <= 1.0, "weight of the response's s-curve", size, "0 to 1");
       return;
     default:
-      RequireSetting(size > -1.0 && size < 1.0, "bend of the response", size, "above -1 and below 1");
+      RequireSetting(size > -1.0 && size < 1.0, "non-linearity of the response", size, "above -1 and below 1");
   }
 }
 
@@ -203,7 +202,7 @@ LineNoise::OfRow(std::size_t frame, std::size_t y) const
 }
 
 void
-LineNoise::AddTo(double * codesDn, std::size_t width, std::size_t frame, std::size_t y) const
+LineNoise::AddTo(double * valuesDn, std::size_t width, std::size_t frame, std::size_t y) const
 {
   if (!IsOn())
   {
@@ -214,7 +213,7 @@ LineNoise::AddTo(double * codesDn, std::size_t width, std::size_t frame, std::si
   CounterSeededRandom random(m_Seed, StreamNumber(RandomStream::ColumnNoise, m_IsDark), frame);
   for (std::size_t x = 0; x < width; ++x)
   {
-    codesDn[x] += rowDn + (m_Settings.columnNoiseSdDn > 0.0 ? m_Settings.columnNoiseSdDn * random.Normal() : 0.0);
+    valuesDn[x] += rowDn + (m_Settings.columnNoiseSdDn > 0.0 ? m_Settings.columnNoiseSdDn * random.Normal() : 0.0);
   }
 }
 
@@ -232,7 +231,7 @@ ReadOut::ReadOut(const SimulationSettings & settings, std::size_t width, std::si
 {}
 
 void
-ReadOut::ReadRow(std::size_t frame, std::size_t y, const double * electrons, const double * normals, double * codesDn)
+ReadOut::ReadRow(std::size_t frame, std::size_t y, const double * electrons, const double * normals, double * valuesDn)
   const
 {
   for (std::size_t x = 0; x < m_Width; ++x)
@@ -242,15 +241,15 @@ ReadOut::ReadRow(std::size_t frame, std::size_t y, const double * electrons, con
     if (m_Response.IsLinear())
     {
       const double noiseDn = RelativeGain(pixel) * ReadNoiseDn(pixel) * normals[x];
-      codesDn[x] = gain * electrons[x] + OffsetDn(pixel) + noiseDn;
+      valuesDn[x] = gain * electrons[x] + OffsetDn(pixel) + noiseDn;
     }
     else
     {
       const double signal = electrons[x] + ReadNoiseDn(pixel) / m_Camera.gainDnPerElectron * normals[x];
-      codesDn[x] = gain * m_FullScaleElectrons * m_Response.Value(signal / m_FullScaleElectrons) + OffsetDn(pixel);
+      valuesDn[x] = gain * m_FullScaleElectrons * m_Response.Value(signal / m_FullScaleElectrons) + OffsetDn(pixel);
     }
   }
-  m_LineNoise.AddTo(codesDn, m_Width, frame, y);
+  m_LineNoise.AddTo(valuesDn, m_Width, frame, y);
 }
 
 double

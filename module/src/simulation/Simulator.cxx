@@ -4,10 +4,9 @@
 
 #include "sensornoise/FrameGeometry.h"
 #include "base/Text.h"
-#include "simulation/CollectedCharge.h"
+#include "simulation/SimulatedSensor.h"
 #include "simulation/FrameProcessing.h"
 #include "simulation/Random.h"
-#include "simulation/ReadOut.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,7 +92,7 @@ StackSimulator::NeedsWholeFrames() const
 
 template <typename TPixel>
 std::pair<double, double>
-StackSimulator::CodeRange(const SimulationSettings & settings)
+StackSimulator::PixelRangeDn(const SimulationSettings & settings)
 {
   static_assert(std::is_arithmetic_v<TPixel>, "a frame holds integer or floating-point numbers");
   using Limits = std::numeric_limits<TPixel>;
@@ -101,7 +100,7 @@ StackSimulator::CodeRange(const SimulationSettings & settings)
   double high = settings.clipHighDn.value_or(std::numeric_limits<double>::infinity());
   if constexpr (std::is_integral_v<TPixel>)
   {
-    static_assert(Limits::digits <= 32, "codes of more than 32 bits are not represented exactly");
+    static_assert(Limits::digits <= 32, "digital numbers of more than 32 bits are not represented exactly");
     const auto bits = static_cast<int>(settings.bitDepth);
     if (bits > Limits::digits)
     {
@@ -138,46 +137,47 @@ StackSimulator::ReadRow(std::size_t    frame,
                         std::size_t    y,
                         const double * electrons,
                         const double * normals,
-                        double *       codesDn) const
+                        double *       valuesDn) const
 {
   constexpr double           infinity = std::numeric_limits<double>::infinity();
   const SimulationSettings & settings = m_Truth.settings;
   const double               low = settings.clipLowDn.value_or(-infinity);
   const double               high = settings.clipHighDn.value_or(infinity);
-  m_Sensor->readOut.ReadRow(settings.flaws.repetition.ExposureOf(frame), y, electrons, normals, codesDn);
-  std::transform(codesDn, codesDn + m_Width, codesDn, [=](double code) { return std::clamp(code, low, high); });
+  m_Sensor->readOut.ReadRow(settings.flaws.repetition.ExposureOf(frame), y, electrons, normals, valuesDn);
+  std::transform(
+    valuesDn, valuesDn + m_Width, valuesDn, [=](double valueDn) { return std::clamp(valueDn, low, high); });
 }
 
 DoubleFrame
 StackSimulator::ReadFrame(std::size_t frame, const ParallelFor & parallelFor) const
 {
   DoubleFrame charge(m_Width, m_Height);
-  DoubleFrame codesDn(m_Width, m_Height);
-  parallelFor(m_Height, [&](std::size_t y) { ExposeRow(frame, y, charge.Row(y), codesDn.Row(y)); });
+  DoubleFrame valuesDn(m_Width, m_Height);
+  parallelFor(m_Height, [&](std::size_t y) { ExposeRow(frame, y, charge.Row(y), valuesDn.Row(y)); });
   charge = MoveCharge(std::move(charge), m_Truth.settings.flaws, parallelFor);
-  parallelFor(m_Height, [&](std::size_t y) { ReadRow(frame, y, charge.Row(y), codesDn.Row(y), codesDn.Row(y)); });
-  return codesDn;
+  parallelFor(m_Height, [&](std::size_t y) { ReadRow(frame, y, charge.Row(y), valuesDn.Row(y), valuesDn.Row(y)); });
+  return valuesDn;
 }
 
 template <typename TPixel>
 void
-StackSimulator::WriteRow(double * codesDn, TPixel * out) const
+StackSimulator::WriteRow(double * valuesDn, TPixel * out) const
 {
   const SimulationSettings & settings = m_Truth.settings;
-  const auto                 range = CodeRange<TPixel>(settings);
+  const auto                 range = PixelRangeDn<TPixel>(settings);
   if (settings.flaws.companding.IsOn())
   {
-    Compand(codesDn, m_Width, settings.flaws.companding, settings.bitDepth);
+    Compand(valuesDn, m_Width, settings.flaws.companding, settings.bitDepth);
   }
   for (std::size_t x = 0; x < m_Width; ++x)
   {
     if constexpr (std::is_integral_v<TPixel>)
     {
-      out[x] = static_cast<TPixel>(std::clamp(std::floor(codesDn[x] + 0.5), range.first, range.second));
+      out[x] = static_cast<TPixel>(std::clamp(std::floor(valuesDn[x] + 0.5), range.first, range.second));
     }
     else
     {
-      out[x] = static_cast<TPixel>(std::clamp(codesDn[x], range.first, range.second));
+      out[x] = static_cast<TPixel>(std::clamp(valuesDn[x], range.first, range.second));
     }
   }
 }
@@ -193,10 +193,10 @@ StackSimulator::RenderRow(std::size_t frame, std::size_t y, TPixel * out) const
       "RenderFrame to be used");
   }
   std::vector<double> electrons(m_Width);
-  std::vector<double> codesDn(m_Width);
-  ExposeRow(frame, y, electrons.data(), codesDn.data());
-  ReadRow(frame, y, electrons.data(), codesDn.data(), codesDn.data());
-  WriteRow(codesDn.data(), out);
+  std::vector<double> valuesDn(m_Width);
+  ExposeRow(frame, y, electrons.data(), valuesDn.data());
+  ReadRow(frame, y, electrons.data(), valuesDn.data(), valuesDn.data());
+  WriteRow(valuesDn.data(), out);
 }
 
 template <typename TPixel>
@@ -210,16 +210,16 @@ StackSimulator::RenderFrame(std::size_t frame, TPixel * out, const ParallelFor &
   }
   RequireRow(frame, 0);
   const SensorFlaws & flaws = m_Truth.settings.flaws;
-  const auto          codesOf = [&](std::size_t exposure) {
+  const auto          outputOf = [&](std::size_t exposure) {
     const std::size_t firstFrame = flaws.repetition.FirstFrameOf(exposure);
     return ProcessBeforeTemporalFilter(ReadFrame(firstFrame, parallelFor), flaws, parallelFor);
   };
   const std::size_t exposure = flaws.repetition.ExposureOf(frame);
-  DoubleFrame       codesDn = flaws.temporalFilter.IsOn()
-                                ? m_Sensor->temporalFilter->OutputFrame(exposure, codesOf, parallelFor)
-                                : codesOf(exposure);
-  codesDn = ProcessAfterTemporalFilter(std::move(codesDn), flaws, m_Truth.settings.bitDepth, parallelFor);
-  parallelFor(m_Height, [&](std::size_t y) { WriteRow(codesDn.Row(y), out + y * m_Width); });
+  DoubleFrame       valuesDn = flaws.temporalFilter.IsOn()
+                                 ? m_Sensor->temporalFilter->OutputFrame(exposure, outputOf, parallelFor)
+                                 : outputOf(exposure);
+  valuesDn = ProcessAfterTemporalFilter(std::move(valuesDn), flaws, m_Truth.settings.bitDepth, parallelFor);
+  parallelFor(m_Height, [&](std::size_t y) { WriteRow(valuesDn.Row(y), out + y * m_Width); });
 }
 
 #define SensorNoise_INSTANTIATE(TPixel)                               \
@@ -234,14 +234,14 @@ SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 #undef SensorNoise_INSTANTIATE
 
 template SensorNoise_EXPORT std::pair<double, double>
-StackSimulator::CodeRange<unsigned char>(const SimulationSettings &);
+StackSimulator::PixelRangeDn<unsigned char>(const SimulationSettings &);
 template SensorNoise_EXPORT std::pair<double, double>
-StackSimulator::CodeRange<unsigned short>(const SimulationSettings &);
+StackSimulator::PixelRangeDn<unsigned short>(const SimulationSettings &);
 template SensorNoise_EXPORT std::pair<double, double>
-StackSimulator::CodeRange<short>(const SimulationSettings &);
+StackSimulator::PixelRangeDn<short>(const SimulationSettings &);
 template SensorNoise_EXPORT std::pair<double, double>
-StackSimulator::CodeRange<float>(const SimulationSettings &);
+StackSimulator::PixelRangeDn<float>(const SimulationSettings &);
 template SensorNoise_EXPORT std::pair<double, double>
-StackSimulator::CodeRange<double>(const SimulationSettings &);
+StackSimulator::PixelRangeDn<double>(const SimulationSettings &);
 
 } // namespace sensornoise

@@ -30,15 +30,12 @@ struct SingleConstants
   /** Size of a detail coefficient, in standard deviations of the starting line, above which it is left out [1]. Chosen:
    * of normal noise 0.27 % are left out. */
   double largestDetail{ 3.0 };
-  /** Variance of the logarithm of the variance of n coefficients, truncated at largestDetail, times n [1]: 2 without
-   * truncation, 2.31 with it. Closed form: 4 / (m4 - m2^2), of the moments of the truncated normal distribution. */
-  double truncatedVariance{ 2.3085 };
   ///@}
 
   /** \name Starting line */
   ///@{
-  /** Positions of the sample that the starting line is made of, at most. Chosen for the time: 1 % of
-   * a frame of 24 megapixels. */
+  /** Largest number of positions of the sample for the starting line. Chosen for the time: 1 % of a frame of 24
+   * megapixels. */
   std::size_t samplePositions{ std::size_t{ 1 } << 18 };
   /** Every n-th position of the sample is sorted by level. */
   std::size_t sortedStride{ 4 };

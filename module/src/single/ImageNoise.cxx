@@ -5,7 +5,7 @@
 #include "base/NothingToMeasure.h"
 #include "base/Quantiles.h"
 #include "base/Text.h"
-#include "moments/Codes.h"
+#include "moments/StackMaps.h"
 #include "single/Constants.h"
 #include "single/LevelSums.h"
 
@@ -22,7 +22,8 @@ namespace
 constexpr std::size_t TileWidth = 128;
 constexpr std::size_t TileHeight = 64;
 
-/** Pixels by which scale and codes are found, at most. Chosen for the time: 4 % of a frame of 24 megapixels. */
+/** Pixels by which scale and digital numbers are found, at most. Chosen for the time: 4 % of a frame of 24 megapixels.
+ */
 constexpr std::size_t MostSampledPixels = std::size_t{ 1 } << 20;
 
 /** The tiles that cover all positions of a plane. */
@@ -112,7 +113,9 @@ TilesOf(const PlaneOfFrame<TPixel> & plane)
   if (columns == 0 || rows == 0)
   {
     throw NothingToMeasure("the frame has " + std::to_string(plane.layout.width) + " x " +
-                           std::to_string(plane.height) + " pixels; expected at least 24 x 24 (48 x 48 of a mosaic)");
+                           std::to_string(plane.height) +
+                           " pixels; expected at least 24 x 24 (48 x 48 of a mosaic). Give a larger part of "
+                           "the frame");
   }
   return { columns, rows };
 }
@@ -216,18 +219,18 @@ SumFrame(const SingleFrame<TPixel> & frame,
 } // namespace
 
 LevelLimits
-LimitsOf(const CodeRange & codes)
+LimitsOf(const DnRange & dnRange)
 {
   LevelLimits limits;
-  limits.clip.lowDn = codes.clipLowDn.value_or(limits.clip.lowDn);
-  limits.clip.highDn = codes.clipHighDn.value_or(limits.clip.highDn);
-  limits.stepDn = codes.quantisationStepDn;
+  limits.clip.lowDn = dnRange.clipLowDn.value_or(limits.clip.lowDn);
+  limits.clip.highDn = dnRange.clipHighDn.value_or(limits.clip.highDn);
+  limits.stepDn = dnRange.quantisationStepDn;
   return limits;
 }
 
 template <typename TPixel>
-CodeRange
-FindCodesOfFrame(const PlaneOfFrame<TPixel> & plane, const CodeSettings & settings, const ParallelFor & parallelFor)
+DnRange
+FindDnRangeOfFrame(const PlaneOfFrame<TPixel> & plane, const DnSettings & settings, const ParallelFor & parallelFor)
 {
   const PlaneTiles          tiles = TilesOf(plane);
   const SingleFrame<TPixel> frame = ScaleFrame(plane);
@@ -235,9 +238,9 @@ FindCodesOfFrame(const PlaneOfFrame<TPixel> & plane, const CodeSettings & settin
   const double              typicalDn2 = frame.unitDn * frame.unitDn * groups.medianVariance;
   if constexpr (std::is_integral_v<TPixel>)
   {
-    CodeHistogram histogram;
+    DnHistogram histogram;
     ForSampledPixels(plane, [&](double value) { histogram.Add(value); });
-    return FindCodes(histogram, histogram, typicalDn2, settings);
+    return FindDnRange(histogram, histogram, typicalDn2, settings);
   }
   else
   {
@@ -292,7 +295,7 @@ MeasureFrame(const PlaneOfFrame<TPixel> & plane, const LevelLimits & limits, con
 }
 
 #define SensorNoise_INSTANTIATE(TPixel)                                                                          \
-  template CodeRange  FindCodesOfFrame(const PlaneOfFrame<TPixel> &, const CodeSettings &, const ParallelFor &); \
+  template DnRange    FindDnRangeOfFrame(const PlaneOfFrame<TPixel> &, const DnSettings &, const ParallelFor &); \
   template ImageNoise MeasureFrame(const PlaneOfFrame<TPixel> &, const LevelLimits &, const ParallelFor &)
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 #undef SensorNoise_INSTANTIATE

@@ -9,7 +9,7 @@
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Report.h"
 #include "base/PixelLayout.h"
-#include "single/DetailCorrelation.h"
+#include "single/LevelSums.h"
 #include "single/NoiseLine.h"
 
 #include <cstddef>
@@ -28,14 +28,14 @@ struct PlaneOfFrame
   const TPixel *       pixels{ nullptr };
   PixelLayout          layout;
   std::size_t          height{ 0 };
-  const std::uint8_t * mask{ nullptr }; ///< by place, as the pixels: 0 is left out; null: none is
+  const std::uint8_t * mask{ nullptr }; ///< values at the places of the pixels; 0: left out; null: no mask
 };
 
 /** Noise of one frame. */
 struct ImageNoise
 {
   std::vector<LevelSet> diagonal;      ///< level sets, with variances from the diagonal details
-  std::vector<LevelSet> sides;         ///< the same sets, with variances from horizontal and vertical details
+  std::vector<LevelSet> sides;         ///< level sets, with variances from horizontal and vertical details
   NoiseLine             line;          ///< line through the variances of the diagonal details
   DetailCorrelation     correlation;   ///< correlation of neighbouring diagonal details, in a sample of the frame
   double                finite{ 0.0 }; ///< number of positions whose pixels are all finite
@@ -49,15 +49,15 @@ struct LevelLimits
   double     stepDn{ 0.0 }; ///< quantization step [DN]; 0: none
 };
 
-/** Returns the clip levels and the step of \a codes. */
+/** Returns the clip levels and the step of \a dnRange. */
 LevelLimits
-LimitsOf(const CodeRange & codes);
+LimitsOf(const DnRange & dnRange);
 
-/** Finds the codes of a frame, by a part of its rows, or takes those that \a settings give: FindCodes(), or
- * FindLevels() of floating-point pixels. Throws NothingToMeasure as MeasureFrame(). */
+/** Finds the quantization of a frame from a part of its rows, or uses the given values of \a settings: FindDnRange(),
+ * or FindLevels() for floating-point pixels. Throws NothingToMeasure as MeasureFrame(). */
 template <typename TPixel>
-CodeRange
-FindCodesOfFrame(const PlaneOfFrame<TPixel> & plane, const CodeSettings & settings, const ParallelFor & parallelFor);
+DnRange
+FindDnRangeOfFrame(const PlaneOfFrame<TPixel> & plane, const DnSettings & settings, const ParallelFor & parallelFor);
 
 /** Measures the variance of the level sets of a frame, and fits the line. A line through a sample of the frame selects
  * the windows without edges, and is fitted again. The last line selects the windows of the whole frame. The result has
@@ -72,12 +72,12 @@ struct MeasuredPlane
 {
   PixelLayout                            layout;
   FrameGeometry                          geometry;
-  CodeRange                              codes; ///< found from the first frame that can be measured
+  DnRange                                dnRange; ///< found from the first frame that can be measured
   std::vector<std::optional<ImageNoise>> frames;
   std::size_t                            clipped{ 0 };   ///< pixels at a clip level, in that frame
   std::size_t                            notFinite{ 0 }; ///< pixels that are NaN or infinite, in that frame
   std::size_t                            masked{ 0 };    ///< pixels that the mask leaves out
-  std::string                            reason;         ///< why no frame so far can be measured; "": one can
+  std::string                            reason; ///< reason why no frame so far can be measured; "": a frame can
 };
 
 struct SingleImageSettings;
@@ -87,13 +87,13 @@ struct SingleImageFindings
 {
   const SingleImageSettings &            settings;
   FrameGeometry                          geometry; ///< size of the frame, or of the plane
-  CodeRange                              codes;
+  DnRange                                dnRange;
   std::vector<std::optional<ImageNoise>> frames;         ///< null: the frame cannot be measured
   std::optional<NoiseLine>               meanImage;      ///< line of the mean image, times the number of frames
   std::size_t                            clipped{ 0 };   ///< pixels at a clip level, in the first frame
   std::size_t                            notFinite{ 0 }; ///< pixels that are NaN or infinite there
   std::size_t                            masked{ 0 };    ///< pixels that the mask leaves out
-  std::string                            reason;         ///< why the first frame cannot be measured; "": it can
+  std::string                            reason;         ///< reason why the first frame cannot be measured; "": it can
 };
 
 /** Makes the report: fits one line to the level sets of all frames, checks its error by the scatter of the frames, and

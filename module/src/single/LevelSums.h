@@ -23,8 +23,8 @@ struct Wavelet
 {
   static constexpr std::size_t Taps = 6;
 
-  /** Weights of the approximation; their sum is the square root of 2. (1 + s + q, 5 + s + 3 q, 10 - 2 s + 2 q,
-   * 10 - 2 s - 2 q, 5 + s - 3 q, 1 + s - q) / (16 sqrt(2)), with s = sqrt(10) and q = sqrt(5 + 2 s). */
+  /** Weights of the approximation, whose sum is the square root of 2: (1 + s + q, 5 + s + 3 q, 10 - 2 s + 2 q, 10 - 2 s
+   * - 2 q, 5 + s - 3 q, 1 + s - q) / (16 sqrt(2)), with s = sqrt(10) and q = sqrt(5 + 2 s). */
   static constexpr std::array<float, Taps> low{ { 0.3326705529500826F,
                                                   0.8068915093110926F,
                                                   0.4598775021184915F,
@@ -43,10 +43,10 @@ struct WaveletWindow
 {
   /** Width of the window of the level and of the roughness. */
   static constexpr std::size_t Size = 6;
-  /** Weights of the level along an axis. A detail has the noise of its pixels' levels, with its squared weights, whose
-   * variance along an axis is 0.4537 pixels^2. The approximation has none of its own. These weights have the same
-   * variance, so that the level is right where it is a parabola: an even mean would lower crests and lift troughs. Of
-   * all such weights, their squares have the least sum. The standard deviation of the level is 0.19 of a pixel's noise.
+  /** Weights of the level along an axis. They have the variance of the squared weights of a detail along an axis,
+   * 0.4537 pixels^2. The level is therefore unbiased where the image is a parabola. A mean with equal weights would
+   * lower maxima and raise minima. Among all weights with this variance, these have the least sum of squares. The
+   * standard deviation of the level is 0.19 of the noise of a pixel.
    */
   static constexpr std::array<float, Size> level{
     { -0.08362313F, 0.21672463F, 0.3668985F, 0.3668985F, 0.21672463F, -0.08362313F }
@@ -66,9 +66,9 @@ template <typename TPixel>
 struct SingleFrame
 {
   const TPixel *       pixels{ nullptr };
-  PixelLayout          layout; ///< its width is the plane's
+  PixelLayout          layout; ///< width: the width of the plane
   std::size_t          height{ 0 };
-  const std::uint8_t * mask{ nullptr }; ///< by place, as the pixels: 0 is left out; null: none is
+  const std::uint8_t * mask{ nullptr }; ///< values at the places of the pixels; 0: left out; null: no mask
   double               originDn{ 0.0 }; ///< level that becomes 0 [DN]
   double               unitDn{ 1.0 };   ///< difference of levels that becomes 1 [DN]: floats do not overflow
 
@@ -93,7 +93,7 @@ struct TileOfPositions
 /** \class BandTile
  * \brief Level, roughness and squared details of the positions of a tile, in units of SingleFrame.
  *
- * Level and roughness are made of the approximation alone, whose white noise is independent of the noise of the
+ * Level and roughness are computed from the approximation alone, whose white noise is independent of the noise of the
  * details: a selection by them does not change the distribution of the details. Positions whose windows hold a pixel
  * that is not finite or masked have a roughness of NaN. */
 class BandTile
@@ -219,7 +219,7 @@ struct LevelSums
   Add(const LevelSums & other);
 };
 
-/** Which details the variance is made of. */
+/** Details from which the variance is computed. */
 enum class DetailBand
 {
   Diagonal, ///< with the least texture, and free of noise of rows and columns
@@ -236,6 +236,52 @@ MakeLevelSets(const LevelSums & sums, const LevelGrid & grid, DetailBand band, d
  * square; infinite if no normal distribution has. */
 SensorNoise_EXPORT double
 VarianceOfTruncated(double square, double limit);
+
+/** \class DetailCorrelation
+ * \brief Correlation of the diagonal details of neighbouring positions without edges, by lag.
+ *
+ * The details of white noise are uncorrelated, because the wavelet is orthonormal. Fine periodic texture, such as a
+ * weave, has the same power in all bands of details and passes as noise, but its details repeat from position to
+ * position. The correlation is about the fraction of their variance that is texture. */
+class SensorNoise_EXPORT DetailCorrelation
+{
+public:
+  /** Correlation of a lag. */
+  struct Lag
+  {
+    int    x{ 0 };               ///< lag along a row [coefficients, 2 pixels each]
+    int    y{ 0 };               ///< lag across the rows
+    double value{ 0.0 };         ///< [1]
+    double standardError{ 0.0 }; ///< standard error for white noise [1]
+  };
+
+  /** Adds the pairs of positions of a tile. Positions with edges, or with a detail that is too large, are left out. */
+  void
+  Add(const BandTile & tile, const LevelGrid & grid);
+
+  void
+  Add(const DetailCorrelation & other);
+
+  /** Returns the lag with the largest size of the correlation; all 0: there is no pair. */
+  Lag
+  Largest() const;
+
+private:
+  struct Place
+  {
+    int x;
+    int y;
+  };
+  struct Sums
+  {
+    double pairs{ 0.0 };
+    double products{ 0.0 };
+    double squares{ 0.0 }; ///< mean squares of the two positions of a pair, relative to the expected variance
+  };
+  static constexpr std::array<Place, 6> Places{ { { 1, 0 }, { 0, 1 }, { 1, 1 }, { -1, 1 }, { 2, 0 }, { 0, 2 } } };
+
+  std::array<Sums, Places.size()> m_Sums{};
+};
 
 } // namespace sensornoise
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "single/NoiseLine.h"
 
+#include "base/ChiSquare.h"
 #include "single/Constants.h"
 
 #include <algorithm>
@@ -164,7 +165,7 @@ struct LineFit
       {
         continue;
       }
-      const double weight = set.details / InSingle.truncatedVariance;
+      const double weight = set.details / TruncatedVariance;
       const double byCentre = (at(higher).varianceDn2 - expected) / (stepDn2 * expected);
       const double bySlope = (at(steeper).varianceDn2 - expected) * rmsDn / (stepDn2 * expected);
       const double residual = set.varianceDn2 / expected - 1.0;

@@ -55,7 +55,7 @@ struct LevelSet
 {
   double levelDn{ 0.0 };     ///< mean, after clipping
   double varianceDn2{ 0.0 }; ///< variance of a pixel, after clipping
-  double details{ 0.0 };     ///< independent detail coefficients that the variance is made of
+  double details{ 0.0 };     ///< number of independent detail coefficients of the variance
 };
 
 /** The line through the variance of level sets. */
@@ -68,7 +68,7 @@ struct NoiseLine
   double              reducedChi2{ 0.0 };     ///< reduced chi-square of the level sets about the line [1]
   double              details{ 0.0 };         ///< coefficients of the level sets that were fitted
   std::vector<double> expectedDn2;            ///< variance that the line gives every level set, after clipping
-  std::vector<bool>   isFitted;               ///< which level sets were
+  std::vector<bool>   isFitted;               ///< whether a level set takes part in the fit
   bool                isDetermined{ false };  ///< false: too few level sets, or all of one level
 
   /** Squared standard error of the variance at level 0 [DN^4]. */
@@ -92,7 +92,7 @@ struct NoiseLine
 };
 
 /** Fits the line by maximum likelihood: the variance of n coefficients has a gamma distribution, with the mean that
- * ClippedAtMean() gives and a relative variance of InSingle.truncatedVariance / n. Level sets that are mostly clipped,
+ * ClippedAtMean() gives and a relative variance of TruncatedVariance / n. Level sets that are mostly clipped,
  * or have too few coefficients, are left out. \a start is the line from which Fisher scoring begins. \a
  * leastVarianceDn2 is the smallest variance that the frames can show, by quantization. The errors hold for white
  * noise; where the level sets scatter more, they are larger by the root of the reduced chi-square. */

@@ -3,7 +3,7 @@
 #include "sensornoise/SingleImageMethod.h"
 
 #include "base/NothingToMeasure.h"
-#include "report/StackSettings.h"
+#include "report/StackReport.h"
 #include "single/ImageNoise.h"
 
 #include <algorithm>
@@ -33,13 +33,13 @@ PlanesOf(const SingleImageSettings & settings, const FrameGeometry & frame)
   return planes;
 }
 
-/** Counts the pixels of a plane that are masked, and of the others those that are not finite or at a clip level. */
+/** Counts the masked pixels of a plane, and the other pixels that are not finite or at a clip level. */
 template <typename TPixel>
 void
 CountPixels(const PlaneOfFrame<TPixel> & pixels, MeasuredPlane & plane, const ParallelFor & parallelFor)
 {
   const std::size_t width = plane.geometry.width;
-  const ClipLevels  clip = LimitsOf(plane.codes).clip;
+  const ClipLevels  clip = LimitsOf(plane.dnRange).clip;
   const auto        counts =
     SumBlocks<3>(plane.geometry.height, parallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
       for (std::size_t y = begin; y < end; ++y)
@@ -97,7 +97,7 @@ LineOfMean(const PlaneOfFrame<double> & mean,
 void
 SingleImageSettings::Validate() const
 {
-  ValidateCodeSettings(codes);
+  ValidateDnSettings(codes);
   ValidateExcessNoiseFactor(excessNoiseFactor);
 }
 
@@ -131,11 +131,11 @@ struct SingleImageMethod<TPixel>::Planes
       {
         if (added == 0 || !plane.reason.empty())
         {
-          plane.codes = FindCodesOfFrame(ofPlane, settings.codes, parallelFor);
+          plane.dnRange = FindDnRangeOfFrame(ofPlane, settings.codes, parallelFor);
           plane.reason.clear();
           CountPixels(ofPlane, plane, parallelFor);
         }
-        plane.frames.emplace_back(MeasureFrame(ofPlane, LimitsOf(plane.codes), parallelFor));
+        plane.frames.emplace_back(MeasureFrame(ofPlane, LimitsOf(plane.dnRange), parallelFor));
       }
       catch (const NothingToMeasure & reason)
       {
@@ -157,10 +157,10 @@ struct SingleImageMethod<TPixel>::Planes
     ForPixels(sum.size(), parallelFor, [&](std::size_t p) { sum[p] /= count; });
     for (MeasuredPlane & plane : planes)
     {
-      SingleImageFindings found{ settings,     plane.geometry, plane.codes,     std::move(plane.frames),
+      SingleImageFindings found{ settings,     plane.geometry, plane.dnRange,   std::move(plane.frames),
                                  std::nullopt, plane.clipped,  plane.notFinite, plane.masked,
                                  plane.reason };
-      const LevelLimits   limits = LimitsOf(plane.codes);
+      const LevelLimits   limits = LimitsOf(plane.dnRange);
       if (const NoiseLine line = FitAllFrames(found.frames, limits); !sum.empty() && line.isDetermined)
       {
         try

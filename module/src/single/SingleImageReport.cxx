@@ -5,7 +5,7 @@
 #include "base/ChiSquare.h"
 #include "base/Constants.h"
 #include "base/Text.h"
-#include "report/StackSettings.h"
+#include "report/StackReport.h"
 #include "report/Quantities.h"
 #include "sensornoise/SingleImageMethod.h"
 #include "single/Constants.h"
@@ -58,7 +58,7 @@ LineOf(const NoiseLine & line)
   };
 }
 
-/** Files the variance of the sides over the variance of the diagonals, less 1, in the level sets of the line. */
+/** Stores the variance of the sides over the variance of the diagonals, less 1, in the level sets of the line. */
 void
 FillBandExcess(SingleImageRecord & record, const AllFrames & all, const NoiseLine & line)
 {
@@ -77,7 +77,7 @@ FillBandExcess(SingleImageRecord & record, const AllFrames & all, const NoiseLin
   }
   record.bandExcess = diagonals > 0.0 ? sides / diagonals - 1.0 : 0.0;
   // relative error of the diagonals, and of twice as many sides
-  record.bandExcessStandardError = weights > 0.0 ? std::sqrt(1.5 * InSingle.truncatedVariance / weights) : 0.0;
+  record.bandExcessStandardError = weights > 0.0 ? std::sqrt(1.5 * TruncatedVariance / weights) : 0.0;
 }
 
 /** Scatter of the slopes of the frames about their weighted mean, in units of their errors. */
@@ -132,20 +132,20 @@ void
 DescribeFrames(Report & report, const SingleImageFindings & found, const AllFrames & all)
 {
   report.method = "single-image";
-  NoteCodes(report, found.settings.codes);
+  NoteDnSettings(report, found.settings.codes);
   report.frames = found.frames.size();
   report.framesDistinct = report.frames;
   report.width = found.geometry.width;
   report.height = found.geometry.height;
-  report.bitDepth = found.codes.bitDepth;
-  report.bitDepthSource = found.codes.bitDepthSource;
-  if (found.codes.quantisationStepDn > 0.0)
+  report.bitDepth = found.dnRange.bitDepth;
+  report.bitDepthSource = found.dnRange.bitDepthSource;
+  if (found.dnRange.quantisationStepDn > 0.0)
   {
-    report.quantisationStepDn = found.codes.quantisationStepDn;
+    report.quantisationStepDn = found.dnRange.quantisationStepDn;
   }
-  report.clipLowDn = found.codes.clipLowDn;
-  report.clipHighDn = found.codes.clipHighDn;
-  report.clipSource = found.codes.clipSource;
+  report.clipLowDn = found.dnRange.clipLowDn;
+  report.clipHighDn = found.dnRange.clipHighDn;
+  report.clipSource = found.dnRange.clipSource;
   report.pixels.total = found.geometry.Pixels();
   report.pixels.notFinite = found.notFinite;
   report.pixels.clipped = found.clipped;
@@ -160,7 +160,7 @@ DescribeFrames(Report & report, const SingleImageFindings & found, const AllFram
   }
 }
 
-/** Texts of what speaks for texture; empty: nothing does. */
+/** Returns the evidence of texture as text; empty: there is none. */
 std::string
 SignsOfTexture(const SingleImageRecord & record, const NoiseLine & line, const DetailCorrelation::Lag & correlation)
 {
@@ -210,7 +210,7 @@ FillParameters(Report & report, const SingleImageFindings & found, const NoiseLi
 {
   const double slopeError = std::sqrt(line.slopeVariance);
   const double interceptError = std::sqrt(line.InterceptVariance());
-  const double stepDn = found.codes.quantisationStepDn;
+  const double stepDn = found.dnRange.quantisationStepDn;
   report.varianceSlope = WithError(line.line.slopeDn, slopeError);
   report.gain = report.varianceSlope;
   report.totalIntercept = WithError(line.InterceptDn2(), interceptError);
@@ -253,8 +253,8 @@ FillLevelSets(Report & report, const std::vector<std::optional<ImageNoise>> & fr
   }
 }
 
-/** Returns how many details were found, and how many of them the lines of the frames are made of: level sets that are
- * large enough, and mostly between the clip levels by the last line that was tried. */
+/** Returns the number of details that were found, and the number of details in the lines of the frames. The latter are
+ * in level sets that are large enough, and mostly between the clip levels by the last line that was tried. */
 std::string
 ReasonOfFewDetails(const SingleImageFindings & found)
 {
@@ -280,7 +280,7 @@ ReasonOfFewDetails(const SingleImageFindings & found)
          "from dark to bright, or use --method refined with a burst";
 }
 
-/** Why there is no line, or the numbers cannot stand; "": they can. */
+/** Returns why there is no line, or why its numbers are not valid; "": they are valid. */
 std::string
 ReasonAgainst(Report & report, const SingleImageFindings & found, const AllFrames & all, const NoiseLine & line)
 {
@@ -291,7 +291,7 @@ ReasonAgainst(Report & report, const SingleImageFindings & found, const AllFrame
   double hidden = 0.0;
   for (std::size_t i = 0; i < line.isFitted.size(); ++i)
   {
-    const double stepDn = found.codes.quantisationStepDn;
+    const double stepDn = found.dnRange.quantisationStepDn;
     hidden += line.isFitted[i] && line.expectedDn2[i] < InCommon.hiddenVariance * stepDn * stepDn
                 ? all.diagonal[i].details
                 : 0.0;
@@ -303,7 +303,7 @@ ReasonAgainst(Report & report, const SingleImageFindings & found, const AllFrame
                 "the noise of " + Percent(hidden / line.details) +
                   " of the even areas is below half the quantization step (expected at most " + Percent(largestHidden) +
                   "). Use more bits, or a higher analogue gain");
-    return "the quantization step hides the noise";
+    return "the quantization step hides the noise. Use more bits, or a higher analogue gain";
   }
   return line.isDetermined && line.details >= InSingle.leastCoefficients ? "" : ReasonOfFewDetails(found);
 }
@@ -332,7 +332,7 @@ MakeSingleImageReport(const SingleImageFindings & found)
 {
   Report          report;
   const AllFrames all = Gather(found.frames);
-  NoiseLine       line = FitAllFrames(found.frames, LimitsOf(found.codes));
+  NoiseLine       line = FitAllFrames(found.frames, LimitsOf(found.dnRange));
   DescribeFrames(report, found, all);
   report.singleImage = MakeRecord(found, all, line);
   FillLevelSets(report, found.frames);

@@ -129,8 +129,8 @@ MakeCheckSentence(const NoiseModelCheck & check, const Report & frames)
   {
     case NoiseModelCheck::Verdict::Fits:
       return "variance " + fitting + ": this model can be used";
-    case NoiseModelCheck::Verdict::NotTold:
-      return "variance " + fitting + ": too few frames or pixels to tell whether this model can be used";
+    case NoiseModelCheck::Verdict::NotDetermined:
+      return "variance " + fitting + ": too few frames or pixels to test whether this model can be used";
     default:
       return fitting.empty() ? "variance " + failing + ": this is not the model of these frames"
                              : "variance " + fitting + ", but " + failing + ": this model does not fit there";

@@ -53,11 +53,6 @@ struct StabilisedMoments
 SensorNoise_EXPORT StabilisedMoments
 MomentsOfStabilised(double electrons, double readNoiseElectrons);
 
-/** Returns the exact unbiased inverse: lambda for a mean D [e-]; 0 if D is not above its value without signal.
- * \a readNoiseElectrons is 0 to 1000 [e-]. */
-SensorNoise_EXPORT double
-ExactUnbiasedInverse(double stabilisedMean, double readNoiseElectrons);
-
 } // namespace sensornoise
 
 #endif

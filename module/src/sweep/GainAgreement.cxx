@@ -3,7 +3,6 @@
 #include "sweep/SweepSummary.h"
 
 #include "base/Text.h"
-#include "sweep/Constants.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,6 @@
 #include "sweep/SweepSummary.h"
 
 #include "base/Eigen.h"
-#include "sweep/Constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +22,7 @@ struct StepSign
   double          below{ 0.0 };
   double          above{ 0.0 };
   NumberWithError ratio;
-  double          chi2{ 0.0 }; ///< by how much the step lowers the chi-square
+  double          chi2{ 0.0 }; ///< reduction of chi-square by the step [1]
 };
 
 /** Read noises squared, and what the model fits to them. */

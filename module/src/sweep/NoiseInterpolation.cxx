@@ -221,7 +221,9 @@ UnmeasuredText(const MeasuredRange & range, double setting)
   const auto found = std::find_if(range.unmeasured.begin(), range.unmeasured.end(), [setting](const auto & each) {
     return std::abs(each.first / setting - 1.0) < sameSetting;
   });
-  return found == range.unmeasured.end() ? "" : " The burst of this setting could not be measured: " + found->second;
+  return found == range.unmeasured.end()
+           ? ""
+           : " The burst of this setting could not be measured: " + WithSigns(found->second);
 }
 
 /** Throws ExportError unless the setting can be interpolated. */
@@ -264,7 +266,7 @@ RequireNeighboursOnLine(const MeasuredRange & range, double setting)
   }
 }
 
-/** Returns " gain 6.004 +- 0.016 DN/e-" of all channels that have the number; "": none has. */
+/** Returns " gain 6.004 ± 0.016 DN/e⁻" of all channels that have the number; "": none has. */
 std::string
 NumbersText(const CameraNoise & noise, ReportedNumber ChannelNoise::* member, const char * name, const char * unit)
 {
@@ -278,7 +280,7 @@ NumbersText(const CameraNoise & noise, ReportedNumber ChannelNoise::* member, co
                  Measured(*number.value, number.standardError.value_or(0.0));
     }
   }
-  return numbers.empty() ? "" : std::string(" ") + name + " " + numbers + " " + unit;
+  return numbers.empty() ? "" : WithSigns(std::string(" ") + name + " " + numbers + " " + unit);
 }
 } // namespace
 
@@ -330,6 +332,7 @@ InterpolateNoise(const MeasuredRange & range, double setting)
   made.noise.blackLevelDn = level(&CameraNoise::blackLevelDn);
   made.noise.whiteLevelDn = level(&CameraNoise::whiteLevelDn);
   made.noise.isoSpeed = range.kind == SettingKind::Iso ? std::optional<double>(setting) : std::nullopt;
+  made.noise.exposureSeconds.reset();
   const bool isAnalogue = made.noise.analogueGain == made.below && range.kind == SettingKind::Gain;
   made.noise.analogueGain = isAnalogue ? setting : made.noise.analogueGain;
   for (std::size_t channel = 0; channel < made.noise.channels.size(); ++channel)

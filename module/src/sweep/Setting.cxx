@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sweep/Setting.h"
 
-#include "base/Quadrature.h"
+#include "base/ChiSquare.h"
 #include "base/Text.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace sensornoise
 
 namespace
 {
-/** Returns the number that digits with a point are; NaN if it is too large for a double. */
+/** Returns the number of a text of digits with a decimal point; NaN if it is too large for a double. */
 double
 NumberOfDigits(const std::string & digits)
 {

@@ -39,7 +39,7 @@ SettingKindOf(const std::string & name);
 SensorNoise_EXPORT std::string
 SettingText(SettingKind kind, double setting);
 
-/** A setting that a name or a table gives. */
+/** Setting from a name or a table. */
 struct NamedSetting
 {
   SettingKind kind{ SettingKind::Iso };
@@ -135,8 +135,8 @@ InterpolateNoise(const MeasuredRange & range, double setting);
 SensorNoise_EXPORT std::string
 SentenceOf(const InterpolatedNoise & noise);
 
-/** Returns the settings that a format of ExportNoise() is made of: the noise at a \a setting, measured or interpolated;
- * without one all measured settings. Adds SentenceOf() to \a note. Throws ExportError as InterpolateNoise(), and if the
+/** Returns the settings for a format of ExportNoise(): the noise at a \a setting, measured or interpolated; without \a
+ * setting all measured settings. Adds SentenceOf() to \a note. Throws ExportError as InterpolateNoise(), and if the
  * format takes one setting, none is given and several were measured. \a passport is the name of the range in this
  * error. */
 SensorNoise_EXPORT std::vector<CameraNoise>

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sweep/SweepSummary.h"
 
+#include "base/Text.h"
 #include "page/PageSections.h"
-#include "page/SvgPanel.h"
+#include "page/Figures.h"
 #include "report/JsonWriter.h"
 #include "sensornoise/Version.h"
 
@@ -128,6 +129,16 @@ WriteJson(JsonWriter & json, const LineDeviation & deviation)
       .Member("leaves_line", deviation.leavesLine);
   });
 }
+
+/** Writes the noise model of all ISO speeds for a program. The model is the text of its file, which is JSON itself. */
+void
+WriteModel(JsonWriter & json, const char * name, const std::optional<NoiseExport> & model, const std::string & reason)
+{
+  json.ObjectMember(name, [&] {
+    json.Member("model", model ? std::optional<std::string>(model->files.front().bytes) : std::nullopt);
+    json.Member("note", model ? model->note : reason);
+  });
+}
 } // namespace
 
 std::string
@@ -142,12 +153,8 @@ ToJson(const SweepSummary & summary)
                       [&] { json.Member("parts", summary.line.parts).Member("deviations", DeviationsOf(summary)); });
     json.Member("conversion_gain_switch", summary.conversionSwitch);
     json.Member("common_gain", summary.commonGains);
-    json.ObjectMember("android", [&] {
-      // the text of the model's file, which is JSON itself
-      json.Member("model",
-                  summary.android ? std::optional<std::string>(summary.android->files.front().bytes) : std::nullopt);
-      json.Member("note", summary.android ? summary.android->note : summary.androidReason);
-    });
+    WriteModel(json, "android", summary.android, summary.androidReason);
+    WriteModel(json, "darktable", summary.darktable, summary.darktableReason);
     json.Member("findings", FindingsOf(summary));
   });
   return text + '\n';
@@ -166,31 +173,42 @@ NameOfAxis(SettingKind kind)
 
 using NumberOfRow = std::optional<NumberWithError> SweepRow::*;
 
-/** Points with bars of 95 % intervals, as decimal logarithms. */
-struct LogPoints
+/** Figure of a number of the rows against the setting, whose axis is logarithmic. */
+struct SweepFigure
 {
-  std::vector<double> x;
-  std::vector<double> y;
+  NumberOfRow  number{ nullptr };
+  const char * name{ "" };            ///< with the unit
+  bool         isLogarithmic{ true }; ///< axis of the number; false: linear
+  bool         hasLines{ false };     ///< whether the lines of the gains are drawn
+};
+
+/** Points with bars of 95 % intervals. */
+struct SweepPoints
+{
+  std::vector<double> x;    // decimal logarithm of the setting
+  std::vector<double> y;    // the number, or its decimal logarithm
   std::vector<double> barX; // ends of the bars, with a gap behind each
   std::vector<double> barY;
   FiniteRange         range;
 };
 
-LogPoints
-PointsOf(const SweepSummary & summary, NumberOfRow number)
+SweepPoints
+PointsOf(const SweepSummary & summary, const SweepFigure & figure)
 {
   constexpr double gap = std::numeric_limits<double>::quiet_NaN();
-  LogPoints        points;
+  const auto       scaled = [&figure](double number) { return figure.isLogarithmic ? std::log10(number) : number; };
+  SweepPoints      points;
   for (const SweepRow & row : summary.rows)
   {
-    if (const auto & known = row.*number)
+    if (const auto & known = row.*figure.number)
     {
       const double x = std::log10(row.setting);
       const double half = 1.96 * known->standardError;
-      const double low = std::log10(std::max(known->value - half, 0.1 * known->value));
-      const double high = std::log10(known->value + half);
+      const double least = known->value - half;
+      const double low = scaled(figure.isLogarithmic ? std::max(least, 0.1 * known->value) : least);
+      const double high = scaled(known->value + half);
       points.x.push_back(x);
-      points.y.push_back(std::log10(known->value));
+      points.y.push_back(scaled(known->value));
       points.barX.insert(points.barX.end(), { x, x, gap });
       points.barY.insert(points.barY.end(), { low, high, gap });
       points.range.Add({ low, high });
@@ -223,28 +241,29 @@ DrawSwitch(SvgPanel & panel, const SweepSummary & summary, const PlotAxis & y)
 }
 
 std::string
-SweepFigure(const SweepSummary & summary, NumberOfRow number, const std::string & name, bool hasLines)
+DrawFigure(const SweepSummary & summary, const SweepFigure & figure)
 {
-  const LogPoints points = PointsOf(summary, number);
+  constexpr int     mostTicks = 6;
+  const SweepPoints points = PointsOf(summary, figure);
   if (points.x.empty())
   {
-    return "<p>No setting has a value.</p>\n";
+    return "<p>" + Escaped(figure.name) + ": no setting has a value.</p>\n";
   }
   FiniteRange settings;
   settings.Add(points.x);
   const PlotAxis x = settings.LogarithmicAxis();
-  const PlotAxis y = points.range.LogarithmicAxis();
+  const PlotAxis y = figure.isLogarithmic ? points.range.LogarithmicAxis() : points.range.Axis(mostTicks);
   const double   left = y.LabelWidth() + 12.0;
-  std::string    svg = OpenSvg(figureHeight, name + " of every setting with its 95 % interval");
+  std::string    svg = OpenSvg(figureHeight, std::string(figure.name) + " of every setting with its 95 % interval");
   {
     SvgPanel panel(svg,
                    { left, 26.0, FigureWidth - left - 12.0, figureHeight - 26.0 - axisBelow },
                    x,
                    y,
                    NameOfAxis(summary.kind),
-                   Escaped(name));
+                   Escaped(figure.name));
     DrawSwitch(panel, summary, y);
-    if (hasLines)
+    if (figure.hasLines)
     {
       DrawGainLines(panel, summary);
     }
@@ -253,8 +272,22 @@ SweepFigure(const SweepSummary & summary, NumberOfRow number, const std::string 
   }
   return FigureElement(svg + "</svg>\n",
                        std::string("Squares: one for each channel, with 95 % intervals") +
-                         (hasLines ? "; line: gain = constant × setting" : "") +
+                         (figure.hasLines ? "; line: gain = constant × setting" : "") +
                          (summary.conversionSwitch ? "; dashed: the switch of the conversion gain" : "") + ".");
+}
+
+/** Returns all figures with their headings. The dynamic range is in decibels, which are logarithms. The offset may be 0
+ * or negative. */
+std::string
+DrawFigures(const SweepSummary & summary)
+{
+  const auto drawn = [&summary](const SweepFigure & figure) { return DrawFigure(summary, figure); };
+  return Heading("h2", "Gain") + drawn({ &SweepRow::gain, "gain [DN/e⁻]", true, true }) + Heading("h2", "Read noise") +
+         drawn({ &SweepRow::readNoiseElectrons, "read noise [e⁻]" }) +
+         drawn({ &SweepRow::readNoiseDn, "read noise [DN]" }) + Heading("h2", "Full well and dynamic range") +
+         drawn({ &SweepRow::fullWellElectrons, "full well [e⁻]" }) +
+         drawn({ &SweepRow::dynamicRangeDb, "dynamic range [dB]", false }) + Heading("h2", "Offset") +
+         drawn({ &SweepRow::offsetDn, "offset [DN]", false });
 }
 
 std::string
@@ -289,7 +322,7 @@ UnmeasuredTable(const SweepSummary & summary)
   {
     rows += "<tr><th scope=\"row\" class=\"label\">" +
             Escaped(each.setting ? SettingText(summary.kind, *each.setting) : each.name) + "</th><td>" +
-            Escaped(each.reason) + "</td></tr>\n";
+            Escaped(WithSigns(each.reason)) + "</td></tr>\n";
   }
   return rows.empty() ? ""
                       : Heading("h2", "Settings that were not measured") + "<table class=\"settings\"><tbody>\n" +
@@ -306,9 +339,7 @@ ToHtml(const SweepSummary & summary)
     findings += "<p>" + Escaped(finding) + "</p>\n";
   }
   return Page("Noise of an image sensor over its settings",
-              "<p>" + Escaped(SweepTitle(summary)) + ".</p>\n" + findings + Heading("h2", "Gain") +
-                SweepFigure(summary, &SweepRow::gain, "gain [DN/e⁻]", true) + Heading("h2", "Read noise") +
-                SweepFigure(summary, &SweepRow::readNoiseElectrons, "read noise [e⁻]", false) +
+              "<p>" + Escaped(SweepTitle(summary)) + ".</p>\n" + findings + DrawFigures(summary) +
                 Heading("h2", "All settings") + TableOf(summary) + UnmeasuredTable(summary) +
                 "<p class=\"soft\">ITKSensorNoise " + Escaped(GetModuleVersion()) + "</p>\n",
               "");

@@ -151,16 +151,18 @@ FindCommonGains(SweepSummary & summary)
   }
 }
 
-void
-FitAndroid(const MeasuredRange & range, SweepSummary & summary)
+/** Returns the noise of all ISO speeds in a format; none, with the \a reason, if it cannot be written. */
+std::optional<NoiseExport>
+ExportOf(const MeasuredRange & range, const char * format, std::string & reason)
 {
   try
   {
-    summary.android = ExportNoise("android", range.noise);
+    return ExportNoise(format, range.noise);
   }
   catch (const ExportError & error)
   {
-    summary.androidReason = error.what();
+    reason = error.what();
+    return std::nullopt;
   }
 }
 } // namespace
@@ -209,7 +211,8 @@ SummariseSweep(const MeasuredRange & range, const std::vector<UnmeasuredSetting>
   summary.line = FitGainLine(summary.settings, summary.conversionSwitch);
   if (range.kind == SettingKind::Iso && range.noise.size() > 1)
   {
-    FitAndroid(range, summary);
+    summary.android = ExportOf(range, "android", summary.androidReason);
+    summary.darktable = ExportOf(range, "darktable", summary.darktableReason);
   }
   return summary;
 }

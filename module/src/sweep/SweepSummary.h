@@ -4,6 +4,7 @@
 #define sensornoise_sweep_SweepSummary_h
 
 #include "SensorNoiseExport.h"
+#include "base/Constants.h"
 #include "sweep/Setting.h"
 
 #include <array>
@@ -13,12 +14,38 @@
 #include <string>
 #include <vector>
 
-/** \file
- * The gains of the settings of a sweep: the level that most of them share, their lines with the switch of the
+/** \file The gains of the settings of a sweep: the common level of most of them, their lines with the switch of the
  * conversion gain, and the common gain of exposures. With them, the summary of the sweep. */
 
 namespace sensornoise
 {
+
+/** Chosen numbers of the component `sweep`. */
+struct SweepConstants
+{
+  /** Standard error that is added to each ln(gain / setting) [1]: the steps of the amplifier, and nominal ISO speeds,
+   * which deviate from third-stops by up to 1.6 % (1250 is 1270). */
+  double gainRounding{ 0.01 };
+  /** Standard error that is added to each read noise, relative to it [1]: what the model of two amplifier stages leaves
+   * out. Chosen empirically. */
+  double readNoiseModelError{ 0.02 };
+  /** Smallest relative deviation of a gain from the line, and smallest step of gain / setting, that counts [1]: three
+   * times the largest rounding of a nominal ISO speed. */
+  double leastGainDeviation{ 0.05 };
+  /** Smallest relative deviation of a gain from the gains at other exposures that counts [1]. The exposure changes no
+   * amplifier; 1 % is the accuracy that is asked of a gain. */
+  double leastCommonGainDeviation{ 0.01 };
+  /** Smallest drop of the read noise in electrons, relative to it, that is a switch of the conversion gain [1]. A
+   * switch changes the conversion gain by a factor of 1.5 or more, and the read noise by much more than a tenth.
+   */
+  double leastReadNoiseDrop{ 0.1 };
+  /** Settings that are needed on each side of a switch. A single setting that deviates is no switch. */
+  std::size_t leastSettingsOfSide{ 2 };
+  /** Settings with a read noise that its model of three parameters needs: two more. */
+  std::size_t leastReadNoises{ 5 };
+};
+
+SENSORNOISE_CONSTANT SweepConstants InSweep;
 
 /** ln(gain / setting) of one setting. */
 struct GainRatio
@@ -51,7 +78,8 @@ IsOnLevel(const GainRatio & ratio, const GainLevel & level);
 GainLevel
 FindGainLevel(const std::vector<GainRatio> & ratios, std::size_t first, std::size_t last);
 
-/** Place at which a camera switches its conversion gain, and what changes there. One of the two steps is there. */
+/** Setting at which a camera switches its conversion gain, with the steps of gain and read noise. At least one of the
+ * two steps is known. */
 struct GainSwitch
 {
   double below{ 0.0 }; ///< highest setting before the switch
@@ -102,7 +130,7 @@ struct GainLine
 SensorNoise_EXPORT GainLine
 FitGainLine(const std::vector<SettingNoise> & settings, const std::optional<GainSwitch> & conversionSwitch);
 
-/** The gain that settings share which differ in the exposure time alone, and whether they share it. */
+/** Common gain of settings that differ only in the exposure time, and whether they have a common gain. */
 struct CommonGain
 {
   std::string     channel{ "mono" };
@@ -110,8 +138,8 @@ struct CommonGain
   std::size_t     settings{ 0 };      ///< settings with a gain and its error
   double          reducedChi2{ 0.0 }; ///< scatter of the gains over their errors, squared [1]
   bool            isSame{ true };     ///< whether no setting differs from the others
-  double          setting{ 0.0 }; ///< setting that deviates most in standard errors, of those that differ if any does
-  NumberWithError deviation;      ///< its gain over the weighted mean of the others, less 1 [1]
+  double          setting{ 0.0 };     ///< setting that deviates most in standard errors, if possible one that differs
+  NumberWithError deviation;          ///< its gain over the weighted mean of the others, less 1 [1]
 };
 
 /** Tests whether the gains of settings are equal, and pools them as their mean, weighted by 1 / error squared.
@@ -159,17 +187,20 @@ struct SweepSummary
   GainLine                       line;        ///< without parts if the settings are exposures
   std::vector<CommonGain>        commonGains; ///< common gain of each channel; empty unless the settings are exposures
   std::optional<NoiseExport>     android;     ///< ExportAndroid(); none: androidReason says why
-  std::string                    androidReason; ///< "" for gains, and for fewer than two ISO speeds
+  std::string                    androidReason;   ///< "" for gains, and for fewer than two ISO speeds
+  std::optional<NoiseExport>     darktable;       ///< ExportDarktable(); none: darktableReason says why
+  std::string                    darktableReason; ///< "" for gains, and for fewer than two ISO speeds
 };
 
-/** Returns gain and read noise of each setting. Of a mosaic they are the geometric means over the same channels at
+/** Returns gain and read noise of each setting. For a mosaic they are the geometric means over the same channels at
  * every setting: over the channel that has the number at the most settings, and the others that have it there. Channels
  * have different gains where the camera scales them, by the same factors at every setting. */
 SensorNoise_EXPORT std::vector<SettingNoise>
 MeanOverChannels(const MeasuredRange & range);
 
 /** Returns the numbers, the line and the switch of the measured settings, and of two ISO speeds or more the fit of
- * Android's noise model. Exposures have no line and no switch: their gains are tested for equality, and pooled. */
+ * Android's noise model and darktable's presets. Exposures have no line and no switch: their gains are tested for
+ * equality, and pooled. */
 SensorNoise_EXPORT SweepSummary
 SummariseSweep(const MeasuredRange & range, const std::vector<UnmeasuredSetting> & unmeasured = {});
 
@@ -182,18 +213,19 @@ SensorNoise_EXPORT std::string
 MakeText(const SweepSummary & summary);
 
 /** Returns what was found as JSON, the members of a passport beside its reports: `camera`, `gain_line`,
- * `conversion_gain_switch`, `common_gain`, `android` and `findings`; and `channels`, a list for each measured setting
- * with the numbers of its channels. The `model` of `android` is a text, the JSON of its file. */
+ * `conversion_gain_switch`, `common_gain`, `android`, `darktable` and `findings`; and `channels`, a list for each
+ * measured setting with the numbers of its channels. The `model` of `android` and `darktable` is a text, the JSON of
+ * its file. */
 SensorNoise_EXPORT std::string
 ToJson(const SweepSummary & summary);
 
 /** Returns sentences about the line of the gains, the settings that leave it, the switch of the conversion gain, the
- * common gain of exposures, and Android's noise model. */
+ * common gain of exposures, Android's noise model, and darktable's presets. */
 SensorNoise_EXPORT std::vector<std::string>
 FindingsOf(const SweepSummary & summary);
 
-/** Returns the sweep as one HTML page, without network access and scripts: the findings, gain and read noise against
- * the setting on logarithmic axes, and the table. */
+/** Returns the sweep as one HTML page, without network access and scripts: the findings, the table, and each
+ * of its numbers against the setting. The axes are logarithmic, but for the dynamic range in dB and the offset. */
 SensorNoise_EXPORT std::string
 ToHtml(const SweepSummary & summary);
 

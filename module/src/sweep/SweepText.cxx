@@ -3,7 +3,6 @@
 #include "sweep/SweepSummary.h"
 
 #include "base/Text.h"
-#include "sweep/Constants.h"
 
 #include <algorithm>
 #include <array>
@@ -96,6 +95,20 @@ LineSentences(const SweepSummary & summary)
                      "the " +
                        std::to_string(gains) + " settings on it. Check the settings of the bursts.";
 }
+
+/** Returns why a \a format was not written. Missing levels are given with the command \a make. */
+std::string
+ReasonText(const std::string & reason, const std::string & make, const std::string & format)
+{
+  const std::size_t command = reason.find(" Give the "); // command for export-noise-model, not for a sweep
+  return reason.substr(0, command) + (command == std::string::npos
+                                        ? ""
+                                        : " " + make +
+                                            " from the passport with the levels of the camera in DN: "
+                                            "export-noise-model passport.json --format " +
+                                            format + " --black BLACK --white WHITE");
+}
+
 /** Returns a sentence that says whether the gains of a channel are equal at all exposures, with their mean. */
 std::string
 CommonGainSentence(const CommonGain & common)
@@ -188,13 +201,19 @@ FindingsOf(const SweepSummary & summary)
   }
   else if (!summary.androidReason.empty())
   {
-    const std::size_t command = summary.androidReason.find(" Give the "); // of export-noise-model, not of a sweep
-    findings.push_back("Android's noise model is not fitted: " + summary.androidReason.substr(0, command));
-    if (command != std::string::npos)
-    {
-      findings.back() += " Fit it from the passport with the levels of the camera in DN: export-noise-model "
-                         "passport.json --format android --black BLACK --white WHITE";
-    }
+    findings.push_back("Android's noise model is not fitted: " +
+                       ReasonText(summary.androidReason, "Fit it", "android"));
+  }
+  if (summary.darktable)
+  {
+    findings.push_back("darktable's presets are in the passport: export-noise-model passport.json --format darktable "
+                       "--output FILE. " +
+                       summary.darktable->note);
+  }
+  else if (!summary.darktableReason.empty() && summary.darktableReason != summary.androidReason)
+  {
+    findings.push_back("darktable's presets are not made: " +
+                       ReasonText(summary.darktableReason, "Make them", "darktable"));
   }
   for (std::string & finding : findings)
   {
@@ -228,7 +247,7 @@ MakeText(const SweepSummary & summary)
   {
     text += "not measured: " +
             (each.setting ? SettingText(summary.kind, *each.setting) + " (" + each.name + ")" : each.name) + ": " +
-            each.reason + '\n';
+            WithSigns(each.reason) + '\n';
   }
   for (const std::string & finding : FindingsOf(summary))
   {

@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "refined/RefinedResults.h"
+
+#include "base/ChiSquare.h"
+#include "base/Constants.h"
+#include "base/Eigen.h"
+#include "base/Quantiles.h"
+#include "correlation/CorrelationSums.h"
+#include "moments/DarkFrames.h"
+#include "refined/Constants.h"
+#include "scene/ReferenceFrame.h"
+#include "sensornoise/FrameGeometry.h"
+#include "sensornoise/Report.h"
+#include "sensornoise/Settings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+constexpr std::size_t TileSide = 16; ///< [pixels]; glow and vignetting hardly change within a tile
+constexpr std::size_t MostBlocks = 32;
+constexpr std::size_t FewestBlocks = 4;
+constexpr double      FewestPixels = 16.0; ///< in a tile
+
+/** Sums over tiles of the centred signal x, bright minus dark mean, and of the centred dark mean y. */
+struct SignalSums
+{
+  double square{ 0.0 };  ///< sum of x^2 without noise [DN^2]
+  double product{ 0.0 }; ///< sum of x y without noise [DN^2]
+
+  SignalSums &
+  operator+=(const SignalSums & other)
+  {
+    square += other.square;
+    product += other.product;
+    return *this;
+  }
+  /** Returns the fraction b of the signal in the dark frames [1], from the regression of y on x, b / (1 - b). */
+  double
+  Fraction() const
+  {
+    return square + product != 0.0 ? product / (square + product) : 0.0;
+  }
+};
+
+/** Returns the sums of the tile at \a left, \a top; empty sums where the contrast of the scene is below
+ * InRefined.leastContrastOfTile. */
+SignalSums
+SumTile(const DarkMaps &                  dark,
+        const ReferenceFrame &            bright,
+        const std::vector<std::uint8_t> & pixelUse,
+        std::size_t                       left,
+        std::size_t                       top)
+{
+  const auto frames = static_cast<double>(bright.frames);
+  const auto darkFrames = static_cast<double>(dark.frames);
+  double     pixels = 0.0, x = 0.0, y = 0.0, noise = 0.0, shared = 0.0;
+  SignalSums sums;
+  for (std::size_t row = top; row < std::min(top + TileSide, bright.geometry.height); ++row)
+  {
+    for (std::size_t column = left; column < std::min(left + TileSide, bright.geometry.width); ++column)
+    {
+      const std::size_t p = row * bright.geometry.width + column;
+      if (dark.usable[p] == 0 || pixelUse[p] != static_cast<std::uint8_t>(PixelUse::Used))
+      {
+        continue;
+      }
+      const double signal = bright.mean[p] - dark.offsetDn[p];
+      pixels += 1.0;
+      x += signal;
+      y += dark.offsetDn[p];
+      sums.square += signal * signal;
+      sums.product += signal * dark.offsetDn[p];
+      shared += dark.varianceDn2[p] / darkFrames;
+      noise += bright.variance[p] / frames;
+    }
+  }
+  if (pixels < FewestPixels)
+  {
+    return {};
+  }
+  const double fewer = 1.0 - 1.0 / pixels;
+  sums.square -= x * x / pixels + fewer * (noise + shared);
+  sums.product -= x * y / pixels - fewer * shared;
+  const double contrast = InRefined.leastContrastOfTile * x / pixels;
+  return sums.square > contrast * contrast * pixels ? sums : SignalSums();
+}
+} // namespace
+
+std::optional<MeasuredNumber>
+FindDarkSignal(const std::optional<KnownOffset> & offset,
+               const ReferenceFrame &             bright,
+               const std::vector<std::uint8_t> &  pixelUse,
+               const ParallelFor &                parallelFor)
+{
+  if (!offset || !offset->maps || offset->maps->usable.size() != pixelUse.size())
+  {
+    return std::nullopt;
+  }
+  const std::size_t       rows = (bright.geometry.height + TileSide - 1) / TileSide;
+  std::vector<SignalSums> blocks(std::min(rows, MostBlocks));
+  const std::size_t       count = blocks.size();
+  parallelFor(count, [&](std::size_t block) {
+    for (std::size_t row = block * rows / count; row < (block + 1) * rows / count; ++row)
+    {
+      for (std::size_t left = 0; left < bright.geometry.width; left += TileSide)
+      {
+        blocks[block] += SumTile(*offset->maps, bright, pixelUse, left, row * TileSide);
+      }
+    }
+  });
+  const auto isEmpty = [](const SignalSums & sum) { return !(sum.square > 0.0); };
+  blocks.erase(std::remove_if(blocks.begin(), blocks.end(), isEmpty), blocks.end());
+  if (blocks.size() < FewestBlocks)
+  {
+    return std::nullopt;
+  }
+  const JackknifeEstimate estimate =
+    Jackknife(blocks, [](const SignalSums & sums) { return Eigen::VectorXd::Constant(1, sums.Fraction()); });
+  const MeasuredNumber fraction{ estimate.value(0), estimate.StandardError(0) };
+  const bool           counts =
+    fraction.value > InRefined.leastSignalOfDark && fraction.value > Significance.severalTests * fraction.standardError;
+  return counts ? std::optional<MeasuredNumber>(fraction) : std::nullopt;
+}
+
+namespace
+{
+/** Mean offset [DN] and mean variance [DN^2] of the usable pixels of a tile of the dark frames. */
+struct DarkTile
+{
+  double pixels;
+  double offsetDn;
+  double varianceDn2;
+};
+
+/** Returns the tiles of a row of tiles that have FewestPixels usable pixels. */
+std::vector<DarkTile>
+TilesOfRow(const DarkMaps & dark, const FrameGeometry & geometry, std::size_t row)
+{
+  std::vector<DarkTile> tiles;
+  for (std::size_t left = 0; left < geometry.width; left += TileSide)
+  {
+    DarkTile tile{ 0.0, 0.0, 0.0 };
+    for (std::size_t y = row * TileSide; y < std::min((row + 1) * TileSide, geometry.height); ++y)
+    {
+      for (std::size_t x = left; x < std::min(left + TileSide, geometry.width); ++x)
+      {
+        const std::size_t p = y * geometry.width + x;
+        if (dark.usable[p] != 0)
+        {
+          tile.pixels += 1.0;
+          tile.offsetDn += dark.offsetDn[p];
+          tile.varianceDn2 += dark.varianceDn2[p];
+        }
+      }
+    }
+    if (tile.pixels >= FewestPixels)
+    {
+      tiles.push_back({ tile.pixels, tile.offsetDn / tile.pixels, tile.varianceDn2 / tile.pixels });
+    }
+  }
+  return tiles;
+}
+
+/** Sums of a weighted regression of the variances of tiles on their offsets. */
+struct ChargeSums
+{
+  double w{ 0.0 }, x{ 0.0 }, y{ 0.0 }, xx{ 0.0 }, xy{ 0.0 };
+
+  ChargeSums &
+  operator+=(const ChargeSums & other)
+  {
+    w += other.w;
+    x += other.x;
+    y += other.y;
+    xx += other.xx;
+    xy += other.xy;
+    return *this;
+  }
+  double
+  Slope() const
+  {
+    const double spread = xx - x * x / w;
+    return spread > 0.0 ? (xy - x * y / w) / spread : 0.0;
+  }
+};
+} // namespace
+
+std::optional<DarkCharge>
+FindDarkCharge(const std::optional<KnownOffset> & offset,
+               const FrameGeometry &              geometry,
+               const ParallelFor &                parallelFor)
+{
+  if (!offset || !offset->maps || !offset->variance || offset->maps->usable.size() != geometry.Pixels())
+  {
+    return std::nullopt;
+  }
+  const DarkMaps &                   dark = *offset->maps;
+  std::vector<std::vector<DarkTile>> rows((geometry.height + TileSide - 1) / TileSide);
+  parallelFor(rows.size(), [&](std::size_t row) { rows[row] = TilesOfRow(dark, geometry, row); });
+  std::vector<ChargeSums> blocks(std::min(rows.size(), MostBlocks));
+  std::vector<double>     levels;
+  for (std::size_t row = 0; row < rows.size(); ++row)
+  {
+    for (const DarkTile & tile : rows[row])
+    {
+      const double x = tile.offsetDn - offset->valueDn;
+      const double y = tile.varianceDn2 - offset->variance->valueDn2;
+      const double w = tile.pixels;
+      blocks[row * blocks.size() / rows.size()] += { w, w * x, w * y, w * x * x, w * x * y };
+      levels.push_back(tile.offsetDn);
+    }
+  }
+  blocks.erase(std::remove_if(blocks.begin(), blocks.end(), [](const ChargeSums & sums) { return !(sums.w > 0.0); }),
+               blocks.end());
+  if (blocks.size() < FewestBlocks)
+  {
+    return std::nullopt;
+  }
+  const JackknifeEstimate slope =
+    Jackknife(blocks, [](const ChargeSums & sums) { return Eigen::VectorXd::Constant(1, sums.Slope()); });
+  const double noiseDn = std::sqrt(offset->variance->valueDn2 / static_cast<double>(dark.frames)) / TileSide;
+  const double spreadDn = offset->valueDn - Quantile(levels, InRefined.darkestTiles) - Significance.hint * noiseDn;
+  return DarkCharge{ { slope.value(0), slope.StandardError(0) }, std::max(0.0, spreadDn) };
+}
+
+double
+DarkCharge::VarianceDn2(double gain) const
+{
+  const bool isOtherCause = slope.value - Significance.hint * slope.standardError > InRefined.mostSlopeOfCharge * gain;
+  const double beyond = SizeBeyondChance(slope.value, slope.standardError * slope.standardError, Significance.hint);
+  return slope.value > 0.0 && !isOtherCause ? beyond * spreadDn : 0.0;
+}
+
+} // namespace sensornoise
