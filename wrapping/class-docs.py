@@ -6,8 +6,8 @@
     class-docs.py _class_docs.py HEADER...
 
 The first file is written: a module with the dictionary CLASS_DOCS, name of a class -> (its text, name of a method ->
-its text). What is read: the comment that begins with "\\class", and those before public methods and ITK's macros; a
-comment holds for all of these up to the next blank line.
+its text). The script reads the comment that begins with "\\class", and the comments before public methods and ITK's
+macros. A comment holds for all methods up to the next blank line.
 """
 
 import re
@@ -60,7 +60,7 @@ def _methods(body: str) -> dict[str, str]:
     """Returns the texts of the methods in the code behind the comment of a class."""
     found: dict[str, list[str]] = {}
     for comment in _COMMENT.finditer(body):
-        # What the comment is about ends at a blank line or the next comment; bodies may hold blank lines and calls.
+        # The code that a comment describes ends at a blank line or the next comment. Bodies may hold blank lines.
         rest = _BODY.sub("", body[comment.end() :])
         block = re.split(r"\n[ \t]*\n|/\*\*", rest.lstrip("\n"), maxsplit=1)[0]
         names = [

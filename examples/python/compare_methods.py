@@ -40,7 +40,7 @@ GROUPS = {
         "Table 3 are missing: they are not readable in the available text of the paper.",
     ),
     "mosaic": (
-        "Mosaics like those of Table 5, red channel",
+        "Mosaics like the mosaics of Table 5, red channel",
         "The truth is the gain, offset and read noise that the paper measured by photon transfer. The light is a neon "
         "lamp, which a rolling shutter shows as bands from ISO 800 on. EMVA 1288 has flats under steady light instead.",
     ),
@@ -128,7 +128,7 @@ def rms_cell(measured, method, group, scene):
     ]
     found = [100 * error for error in errors if error is not None]
     rms = math.sqrt(fmean(error**2 for error in found)) if found else None
-    text = NONE if rms is None else f"{rms:.0f}" if rms >= 100 else f"{rms:.2g}"
+    text = NONE if rms is None else f"{rms:.0f}" if rms >= 100 else f"{rms:#.2g}".rstrip(".")
     return f"{text} ({len(found)} of {len(errors)})" if errors else NONE
 
 

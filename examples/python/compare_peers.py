@@ -3,8 +3,8 @@
 """Runs programs of other authors on the frames of compare_methods.py, each in an environment of its own.
 
 An environment is made by venv and pip in a folder that stays, so that a second run needs no network. A program that
-cannot be installed has a row that says why. The processor time of a program is that of reading the frames and of the
-estimate, without the start of Python.
+cannot be installed has a row that says why. The processor time of a program is the time for reading the frames and for
+the estimate, without the start of Python.
 """
 
 import json

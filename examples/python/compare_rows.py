@@ -12,7 +12,7 @@ from compare_frames import read_npy, write_npy
 
 QUANTITIES = ("gain", "offset", "read_noise", "intercept")
 EXIT_NOTHING = 3  # exit code of the tool: nothing could be estimated
-FLICKERING_BURST = "burst, flickering light"
+FLICKERING_BURST = "burst, flickering illumination"
 BURST = "burst"
 FRAME = "one frame"
 FLATS = "pairs of flats and darks"

@@ -143,8 +143,8 @@ def real_settings(folder):
         Camera(0.2591, 587.74, 15.53),
         bits=16,
         source=folder / "emccd_50x30x180.npy",
-        note="Electron-multiplying camera at gain 1, six flat levels under steady light. The truth is what its owners "
-        "published: the gain, and offset and read noise of dark frames.",
+        note="Electron-multiplying camera at gain 1, six flat levels under steady illumination. The truth is what its "
+        "owners published: the gain, and offset and read noise of dark frames.",
     )
     yield Setting(
         "real",
@@ -152,7 +152,8 @@ def real_settings(folder):
         None,
         bits=8,
         source=folder / "saz_75x40x640_u8.npy",
-        note="High-speed camera, upper 8 of 12 bits, flickering light, vibrating edges. The true gain is not known.",
+        note="High-speed camera, upper 8 of 12 bits, flickering illumination, vibrating edges. The true gain is not "
+        "known.",
     )
 
 

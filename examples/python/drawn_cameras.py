@@ -79,8 +79,8 @@ SCENES = (beads, chart, shading, photograph, cells, page)
 
 
 def draw(random):
-    """Returns a camera with its scene. Numbers of electrons, gains and noises are those of cameras for 12 to 16 bits,
-    from few photons to a full well."""
+    """Returns a camera with its scene. Numbers of electrons, gains and noises are as in cameras for 12 to 16 bits, from
+    few photons to a full well."""
     gain = logarithmic(random, 0.08, 5.0)
     brightest = min(random.choice([400.0, 1500.0, 6000.0, 12000.0]), LARGEST_SIGNAL_DN / gain)
     return Camera(

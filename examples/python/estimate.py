@@ -23,7 +23,7 @@ def parse_arguments() -> argparse.Namespace:
     """Returns the options of the command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("frames", nargs="*", metavar="FRAME", help="image files or one stack file; default: simulated")
-    parser.add_argument("--bit-depth", type=int, metavar="N", help="bits of the sensor's codes (default: found)")
+    parser.add_argument("--bit-depth", type=int, metavar="N", help="bits of the digital numbers (default: found)")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the report as JSON")
     parser.add_argument(
         "--plot",
@@ -47,7 +47,7 @@ def print_truth(report: Mapping[str, Any], truth: Mapping[str, Any]) -> None:
         value = report[name]["value"]
         estimate = f"{value:.5g}" if value is not None else report[name]["status"]
         error = report[name]["standard_error"]
-        text = "" if error is None else f"+- {error:.2g}"
+        text = "" if error is None else f"± {error:.2g}"
         print(f"{name:<18}{true:>10.5g}{estimate:>12}  {text:<11}  {report[name]['unit']}")
 
 

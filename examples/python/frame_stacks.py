@@ -49,13 +49,13 @@ def write_stack(name, frames):
     )
 
 
-def write_dng(name, codes, black, white, cfa=(0, 1, 1, 2), model=b"Model", neutral=None, exif=()):
+def write_dng(name, grey_values, black, white, cfa=(0, 1, 1, 2), model=b"Model", neutral=None, exif=()):
     """Writes a mosaic as an uncompressed DNG file of 16 bits.
 
     black, white: levels [DN]. cfa: colours of the pixels of 2 x 2 (0 red, 1 green, 2 blue). neutral: numerators and
     denominators of AsShotNeutral. exif: tags of the directory EXIF, each with type and numbers.
     """
-    height, width = codes.shape
+    height, width = grey_values.shape
     tags = {
         254: (LONG, [0]),
         256: (LONG, [width]),
@@ -69,7 +69,7 @@ def write_dng(name, codes, black, white, cfa=(0, 1, 1, 2), model=b"Model", neutr
         274: (SHORT, [1]),
         277: (SHORT, [1]),
         278: (LONG, [height]),
-        279: (LONG, [2 * codes.size]),
+        279: (LONG, [2 * grey_values.size]),
         33421: (SHORT, [2, 2]),
         33422: (BYTE, list(cfa)),
         50706: (BYTE, [1, 4, 0, 0]),
@@ -81,7 +81,7 @@ def write_dng(name, codes, black, white, cfa=(0, 1, 1, 2), model=b"Model", neutr
     }
     if neutral is not None:
         tags[50728] = (RATIONAL, neutral)
-    start = 8 + 2 * codes.size
+    start = 8 + 2 * grey_values.size
     after = b""
     if exif:
         tags[EXIF] = (LONG, [0])
@@ -89,7 +89,7 @@ def write_dng(name, codes, black, white, cfa=(0, 1, 1, 2), model=b"Model", neutr
         tags[EXIF] = (LONG, [end])
         after = _directory({tag: (kind, values) for tag, kind, values in exif}, end)
     head = b"II*\0" + struct.pack("<I", start)
-    Path(name).write_bytes(head + codes.astype("<u2").tobytes() + _directory(tags, start) + after)
+    Path(name).write_bytes(head + grey_values.astype("<u2").tobytes() + _directory(tags, start) + after)
 
 
 def _directory(tags, start):

@@ -135,7 +135,7 @@ def evaluate(quantity, cameras, table, sessions, rate):
 
 
 def print_row(quantity, row):
-    scatter = f"{math.sqrt(row['squares'] / row['freedom']):.3f} +- {1 / math.sqrt(2 * row['freedom']):.3f}"
+    scatter = f"{math.sqrt(row['squares'] / row['freedom']):.3f} ± {1 / math.sqrt(2 * row['freedom']):.3f}"
     steps = f"{row.get('steps', 0):>7}{row.get('expected', 0):>10.1f}{row.get('found', 0):>7}{row.get('exact', 0):>7}"
     print(f"{quantity:<11}{row['error']:>9.3%}{scatter:>17}{steps}{row.get('false', 0):>7}{row['allowed']:>9.2f}")
 

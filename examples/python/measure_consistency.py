@@ -64,9 +64,9 @@ def main():
         found = [report_of(options.program, options.frames, *part).get("gain", {}) for part in parts]
         gains = [(gain["value"], gain["standard_error"]) for gain in found if gain.get("status") == "identified"]
         chi2 = chi_square(gains)
-        listed = ", ".join(f"{gain:.4g} +- {error:.2g}" for gain, error in gains) or "none"
+        listed = ", ".join(f"{gain:.4g} ± {error:.2g}" for gain, error in gains) or "none"
         text = "" if chi2 is None else f"; chi-square {chi2:.2f} per degree of freedom"
-        print(f"{name}: {len(gains)} of {len(parts)} identified: {listed} DN/e-{text}")
+        print(f"{name}: {len(gains)} of {len(parts)} identified: {listed} DN/e⁻{text}")
 
 
 if __name__ == "__main__":

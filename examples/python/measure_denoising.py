@@ -111,7 +111,7 @@ def main() -> None:
             signal = (truth - record["offset"]) / record["gain"]
             for name, image in zip(HEAD, images, strict=True):
                 rows.append((f"{camera:<8}{scene:<9}{name}", biases(image, truth, signal), record["gain"]))
-    print("\nmean error per band of the light [e-]\n" + " " * 33, end="")
+    print("\nmean error per band of the signal [e-]\n" + " " * 33, end="")
     print("".join(f"{low}-{high}".rjust(11) for low, high in pairwise(EDGES)))
     for name, errors, gain in rows:
         cells = [f"{error / gain:+.2f}" if error is not None else "" for error in errors]

@@ -33,8 +33,8 @@ TARGETS = {
     "PRNU": (("spatial", "prnu"), 0.05),
     "DSNU": (("spatial", "dsnu"), 0.05),
 }
-# What the highpass filter of the standard leaves of the standard deviation of a white pattern [1]. The intervals are
-# compared with this pattern. The errors of PRNU and DSNU include the whole pattern.
+# Fraction of the standard deviation of a white pattern that the highpass filter of the standard leaves [1]. The
+# intervals are compared with this pattern. The errors of PRNU and DSNU include the whole pattern.
 OF_HIGHPASS = {"PRNU": 0.9942, "DSNU": 0.9942}
 LINEARITY = 0.1  # largest rms of the linearity error of a linear camera [%]
 

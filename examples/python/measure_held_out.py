@@ -17,8 +17,8 @@ Two deviations are printed for each band of the signal:
 The standard error of the variance has two parts. The first is from the held-out frames. The second is from the report:
 the covariance of slope and intercept gives the error of the variance at the level of the band. It is 0 for the
 published method, which reports no errors. The standard error of the mean is from the held-out frames, as the mean
-hardly depends on the model. * marks a deviation that is too large. ~ marks a deviation that is allowed only because of
-the errors of the report.
+hardly depends on the model. A deviation with * is too large. A deviation with ~ is allowed only because of the errors
+of the report.
 """
 
 import argparse
@@ -196,11 +196,11 @@ def main() -> None:
                     known = [cell for cell in cells[quantity] or [] if cell]
                     found = sum(map(holds, known)), sum(holds(cell, False) for cell in known), len(known)
                     counts[quantity, method, scene] = np.add(counts[quantity, method, scene], found)
-    print_table("variance of the transformed frames less the law's, per band of the light [e-]", tables["variance"])
+    print_table("variance of the transformed frames less the law's, per band of the signal [e-]", tables["variance"])
     own = [(name, cells) for name, cells in tables["variance"] if name.endswith("refined")]
     print_table("the report's own standard error of that variance", own, own_text_of)
     for inverse in ("exact-unbiased", "algebraic"):
-        print_table(f"mean over the frames, led back by the {inverse} inverse, less the light [e-]", tables[inverse])
+        print_table(f"mean over the frames, led back by the {inverse} inverse, less the signal [e-]", tables[inverse])
     print(f"\n{'bands':<35}{'hold':>6}{'without the own error':>23}{'of':>6}")
     for (quantity, method, scene), (good, without_own, all_bands) in counts.items():
         print(f"{quantity:<16}{method:<10}{scene:<9}{good:6}{without_own:23}{all_bands:6}")

@@ -9,8 +9,8 @@ Parts:
                a pass that reads the stack sample by sample. SensorNoiseBenchmark measures this part and the next three
     threads    two threads against one
     files      100 TIFFs against the same frames in memory
-    frames     the cost as a fixed part (in frames) and a part per sample, from 50 to 400 frames; --large-frames: number
-               of frames of 4096 x 3072 pixels, 25 MB each, the most there are; 0: none
+    frames     the cost as a fixed part (in frames) and a part per sample, from 50 to 400 frames. The
+               largest number of frames of 4096 x 3072 pixels, 25 MB each, is --large-frames; 0: none
     programs   programs of other authors on the same frames (speed_programs.py)
 
 Programs that are compared run in turn. Each number is the median of the runs, followed by the lowest and the highest.

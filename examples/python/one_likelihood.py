@@ -8,10 +8,11 @@ distribution about
     v_p + h,   v_p = b + a x_p + delta d_p + c_xx (D_x m)^2 + 2 c_xy D_x m D_y m + c_yy (D_y m)^2 + c_q q_p^2
 
 with the level x, the deviation d of the level from its expectation by the neighbours (fixed-pattern noise), the
-gradient of the mean (motion), and the signal q (illumination that is left). h, 0 or larger, is the excess variance of
-the pixel: its own read noise, a defect, or an object that moves. The distribution of h over a grid is estimated (Laird
-1978), separately for static tiles and for others. No pixel is rejected, and no tail is trimmed. delta and the c are 0
-unless they are significant. delta is -a where the levels differ by offsets, and a where they differ by gains.
+gradient of the mean (motion), and the signal q (illumination that is left). The excess variance of the pixel is h, 0 or
+larger: its own read noise, a defect, or an object that moves. The distribution of h over a grid is estimated (Laird
+1978), separately for static tiles and for others. No pixel is rejected, and no tail is trimmed. Both delta and the c
+are 0 unless they are significant. The value of delta is -a where the levels differ by offsets, and a where they differ
+by gains.
 """
 
 from typing import NamedTuple

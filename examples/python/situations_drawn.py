@@ -55,7 +55,7 @@ def gain_changes(random, camera):
 
 
 def unlit(random, camera):
-    """Returns a burst in which 10 to 75 % of the frames have no light, or 2 %."""
+    """Returns a burst in which 10 to 75 % of the frames have no illumination, or 2 %."""
     factors = factors_of(random, camera)
     dark = random.permutation(camera.frames)[: int(camera.frames * random.choice([0.1, 0.25, 0.5, 0.75]))]
     factors[dark] = random.choice([0.0, 0.02])
@@ -99,7 +99,7 @@ def averaged_in_time(random, camera):
 
 
 def waves(random, camera):
-    """Returns a burst under light whose waves of 0.5 to 6 % cross the frame."""
+    """Returns a burst under illumination whose waves of 0.5 to 6 % cross the frame."""
     depth = random.choice([0.005, 0.02, 0.06])
     along_x, along_y, per_frame = random.uniform((0.005, 0.005, 0.3), (0.1, 0.1, 3.0))
     phase = along_x * X + along_y * Y + per_frame * np.arange(camera.frames)[:, None, None]

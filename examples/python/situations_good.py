@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Makes bursts of good cameras that are easily rejected: pulsed light, interlaced read-out, interference, haze."""
+"""Makes bursts of good cameras that are easily rejected: pulsed illumination, interlacing, interference, haze."""
 
 import numpy as np
 from acceptance_lines import MAY_REFUSE, MEASURED

@@ -78,7 +78,7 @@ def skipped(random, electrons, fraction):
 
 def bleached(random, electrons, fraction):
     """Returns a burst under a spot of excitation light, which bleaches its middle by this fraction. The rate follows
-    the light, so that bright areas lose more than dark ones."""
+    the illumination, so that bright areas lose more than dark ones."""
     y, x = np.indices(SHAPE)
     spot = np.exp(-3 * ((y / SHAPE[0] - 0.5) ** 2 + (x / SHAPE[1] - 0.5) ** 2))
     time = np.linspace(0, 1, FRAMES)[:, None, None]
@@ -113,7 +113,21 @@ def settling(random, electrons, widening):
     return changing(random, np.array([f * smooth(electrons, r) for f, r in zip(factors, radii, strict=True)]))
 
 
+def swaying(random, electrons, shift):
+    """Returns a burst under a steady light source, whose right half sways by this shift along both axes (rms) [pixels],
+    as near objects do in front of a camera that sways."""
+    y, x = (np.fft.fftfreq(size) for size in SHAPE)
+    transform = np.fft.fft2(electrons)
+    right = smooth((np.indices(SHAPE)[1] > SHAPE[1] / 2).astype(float), 2.0)
+    expected = []
+    for dy, dx in shift * random.normal(size=(FRAMES, 2)):
+        shifted = np.fft.ifft2(transform * np.exp(-2j * np.pi * (y[:, None] * dy + x[None, :] * dx))).real
+        expected.append(np.maximum(electrons * (1 - right) + shifted * right, 0))
+    return changing(random, np.array(expected))
+
+
 KINDS = {
+    "half-sways": (swaying, (0.03, 0.1)),
     "settling-optics": (settling, (0.05, 0.2)),
     "bleached-spot": (bleached, (0.03, 0.1)),
     "uneven-flicker": (uneven, (0.1, 0.3)),

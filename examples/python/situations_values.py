@@ -47,6 +47,19 @@ def bright_as_dark(random, electrons, fraction):
     return with_dark(random, electrons, digitise(frames))
 
 
+def leaking(random, electrons, mean):
+    """Returns a burst whose dark frames hold charge, by dark current, glow or light: none on the left, and twice the
+    mean charge [e-] on the right."""
+    charge = 2 * mean * np.indices(SHAPE)[1] / SHAPE[1]
+    return with_dark(random, electrons, digitise(expose(random, charge, np.ones(DARK_FRAMES))))
+
+
+def settling(random, electrons, beginning):
+    """Returns a burst whose dark frames begin with a black level that is off by this [DN], and settles in 8 frames."""
+    levels = OFFSET[12] + beginning * np.exp(-np.arange(DARK_FRAMES) / 8)[:, None, None]
+    return with_dark(random, electrons, dark_frames(random, offset=levels))
+
+
 def saturated(random, electrons, top, stuck):
     """Returns a scene whose brightest fifth saturates below the highest level of the converter, with stuck pixels."""
     frames = np.minimum(expose(random, 1.5 * electrons, illumination(random)), top)
@@ -84,6 +97,8 @@ SITUATIONS = (
     *(line(f"dark-frames/black-level{by:+d}", black_level_moved, by) for by in (-8, 4, 8, 20)),
     *(line(f"dark-frames/noise-x{ratio}", other_gain, ratio) for ratio in (0.5, 1.5, 3)),
     *(line(f"dark-frames/bright-{fraction:.0%}", bright_as_dark, fraction) for fraction in (0.1, 0.5)),
+    *(line(f"dark-frames/leak-{mean}", leaking, mean) for mean in (1, 4)),
+    *(line(f"dark-frames/settling-{beginning}", settling, beginning) for beginning in (2, 8)),
     *(line(f"full-wells/{100 * spread:g}%", full_wells, spread) for spread in (0.003, 0.01, 0.03)),
     *(line(f"stuck/{stuck}-beyond-{top}", saturated, top, stuck) for top in (2500, 3400) for stuck in (1, 12)),
     *(

@@ -186,7 +186,7 @@ DEMANDS = {
         NAMED,
     ],
     "repeated": gain_in_spite(
-        0.02, warned("repeated-frames"), Demand("gain equals that of the distinct frames", distinct_gain), NAMED
+        0.02, warned("repeated-frames"), Demand("gain equals the gain of the distinct frames", distinct_gain), NAMED
     ),
     "companded": gain_in_spite(0.01, warned("companded")),
     "brighter-fatter": gain_in_spite(0.01, NAMED),

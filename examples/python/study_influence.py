@@ -56,7 +56,7 @@ def cell(records):
 
 def quantities_of(part, path=()):
     """Yields path, value, standard error and status of all quantities of a report."""
-    if isinstance(part, dict) and "standard_error" in part:
+    if isinstance(part, dict) and {"value", "standard_error"} <= part.keys():
         yield path, part["value"], part["standard_error"], part.get("status")
     elif isinstance(part, (dict, list)):
         for key, one in part.items() if isinstance(part, dict) else enumerate(part):

@@ -4,10 +4,11 @@
 
     python examples/python/study_likelihood.py --bin build/bin --seeds 10
 
-A row is a situation and a method: rms error of gain [%], intercept [DN^2] and offset [DN], the bursts whose 95 %
-interval contains the truth of those that have a value, and the terms of the variance besides constant and level, with
-the number of bursts. refined: estimate-sensor-noise. projected, variance: one_likelihood.py with the motion and local
-illumination removed from each pixel, or left to terms of the variance. It needs NumPy and SciPy.
+A row is a situation and a method. Its columns are the rms error of gain [%], intercept [DN^2] and offset [DN]. It also
+has the number of bursts whose 95 % interval contains the truth, out of the bursts that have a value, and the terms of
+the variance besides constant and level, with their numbers of bursts. The method `refined` is estimate-sensor-noise.
+The methods `projected` and `variance` are one_likelihood.py with the motion and local illumination removed from each
+pixel, or left to terms of the variance. It needs NumPy and SciPy.
 """
 
 import argparse

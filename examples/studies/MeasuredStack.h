@@ -32,15 +32,15 @@ struct MeasuredStack
   }
 };
 
-/** Passes all \a frames frames of a stack, which follow one another in \a codes, to a method in each of its passes.
- * Returns the result. */
+/** Passes all \a frames frames of a stack, which follow one another in \a greyValues, to a method in each of its
+ * passes. Returns the result. */
 template <typename TMethod, typename TPixel>
 MeasuredStack
-MeasureBy(TMethod && method, const std::vector<TPixel> & codes, std::size_t frames)
+MeasureBy(TMethod && method, const std::vector<TPixel> & greyValues, std::size_t frames)
 {
   while (!method.IsDone())
   {
-    method.AddFrames(codes.data(), frames);
+    method.AddFrames(greyValues.data(), frames);
     method.EndPass();
   }
   return { method.GetReport(), method.GetPixelUse() };
@@ -50,12 +50,12 @@ MeasureBy(TMethod && method, const std::vector<TPixel> & codes, std::size_t fram
 template <typename TPixel>
 MeasuredStack
 MeasureBy(const std::string &         methodName,
-          const std::vector<TPixel> & codes,
+          const std::vector<TPixel> & greyValues,
           const FrameGeometry &       geometry,
           std::size_t                 frames)
 {
-  return methodName == "refined" ? MeasureBy(RefinedMethod<TPixel>({}, geometry, frames), codes, frames)
-                                 : MeasureBy(PublishedMethod<TPixel>({}, geometry, frames), codes, frames);
+  return methodName == "refined" ? MeasureBy(RefinedMethod<TPixel>({}, geometry, frames), greyValues, frames)
+                                 : MeasureBy(PublishedMethod<TPixel>({}, geometry, frames), greyValues, frames);
 }
 
 } // namespace sensornoise::tools

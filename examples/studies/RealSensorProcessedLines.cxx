@@ -209,13 +209,13 @@ AppendProcessedLines(std::vector<RealSensorLine> & lines)
   lines.push_back({ "resampled", "the camera moves its frames along x and y", MakeResampledSettings });
   lines.push_back({ "binned", "the camera bins its frames and gives them their old size", MakeBinnedSettings });
   lines.push_back({ "coupling", "pixels give charge to their neighbours", MakeCouplingSettings });
-  lines.push_back({ "blur", "the light is blurred before the photons are counted", MakeBlurSettings });
+  lines.push_back({ "blur", "the illumination is blurred before the photons are counted", MakeBlurSettings });
   lines.push_back({ "temporal", "the camera blends its frames with the last one", MakeTemporalSettings });
   lines.push_back({ "repeated", "frames are written twice", MakeRepeatedSettings });
   lines.push_back({ "companded", "square-root companding and back", MakeCompandedSettings });
   lines.push_back({ "defects", "pixels far from their neighbours become the neighbours' median", MakeDefectSettings });
   lines.push_back({ "median", "the camera takes the median of 3 x 3 pixels", MakeMedianSettings });
-  lines.push_back({ "blocks", "JPEG-like quantisation of 8 x 8 pixels", MakeBlockSettings });
+  lines.push_back({ "blocks", "JPEG-like quantization of 8 x 8 pixels", MakeBlockSettings });
   lines.push_back({ "brighter-fatter", "charge spreads in proportion to its square", MakeBrighterFatterSettings });
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studies/RealSensorLines.h"
 
-#include "simulation/ReadOut.h"
+#include "simulation/SimulatedSensor.h"
 
 #include <array>
 #include <string>
@@ -91,7 +91,7 @@ AppendResponseLines(std::vector<RealSensorLine> & lines)
                      return MakeFullRangeSettings(GetNonlinearResponses());
                    } });
   lines.push_back({ "gamma", "tone curves, full range", [] { return MakeFullRangeSettings(GetToneCurves()); } });
-  lines.push_back({ "narrow", "the bends and tone curves, parts of the range", MakeNarrowSettings });
+  lines.push_back({ "narrow", "non-linear responses and tone curves, parts of the range", MakeNarrowSettings });
 }
 
 } // namespace sensornoise::tools

@@ -139,16 +139,16 @@ std::vector<std::uint16_t>
 RealSensorStack::Render() const
 {
   const std::size_t          frames = m_Setting.settings.frames;
-  std::vector<std::uint16_t> codes(Pixels() * frames);
+  std::vector<std::uint16_t> greyValues(Pixels() * frames);
   std::vector<std::uint16_t> frame(m_Simulator.GetWidth() * m_Simulator.GetHeight());
   for (std::size_t t = 0; t < frames && m_Simulator.NeedsWholeFrames(); ++t)
   {
     m_Simulator.RenderFrame(t, frame.data());
-    std::copy_n(frame.begin(), Pixels(), codes.begin() + static_cast<std::ptrdiff_t>(t * Pixels()));
+    std::copy_n(frame.begin(), Pixels(), greyValues.begin() + static_cast<std::ptrdiff_t>(t * Pixels()));
   }
   for (std::size_t row = 0; row < m_Size * frames && !m_Simulator.NeedsWholeFrames(); ++row)
   {
-    std::uint16_t * const out = codes.data() + row * m_Size;
+    std::uint16_t * const out = greyValues.data() + row * m_Size;
     const std::size_t     t = row / m_Size;
     const std::size_t     y = row % m_Size;
     // The block crosses only the lower two thirds of the frame; the upper third stays static.
@@ -162,7 +162,7 @@ RealSensorStack::Render() const
       RenderLitRow(t, y, out);
     }
   }
-  return codes;
+  return greyValues;
 }
 
 /** Draws the block into a row of electrons. The block enters on the left, hides the scene behind it, and has left on
@@ -208,7 +208,7 @@ RealSensorStack::RenderLitRow(std::size_t t, std::size_t y, std::uint16_t * out)
     ApplyTwoSources(m_SourceFlicker[2 * t], m_SourceFlicker[2 * t + 1], y, electrons);
   }
   CounterSeededRandom random(settings.seed, LitPixelStream, t, y);
-  const auto          range = StackSimulator::CodeRange<std::uint16_t>(settings);
+  const auto          range = StackSimulator::PixelRangeDn<std::uint16_t>(settings);
   for (std::size_t x = 0; x < m_Size; ++x)
   {
     const double signal = camera.gainDnPerElectron * static_cast<double>(random.Poisson(electrons[x]));

@@ -37,9 +37,10 @@ Measure(const StressStack & stack, const std::string & method)
   const FrameGeometry geometry{ stack.width, stack.height, 1 };
   if (stack.isEightBit)
   {
-    return MeasureBy(method, std::vector<std::uint8_t>(stack.codes.begin(), stack.codes.end()), geometry, stack.frames);
+    return MeasureBy(
+      method, std::vector<std::uint8_t>(stack.greyValues.begin(), stack.greyValues.end()), geometry, stack.frames);
   }
-  return MeasureBy(method, stack.codes, geometry, stack.frames);
+  return MeasureBy(method, stack.greyValues, geometry, stack.frames);
 }
 
 std::vector<nlohmann::ordered_json>

@@ -21,7 +21,7 @@ namespace sensornoise::tools
 {
 namespace
 {
-using Codes = std::vector<std::uint16_t>;
+using GreyValues = std::vector<std::uint16_t>;
 using Record = nlohmann::ordered_json;
 
 constexpr std::size_t SensorSize = 256; // [pixels]
@@ -29,16 +29,16 @@ constexpr std::size_t SensorSize = 256; // [pixels]
 KnownOffset
 MeasureDark(const RealSensorStack & dark, std::size_t frames)
 {
-  const Codes                 codes = dark.Render();
+  const GreyValues            greyValues = dark.Render();
   StackMoments<std::uint16_t> moments(dark.Pixels(), frames);
-  moments.AddFrames(codes.data(), 0, frames, SerialFor);
+  moments.AddFrames(greyValues.data(), 0, frames, SerialFor);
   return MeasureDarkFrames<std::uint16_t>(moments.Take());
 }
 
 MeasuredStack
-Measure(const RefinedSettings & settings, const Codes & codes, std::size_t size, std::size_t frames)
+Measure(const RefinedSettings & settings, const GreyValues & greyValues, std::size_t size, std::size_t frames)
 {
-  return MeasureBy(RefinedMethod<std::uint16_t>(settings, { size, size, 1 }, frames), codes, frames);
+  return MeasureBy(RefinedMethod<std::uint16_t>(settings, { size, size, 1 }, frames), greyValues, frames);
 }
 
 /** Mean true values of the pixels that a measurement used. */
@@ -104,16 +104,16 @@ CoverageOf(const IntervalMapDn & map, TTruth truthOf)
 
 /** Returns the gain that is measured from the distinct frames of a stack with repeated frames [DN/e-]. */
 std::optional<double>
-GainOfDistinctFrames(const RealSensorSetting & setting, const Codes & codes, std::size_t size)
+GainOfDistinctFrames(const RealSensorSetting & setting, const GreyValues & greyValues, std::size_t size)
 {
   const RepetitionSettings & repetition = setting.settings.flaws.repetition;
   const auto                 pixels = static_cast<std::ptrdiff_t>(size * size);
-  Codes                      distinct;
+  GreyValues                 distinct;
   for (std::size_t t = 0; t < setting.settings.frames; ++t)
   {
     if (t == 0 || repetition.ExposureOf(t) != repetition.ExposureOf(t - 1))
     {
-      const auto first = codes.begin() + static_cast<std::ptrdiff_t>(t) * pixels;
+      const auto first = greyValues.begin() + static_cast<std::ptrdiff_t>(t) * pixels;
       distinct.insert(distinct.end(), first, first + pixels);
     }
   }
@@ -149,8 +149,8 @@ MeasureCase(RealSensorSetting setting, const StudyOptions & options, std::uint64
   {
     settings.offset = MeasureDark(RealSensorStack(setting, size, seed, true), frames);
   }
-  const Codes         codes = stack.Render();
-  const MeasuredStack measured = Measure(settings, codes, size, frames);
+  const GreyValues    greyValues = stack.Render();
+  const MeasuredStack measured = Measure(settings, greyValues, size, frames);
   const DarkMaps *    dark = settings.offset ? settings.offset->maps.get() : nullptr;
   const PixelTruth    truth = TruthOfPixels(stack, measured.pixelUse, dark);
   const double        flickerSd = simulator.GetTruth().realisedFlickerSd;
@@ -169,7 +169,7 @@ MeasureCase(RealSensorSetting setting, const StudyOptions & options, std::uint64
                  { "row_noise", lineNoise.rowNoiseSdDn },
                  { "column_noise", lineNoise.columnNoiseSdDn } } },
              { "gain_of_distinct_frames",
-               isRepeated ? NumberOrNull(GainOfDistinctFrames(setting, codes, size)) : Record() },
+               isRepeated ? NumberOrNull(GainOfDistinctFrames(setting, greyValues, size)) : Record() },
              { "coverage_of_maps", dark != nullptr ? CoverageOfMaps(*dark, simulator) : Record() },
              { "report", measured.ReportRecord() } } };
 }

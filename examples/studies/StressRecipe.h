@@ -30,12 +30,12 @@ struct StressRecipe
   /** Level of a pixel in frame t that is added to the offset [DN]; empty: 0. */
   std::function<double(std::size_t t, std::size_t pixel)> levelDn;
   /** Maps a grey value of the converter to a grey value of the file, before rounding; empty: no change. */
-  std::function<double(double code)> recode;
+  std::function<double(double greyValue)> remap;
   /** Factor from true values of the converter [DN] to true values of the file [DN]. */
   double scale{ 1.0 };
   bool   isEightBit{ false };
   /** Grey values that are added to the middle sample of the stack [DN]. */
-  std::uint16_t strayCodes{ 0 };
+  std::uint16_t strayDn{ 0 };
 };
 
 /** Case and the function that makes its recipe. */

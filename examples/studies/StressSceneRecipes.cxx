@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/CollectedCharge.h"
+#include "simulation/SimulatedSensor.h"
 #include "simulation/Random.h"
 #include "sensornoise/Simulator.h"
 #include "sensornoise/SimulationSettings.h"
@@ -226,23 +226,24 @@ AppendSceneRecipes(std::vector<StressRecipeEntry> & entries)
                       PrepareRandomRolling });
   entries.push_back(
     { { "two_lamps", "two lamps with 5 % flicker each, each with its own part of the scene" }, PrepareTwoSources });
-  entries.push_back({ { "bleach_uniform", "all light decays by 20 %, flicker 1 %" }, [](StressRecipe & recipe) {
+  entries.push_back({ { "bleach_uniform", "all of the signal decays by 20 %, flicker 1 %" }, [](StressRecipe & recipe) {
                        recipe.settings.conditions.flickerSd = 0.01;
                        PrepareBleaching(recipe, false);
                      } });
-  entries.push_back({ { "bleach_mixed", "a smooth half of the light decays by 20 %, flicker 5 %" },
+  entries.push_back({ { "bleach_mixed", "a smooth half of the signal decays by 20 %, flicker 5 %" },
                       [](StressRecipe & recipe) { PrepareBleaching(recipe, true); } });
   entries.push_back({ { "moving_disk", "a disk of 5 % of the area crosses the scene" }, PrepareMovingDisk });
   entries.push_back({ { "crossing_block", "a textured block, a third of the width, crosses two thirds of the rows" },
                       PrepareCrossingBlock });
   entries.push_back({ { "waving_quarter", "a quarter of the frame sways by 2 pixels" }, PrepareWavingQuarter });
   entries.push_back({ { "bright_frame", "one frame is 20 % brighter" }, PrepareBrightFrame });
-  entries.push_back({ { "no_flicker", "the light is perfectly steady" },
+  entries.push_back({ { "no_flicker", "the illumination is perfectly steady" },
                       [](StressRecipe & recipe) { recipe.settings.conditions.flickerSd = 0.0; } });
   entries.push_back({ { "flicker0.001", "flicker 0.1 %" },
                       [](StressRecipe & recipe) { recipe.settings.conditions.flickerSd = 0.001; } });
   entries.push_back(
-    { { "veil200", "200 e- of steady light: by flicker alone the offset is found 200 DN too high" }, PrepareVeil });
+    { { "veil200", "200 e- of steady veiling signal: by flicker alone the offset is found 200 DN too high" },
+      PrepareVeil });
   for (const double shift : { 0.5, 1.0 })
   {
     entries.push_back({ { shift < 1.0 ? "vibration0.5" : "vibration1.0", "vibration of so many pixels rms in x and y" },

@@ -16,7 +16,7 @@ namespace sensornoise::tools
 {
 namespace
 {
-constexpr double        TopCode = 4095.0;
+constexpr double        TopDn = 4095.0;
 constexpr std::uint64_t TelegraphStream = 120;
 constexpr std::uint64_t DriftStream = 122;
 
@@ -69,16 +69,16 @@ PrepareClippedHighlights(StressRecipe & recipe)
   const auto          rank = level.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(level.size()));
   std::nth_element(level.begin(), rank, level.end());
   CameraModel & camera = recipe.settings.camera;
-  camera.electrons = (TopCode - camera.offsetDn) / (camera.gainDnPerElectron * *rank);
+  camera.electrons = (TopDn - camera.offsetDn) / (camera.gainDnPerElectron * *rank);
 }
 
 /** Returns a case whose camera applies a tone curve to the grey value u: top (u / 4095)^(1 / gamma). */
 StressRecipeEntry
 MakeGammaEntry(const char * name, double gamma, double top)
 {
-  return { { name, "the codes went through a tone curve, u^(1/gamma)", StressExpectation::Refused },
+  return { { name, "the digital numbers went through a tone curve, u^(1/gamma)", StressExpectation::Refused },
            [=](StressRecipe & recipe) {
-             recipe.recode = [=](double code) { return top * std::pow(code / TopCode, 1.0 / gamma); };
+             recipe.remap = [=](double greyValue) { return top * std::pow(greyValue / TopDn, 1.0 / gamma); };
              recipe.isEightBit = top < 256.0;
            } };
 }
@@ -87,7 +87,7 @@ MakeGammaEntry(const char * name, double gamma, double top)
 StressRecipeEntry
 MakeCoarseEntry(const char * name, double readNoiseDn)
 {
-  return { { name, "8-bit codes, read noise (hundredths of DN in the name) below the quantization step" },
+  return { { name, "8-bit digital numbers, read noise (hundredths of DN in the name) below the quantization step" },
            [=](StressRecipe & recipe) {
              recipe.settings.camera = { 3000.0, 0.07, 10.0, readNoiseDn };
              recipe.settings.bitDepth = 8;
@@ -96,12 +96,12 @@ MakeCoarseEntry(const char * name, double readNoiseDn)
 }
 
 StressRecipeEntry
-MakeScaledEntry(const char * name, const char * what, double scale, std::uint16_t strayCodes)
+MakeScaledEntry(const char * name, const char * what, double scale, std::uint16_t strayDn)
 {
   return { { name, what }, [=](StressRecipe & recipe) {
-            recipe.recode = [=](double code) { return scale * code; };
+            recipe.remap = [=](double greyValue) { return scale * greyValue; };
             recipe.scale = scale;
-            recipe.strayCodes = strayCodes;
+            recipe.strayDn = strayDn;
           } };
 }
 /** Appends sensors with a non-linear response, whose local gain deviates by up to 2 or 4 %. */
@@ -114,7 +114,7 @@ AppendNonlinearEntries(std::vector<StressRecipeEntry> & entries)
     {
       const std::string size = (percent > 0 ? "+" : "") + std::to_string(percent);
       entries.push_back({ { std::string(NameOf(shape)) + size,
-                            "the response is bent, local gain by so many %",
+                            "the response is non-linear, local gain by so many %",
                             StressExpectation::Nonlinear },
                           [=](StressRecipe & recipe) { recipe.settings.flaws.response = { shape, 0.01 * percent }; } });
     }
@@ -172,8 +172,8 @@ AppendSensorRecipes(std::vector<StressRecipeEntry> & entries)
   entries.push_back({ { "black_drift", "the offset drifts slowly, 3 DN rms" }, PrepareBlackDrift });
   entries.push_back(
     { { "clipped_highlights", "5 % of the pixels exceed the 12-bit range" }, PrepareClippedHighlights });
-  entries.push_back({ { "saturation60", "the sensor saturates at 60 % of the code range" },
-                      [](StressRecipe & recipe) { recipe.settings.clipHighDn = std::floor(0.6 * TopCode); } });
+  entries.push_back({ { "saturation60", "the sensor saturates at 60 % of the DN range" },
+                      [](StressRecipe & recipe) { recipe.settings.clipHighDn = std::floor(0.6 * TopDn); } });
   entries.push_back({ { "floor_pedestal", "nothing below the offset is recorded" },
                       [](StressRecipe & recipe) { recipe.settings.clipLowDn = recipe.settings.camera.offsetDn; } });
   entries.push_back({ { "low_sigma", "gain 5 DN/e-, read noise 3 DN, condition 2" }, [](StressRecipe & recipe) {
@@ -182,11 +182,11 @@ AppendSensorRecipes(std::vector<StressRecipeEntry> & entries)
                      } });
   entries.push_back(MakeCoarseEntry("eight_bit_coarse25", 0.25));
   entries.push_back(MakeCoarseEntry("eight_bit_coarse12", 0.12));
-  entries.push_back(MakeScaledEntry("left_aligned16", "12-bit codes times 16", 16.0, 0));
-  entries.push_back(MakeScaledEntry("stray_code", "12-bit codes times 16, one sample 5 higher", 16.0, 5));
-  entries.push_back(MakeScaledEntry("rescaled", "12-bit codes times 65535/4095, rounded", 65535.0 / TopCode, 0));
-  entries.push_back(MakeGammaEntry("gamma13_12bit", 1.3, TopCode));
-  entries.push_back(MakeGammaEntry("gamma22_12bit", 2.2, TopCode));
+  entries.push_back(MakeScaledEntry("left_aligned16", "12-bit numbers times 16", 16.0, 0));
+  entries.push_back(MakeScaledEntry("stray_code", "12-bit numbers times 16, one sample 5 higher", 16.0, 5));
+  entries.push_back(MakeScaledEntry("rescaled", "12-bit numbers times 65535/4095, rounded", 65535.0 / TopDn, 0));
+  entries.push_back(MakeGammaEntry("gamma13_12bit", 1.3, TopDn));
+  entries.push_back(MakeGammaEntry("gamma22_12bit", 2.2, TopDn));
   entries.push_back(MakeGammaEntry("gamma13_8bit", 1.3, 255.0));
   entries.push_back(MakeGammaEntry("gamma22_8bit", 2.2, 255.0));
   AppendNonlinearEntries(entries);

@@ -43,7 +43,7 @@ ComposeRow(const StackSimulator & simulator,
            std::size_t            y,
            std::uint16_t *        out)
 {
-  const auto          range = StackSimulator::CodeRange<std::uint16_t>(recipe.settings);
+  const auto          range = StackSimulator::PixelRangeDn<std::uint16_t>(recipe.settings);
   const CameraModel & camera = recipe.settings.camera;
   CounterSeededRandom random(recipe.settings.seed, PixelStream, t, y);
   std::vector<double> electrons(recipe.size);
@@ -105,14 +105,14 @@ DescribePixels(const StackSimulator & simulator, const StressRecipe & recipe)
 
 /** Returns the grey values of the file, frame after frame [DN]. */
 std::vector<std::uint16_t>
-RenderCodes(const StackSimulator & simulator, const StressRecipe & recipe)
+RenderGreyValues(const StackSimulator & simulator, const StressRecipe & recipe)
 {
   const std::size_t          size = recipe.size;
   const std::size_t          frames = recipe.settings.frames;
-  std::vector<std::uint16_t> codes(size * size * frames);
+  std::vector<std::uint16_t> greyValues(size * size * frames);
   for (std::size_t t = 0; t < frames; ++t)
   {
-    std::uint16_t * const out = codes.data() + t * size * size;
+    std::uint16_t * const out = greyValues.data() + t * size * size;
     if (recipe.illuminate || recipe.levelDn)
     {
       SerialFor(size, [&](std::size_t y) { ComposeRow(simulator, recipe, t, y, out + y * size); });
@@ -121,16 +121,16 @@ RenderCodes(const StackSimulator & simulator, const StressRecipe & recipe)
     {
       simulator.RenderFrame(t, out);
     }
-    if (recipe.recode)
+    if (recipe.remap)
     {
-      std::transform(out, out + size * size, out, [&](double code) {
-        return static_cast<std::uint16_t>(std::lround(recipe.recode(code)));
+      std::transform(out, out + size * size, out, [&](double greyValue) {
+        return static_cast<std::uint16_t>(std::lround(recipe.remap(greyValue)));
       });
     }
   }
-  std::uint16_t & middle = codes[(frames / 2 * size + size / 2) * size + size / 2];
-  middle = static_cast<std::uint16_t>(middle + recipe.strayCodes);
-  return codes;
+  std::uint16_t & middle = greyValues[(frames / 2 * size + size / 2) * size + size / 2];
+  middle = static_cast<std::uint16_t>(middle + recipe.strayDn);
+  return greyValues;
 }
 } // namespace
 
@@ -197,7 +197,7 @@ MakeStressStack(const std::string & name, const std::string & reference, std::si
   stack.readNoise = camera.readNoiseDn * recipe.scale;
   stack.lineVarianceDn2 = LineVarianceDn2(recipe.settings.flaws.lineNoise) * recipe.scale * recipe.scale;
   stack.ofPixel = DescribePixels(simulator, recipe);
-  stack.codes = RenderCodes(simulator, recipe);
+  stack.greyValues = RenderGreyValues(simulator, recipe);
   return stack;
 }
 

@@ -52,7 +52,7 @@ struct StressTruth
 /** Burst, frame after frame, and its true values. */
 struct StressStack
 {
-  std::vector<std::uint16_t> codes;
+  std::vector<std::uint16_t> greyValues;
   std::size_t                width{ 0 };
   std::size_t                height{ 0 };
   std::size_t                frames{ 0 };

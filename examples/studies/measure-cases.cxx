@@ -121,7 +121,7 @@ void
 AddOptions(CLI::App & app, Options & options)
 {
   StudyOptions & study = options.study;
-  app.add_option("CASE", options.patterns, "names, or patterns such as 'sensors/bends/*'");
+  app.add_option("CASE", options.patterns, "names, or patterns such as 'sensors/gamma/*'");
   app.add_option("--seeds", options.seeds, "stacks of each case")->check(CLI::Range(1, 10000))->capture_default_str();
   app.add_option("--first-seed", options.firstSeed, "seed of the first stack")->capture_default_str();
   app.add_option("--threads", options.threads, "stacks at a time")->check(CLI::Range(1, 1024));

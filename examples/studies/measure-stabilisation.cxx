@@ -89,7 +89,7 @@ main()
   for (const AnscombeInverse inverse :
        { AnscombeInverse::ExactUnbiased, AnscombeInverse::Algebraic, AnscombeInverse::Asymptotic })
   {
-    PrintTable((std::string(sensornoise::NameOf(inverse)) + ": error of the light of a mean [e-]").c_str(),
+    PrintTable((std::string(sensornoise::NameOf(inverse)) + ": error of the signal from a mean [e-]").c_str(),
                [inverse](double electrons, double readNoise) { return BiasOf(inverse, electrons, readNoise); });
   }
   std::printf("read noise from 0 to 30 e-:\n");

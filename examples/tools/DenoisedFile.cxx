@@ -4,7 +4,7 @@
 
 #include "base/FreeMemory.h"
 #include "sensornoise/NoiseModel.h"
-#include "files/FrameSizes.h"
+#include "files/FrameReader.h"
 #include "tools/ImageScale.h"
 #include "tools/LowerCase.h"
 #include "tools/PendingFile.h"

@@ -3,7 +3,7 @@
 #include "tools/EmvaFrames.h"
 
 #include "base/PixelLayout.h"
-#include "files/FrameSizes.h"
+#include "files/FrameReader.h"
 #include "mosaic/MosaicGeometry.h"
 #include "tools/EmvaSources.h"
 #include "tools/EstimateOptions.h"
@@ -73,7 +73,7 @@ PartsOf(const EstimateOptions & options, const FrameList & list)
   return parts;
 }
 
-/** Throws if the frames are not what the list says, or if there is one frame only. */
+/** Throws if the frames contradict the list, or if there is only one frame. */
 void
 RequireFrames(const FrameList & list, const EmvaSource & source, const EmvaSourceList & all)
 {

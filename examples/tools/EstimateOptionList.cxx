@@ -71,11 +71,11 @@ AddSweepOption(CLI::App & app, EstimateOptions & options)
     .add_option(
       "--sweep",
       options.sweep,
-      "a camera at all its settings, in place of FRAME: a folder with a folder for each of them (iso100, "
-      "iso200, gain2.5, gain6dB, or 10ms at one gain), whose dark frames are in its folder dark; or stacks, or frames "
-      "that record their ISO speed; or a table, file.csv, with the columns iso, gain, gain_db, exposure or "
-      "exposure_ms, "
-      "then frames and dark. "
+      "a camera at all its settings, in place of FRAME. NAME is a folder with a folder for each setting (iso100, "
+      "iso200, gain2.5, gain6dB, or 10ms at one gain), whose dark frames are in its folder dark. It may also be "
+      "stacks, "
+      "or frames that record their ISO speed, or a table, file.csv, with the columns iso, gain, gain_db, exposure or "
+      "exposure_ms, then frames and dark. "
       "--json writes the passport, from which export-noise-model makes every format. A setting that is in it, "
       "with the same files and options, is not measured again")
     ->expected(1, std::numeric_limits<int>::max())

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/EstimateOptions.h"
 
-#include "report/StackSettings.h"
+#include "report/StackReport.h"
 #include "sensornoise/Settings.h"
 #include "tools/EstimateOptionList.h"
 #include "tools/EstimateRules.h"
@@ -60,7 +60,7 @@ ReadNumbers(const std::string & option,
   return numbers;
 }
 
-/** Calls a check of the library. What it throws becomes an error of the option. */
+/** Calls a check of the library. An exception of the check becomes an error of the option. */
 template <typename TCheck>
 void
 CheckOption(const std::string & option, TCheck check)
@@ -87,27 +87,27 @@ RequireUsedBy(const std::string & method, const std::string & option, const std:
 }
 
 void
-ReadCodes(EstimateOptions & options, const EstimateTexts & texts)
+ReadDnSettings(EstimateOptions & options, const EstimateTexts & texts)
 {
-  CodeSettings codes;
+  DnSettings dnSettings;
   if (texts.bitDepth != "auto")
   {
-    codes.bitDepth = ReadNumbers<int>("--bit-depth", texts.bitDepth, ',', 1, "auto or 1 to 16")[0];
-    CheckOption("--bit-depth", [&codes] { ValidateCodeSettings(codes); });
-    options.bitDepth = static_cast<unsigned int>(*codes.bitDepth);
+    dnSettings.bitDepth = ReadNumbers<int>("--bit-depth", texts.bitDepth, ',', 1, "auto or 1 to 16")[0];
+    CheckOption("--bit-depth", [&dnSettings] { ValidateDnSettings(dnSettings); });
+    options.bitDepth = static_cast<unsigned int>(*dnSettings.bitDepth);
   }
   if (!texts.step.empty())
   {
     options.step = ReadNumbers<double>("--step", texts.step, ',', 1, "one number above 0")[0];
-    codes.quantisationStepDn = options.step;
-    CheckOption("--step", [&codes] { ValidateCodeSettings(codes); });
+    dnSettings.quantisationStepDn = options.step;
+    CheckOption("--step", [&dnSettings] { ValidateDnSettings(dnSettings); });
   }
   if (!texts.clip.empty())
   {
     const auto levels = ReadNumbers<double>("--clip", texts.clip, ',', 2, "LOW,HIGH");
-    codes.clipLowDn = levels[0];
-    codes.clipHighDn = levels[1];
-    CheckOption("--clip", [&codes] { ValidateCodeSettings(codes); });
+    dnSettings.clipLowDn = levels[0];
+    dnSettings.clipHighDn = levels[1];
+    CheckOption("--clip", [&dnSettings] { ValidateDnSettings(dnSettings); });
     options.clipLow = levels[0];
     options.clipHigh = levels[1];
   }
@@ -232,9 +232,9 @@ EstimateOptions::Parse(int argc, char ** argv)
     "Example:\n"
     "  estimate-sensor-noise frame_*.tif --dark dark_*.tif --plot report.html\n\n"
     "Measures gain, offset and read noise of a camera from a burst of raw frames of a static scene.\n\n"
-    "FRAME...: images in time order, one frame a file; or stacks (.mha .mhd .nrrd .tif .ser .mraw .fits .npy), "
-    "which together are one burst; or a folder, or a pattern in quotation marks ('frame_*.tif'), whose files "
-    "are read in the order of their numbers.\n\n"
+    "FRAME...: images in time order, one frame a file, or stacks (.mha .mhd .nrrd .tif .ser .mraw .fits .npy), "
+    "which together are one burst. A folder, or a pattern in quotation marks ('frame_*.tif'), stands for its files "
+    "in the order of their numbers.\n\n"
     "Exit code: 0 done, 2 wrong use or unreadable input, 3 nothing could be estimated, 4 only some settings of --sweep "
     "could be measured.",
     "estimate-sensor-noise");
@@ -263,7 +263,7 @@ EstimateOptions::Parse(int argc, char ** argv)
   {
     *names = ExpandNames(*names, !raw.empty());
   }
-  ReadCodes(*this, texts);
+  ReadDnSettings(*this, texts);
   ReadLevelRange(*this, texts.levelRange);
   RequireRefinedForProfile(*this);
   ReadExposuresOf(*this);

@@ -52,9 +52,9 @@ RequireSweepOptions(const CLI::App & app, const EstimateOptions & options)
         "--sweep",
         std::string("it measures many bursts, and ") + name +
           (std::string(name) == "--dark"
-             ? " gives the dark frames of one setting; put the dark frames of each setting into the "
+             ? " gives the dark frames of one setting. Put the dark frames of each setting into the "
                "folder dark of its folder, or into the column dark of a table"
-             : " is for one of them; leave it out, or measure the burst by itself"));
+             : " is for one of them. Leave it out, or measure the burst by itself"));
     }
   }
   if (!options.files.empty())

@@ -7,8 +7,7 @@
 
 #include <string>
 
-/** \file
- * Which options of estimate-sensor-noise go together. */
+/** \file Rules of the options of estimate-sensor-noise that exclude or require each other. */
 
 namespace CLI
 {

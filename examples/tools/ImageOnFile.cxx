@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/ImageOnFile.h"
 
-#include "files/FrameSizes.h"
+#include "files/FrameReader.h"
 
 #include <algorithm>
 #include <vector>

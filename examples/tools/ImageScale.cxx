@@ -25,7 +25,7 @@ constexpr double DoubtfulSignal = 2.0;
  * frame, noise alone gives 8 % at a read noise of 1 e-, and less than 0.1 % from 10 e- on. */
 constexpr double DoubtfulFraction = 0.01;
 /** Number of distinct grey values from which on their spacing is tested. */
-constexpr std::size_t LeastCodes = 16;
+constexpr std::size_t LeastGreyValues = 16;
 
 std::string
 Name(double level)
@@ -53,10 +53,10 @@ RequireFinite(const std::vector<TPixel> & levels, const std::string & image)
 }
 
 /** Returns the greatest common divisor of the distances between grey values [DN]; 0 if there are fewer than
- * LeastCodes grey values. */
+ * LeastGreyValues grey values. */
 template <typename TPixel>
 std::int32_t
-CodeStep(const std::vector<TPixel> & levels)
+FindGreyValueStep(const std::vector<TPixel> & levels)
 {
   constexpr std::int32_t lowest = std::numeric_limits<TPixel>::lowest();
   std::vector<bool>      seen(static_cast<std::size_t>(std::numeric_limits<TPixel>::max() - lowest) + 1, false);
@@ -66,35 +66,35 @@ CodeStep(const std::vector<TPixel> & levels)
   }
   std::int32_t step = 0;
   std::int32_t last = -1;
-  std::size_t  codes = 0;
-  for (std::size_t code = 0; code < seen.size(); ++code)
+  std::size_t  greyValues = 0;
+  for (std::size_t greyValue = 0; greyValue < seen.size(); ++greyValue)
   {
-    if (seen[code])
+    if (seen[greyValue])
     {
-      const auto here = static_cast<std::int32_t>(code);
+      const auto here = static_cast<std::int32_t>(greyValue);
       step = last < 0 ? 0 : std::gcd(step, here - last);
       last = here;
-      ++codes;
+      ++greyValues;
     }
   }
-  return codes < LeastCodes ? 0 : step;
+  return greyValues < LeastGreyValues ? 0 : step;
 }
 
 template <typename TPixel>
 void
-RequireCodeStep(const std::vector<TPixel> & levels, const NoiseModelFile & report, const std::string & image)
+RequireGreyValueStep(const std::vector<TPixel> & levels, const NoiseModelFile & report, const std::string & image)
 {
-  if (!report.codeStepDn || !(*report.codeStepDn >= 1.0))
+  if (!report.quantisationStepDn || !(*report.quantisationStepDn >= 1.0))
   {
     return;
   }
-  const std::int32_t step = CodeStep(levels);
+  const std::int32_t step = FindGreyValueStep(levels);
   // in a frame of few grey values a multiple of the step may occur by chance, but never a smaller step
-  if (step >= 4.0 * *report.codeStepDn || (step > 0 && 2.0 * step <= *report.codeStepDn))
+  if (step >= 4.0 * *report.quantisationStepDn || (step > 0 && 2.0 * step <= *report.quantisationStepDn))
   {
     Refuse(image,
            "its digital numbers are multiples of " + std::to_string(step) + ", the report's of " +
-             Text(*report.codeStepDn),
+             Text(*report.quantisationStepDn),
            report);
   }
 }
@@ -150,7 +150,7 @@ RequireScale(const std::vector<TPixel> & levels, const NoiseModelFile & report, 
   }
   else
   {
-    RequireCodeStep(levels, report, image);
+    RequireGreyValueStep(levels, report, image);
   }
   const double median = Median(levels);
   if (RequireMedian(median, report, image) > DoubtfulSignal)

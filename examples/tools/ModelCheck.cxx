@@ -79,8 +79,8 @@ JsonOf(const std::optional<NoiseModelCheck> & check)
   return text;
 }
 
-/** Adds the checks to a report in JSON: one as the member \a name, several as the list of this name in the plural,
- * each with its channel. */
+/** Adds the checks to a report: one as the member \a name, several as the list of this name in the plural, each with
+ * its channel. */
 void
 AddChecks(const std::string & name, const ModelChecks & checks, std::string & text)
 {

@@ -42,7 +42,7 @@ ValueIn(const json & record, const char * name, const std::string & file)
 void
 ReadLevels(const json & record, NoiseModelFile & file)
 {
-  file.codeStepDn = NumberIn(record, "quantisation_step");
+  file.quantisationStepDn = NumberIn(record, "quantisation_step");
   file.clipLowDn = NumberIn(record, "clip_low");
   file.clipHighDn = NumberIn(record, "clip_high");
   const auto scatter = record.find("scatter");

@@ -16,11 +16,11 @@ struct NoiseModelFile
 {
   std::string           name;
   NoiseModel            model;
-  std::optional<double> codeStepDn; ///< quantization step [DN]; none for floating-point frames
-  std::optional<double> clipLowDn;  ///< lowest level that the sensor attains [DN]
-  std::optional<double> clipHighDn; ///< highest level that the sensor attains [DN]
-  std::optional<double> lowestDn;   ///< lowest mean level of an intensity bin of the report [DN]
-  std::optional<double> highestDn;  ///< highest mean level of an intensity bin of the report [DN]
+  std::optional<double> quantisationStepDn; ///< quantization step [DN]; none for floating-point frames
+  std::optional<double> clipLowDn;          ///< lowest level that the sensor attains [DN]
+  std::optional<double> clipHighDn;         ///< highest level that the sensor attains [DN]
+  std::optional<double> lowestDn;           ///< lowest mean level of an intensity bin of the report [DN]
+  std::optional<double> highestDn;          ///< highest mean level of an intensity bin of the report [DN]
 
   /** Returns the level at which the variance of the model is zero [DN]. */
   double

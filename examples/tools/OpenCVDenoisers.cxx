@@ -21,7 +21,7 @@ namespace
 {
 /** Grey values per standard deviation of the noise, for the 16-bit filters of OpenCV. There are fewer if the range
  * of the frame exceeds 16 bits. At 256, rounding adds less than a thousandth to the variance of the noise. */
-constexpr double CodesPerSigma = 256.0;
+constexpr double GreyValuesPerSigma = 256.0;
 
 /** Filter strength h of cv::fastNlMeansDenoising with NORM_L1 for noise of variance 1. The weights are
  * exp(-(d/h)^2), where d is the mean absolute difference of two patches. Noise alone gives d = 2 / sqrt(pi) = 1.13.
@@ -33,44 +33,45 @@ constexpr int    PatchPixels = 3;
 constexpr int    SearchPixels = 21; // OpenCV's default
 
 /** Frame as 16-bit grey values, with the conversion back. */
-class CodedFrame
+class GreyValueFrame
 {
 public:
-  explicit CodedFrame(const RealFrame & frame)
-    : m_Codes(static_cast<int>(frame.height), static_cast<int>(frame.width), CV_16UC1)
+  explicit GreyValueFrame(const RealFrame & frame)
+    : m_GreyValues(static_cast<int>(frame.height), static_cast<int>(frame.width), CV_16UC1)
   {
     const auto ends = std::minmax_element(frame.pixels.begin(), frame.pixels.end());
     m_Lowest = *ends.first;
     const double     range = static_cast<double>(*ends.second) - m_Lowest;
     constexpr double most = std::numeric_limits<std::uint16_t>::max();
-    m_CodesPerSigma = range * CodesPerSigma > most ? most / range : CodesPerSigma;
-    std::transform(frame.pixels.begin(), frame.pixels.end(), m_Codes.begin<std::uint16_t>(), [this](float value) {
-      return static_cast<std::uint16_t>(std::lround((static_cast<double>(value) - m_Lowest) * m_CodesPerSigma));
+    m_GreyValuesPerSigma = range * GreyValuesPerSigma > most ? most / range : GreyValuesPerSigma;
+    std::transform(frame.pixels.begin(), frame.pixels.end(), m_GreyValues.begin<std::uint16_t>(), [this](float value) {
+      return static_cast<std::uint16_t>(std::lround((static_cast<double>(value) - m_Lowest) * m_GreyValuesPerSigma));
     });
   }
 
   double
-  GetCodesPerSigma() const
+  GetGreyValuesPerSigma() const
   {
-    return m_CodesPerSigma;
+    return m_GreyValuesPerSigma;
   }
   const cv::Mat &
-  GetCodes() const
+  GetGreyValues() const
   {
-    return m_Codes;
+    return m_GreyValues;
   }
   void
-  Decode(const cv::Mat & codes, RealFrame & frame) const
+  Decode(const cv::Mat & greyValues, RealFrame & frame) const
   {
-    std::transform(codes.begin<std::uint16_t>(), codes.end<std::uint16_t>(), frame.pixels.begin(), [this](auto code) {
-      return static_cast<float>(m_Lowest + code / m_CodesPerSigma);
-    });
+    std::transform(greyValues.begin<std::uint16_t>(),
+                   greyValues.end<std::uint16_t>(),
+                   frame.pixels.begin(),
+                   [this](auto greyValue) { return static_cast<float>(m_Lowest + greyValue / m_GreyValuesPerSigma); });
   }
 
 private:
-  cv::Mat m_Codes;
+  cv::Mat m_GreyValues;
   double  m_Lowest{ 0.0 };
-  double  m_CodesPerSigma{ CodesPerSigma };
+  double  m_GreyValuesPerSigma{ GreyValuesPerSigma };
 };
 
 void
@@ -86,11 +87,11 @@ SetThreads(unsigned int threads)
 void
 BlockMatching(RealFrame & frame, double strength)
 {
-  const CodedFrame coded(frame);
-  const auto       sigma = static_cast<float>(strength * coded.GetCodesPerSigma());
-  cv::Mat          clean;
-  cv::xphoto::bm3dDenoising(coded.GetCodes(), clean, sigma, 4, 16, 2500, 400, 8, 1, 2.0F, cv::NORM_L1);
-  coded.Decode(clean, frame);
+  const GreyValueFrame greyFrame(frame);
+  const auto           sigma = static_cast<float>(strength * greyFrame.GetGreyValuesPerSigma());
+  cv::Mat              clean;
+  cv::xphoto::bm3dDenoising(greyFrame.GetGreyValues(), clean, sigma, 4, 16, 2500, 400, 8, 1, 2.0F, cv::NORM_L1);
+  greyFrame.Decode(clean, frame);
 }
 
 /** Applies a denoiser to a uniform frame with noise of variance 1. Returns the variance of the result. */
@@ -124,11 +125,12 @@ MakeNonLocalMeans(double strength, unsigned int threads)
 {
   SetThreads(threads);
   return [strength](RealFrame & frame) {
-    const CodedFrame coded(frame);
-    const auto       h = static_cast<float>(strength * NonLocalMeansStrength * coded.GetCodesPerSigma());
-    cv::Mat          clean;
-    cv::fastNlMeansDenoising(coded.GetCodes(), clean, std::vector<float>{ h }, PatchPixels, SearchPixels, cv::NORM_L1);
-    coded.Decode(clean, frame);
+    const GreyValueFrame greyFrame(frame);
+    const auto           h = static_cast<float>(strength * NonLocalMeansStrength * greyFrame.GetGreyValuesPerSigma());
+    cv::Mat              clean;
+    cv::fastNlMeansDenoising(
+      greyFrame.GetGreyValues(), clean, std::vector<float>{ h }, PatchPixels, SearchPixels, cv::NORM_L1);
+    greyFrame.Decode(clean, frame);
   };
 }
 

@@ -29,16 +29,20 @@ SimulateFlawOptions::AddTo(CLI::App & app)
     ->check(CLI::IsMember({ "none", "RGGB", "GRBG", "GBRG", "BGGR" }))
     ->group(SensorGroup);
   app
-    .add_option(
-      "--transmission", transmission, "R,G,B: what each filter lets through of the scene's electrons; 0.6,1,0.5")
+    .add_option("--transmission",
+                transmission,
+                "R,G,B: transmission of each filter, relative to the electrons of the scene; 0.6,1,0.5")
     ->delimiter(',')
     ->expected(3)
     ->default_str("")
     ->group(SensorGroup);
   add("--prnu", prnu, "Relative standard deviation of the pixels' efficiency", SensorGroup);
   add("--dsnu", dsnu, "Standard deviation of the pixels' offset [DN]", SensorGroup);
-  AddPair(
-    app, "--hot-pixels", hotPixels, "FRACTION,FACTOR: so many pixels with so many times the read noise", SensorGroup);
+  AddPair(app,
+          "--hot-pixels",
+          hotPixels,
+          "FRACTION,FACTOR: fraction of hot pixels, and the factor of their read noise",
+          SensorGroup);
   add("--gain-pattern", gainPattern, "Relative standard deviation of the pixels' gain", SensorGroup);
   add("--column-gain-pattern", columnGainPattern, "Relative standard deviation of the columns' gain", SensorGroup);
   add("--column-efficiency-pattern",
@@ -58,7 +62,7 @@ SimulateFlawOptions::AddTo(CLI::App & app)
   AddPair(app,
           "--read-noise-tail",
           readNoiseTail,
-          "FRACTION,SPREAD: in so many pixels the logarithm is greater by |normal| times SPREAD",
+          "FRACTION,SPREAD: fraction of pixels whose logarithm is greater by |normal| times SPREAD",
           SensorGroup);
   app
     .add_option("--response",
@@ -67,30 +71,45 @@ SimulateFlawOptions::AddTo(CLI::App & app)
                 "s-curve and its weight; straight,0")
     ->delimiter(',')
     ->group(SensorGroup);
-  add("--row-noise", rowNoise, "Standard deviation of what the pixels of a row share in a frame [DN]", SensorGroup);
-  add("--column-noise", columnNoise, "The same of a column [DN]", SensorGroup);
-  AddPair(app, "--banding", banding, "AMPLITUDE,PERIOD of a sine along y [DN], [rows]; phase anew", SensorGroup);
-  app.add_flag("--dark", isDark, "The shutter is closed: the same sensor and patterns, other noise")
+  add("--row-noise",
+      rowNoise,
+      "Standard deviation of the noise common to the pixels of a row in a frame [DN]",
+      SensorGroup);
+  add("--column-noise",
+      columnNoise,
+      "Standard deviation of the noise common to the pixels of a column in a frame [DN]",
+      SensorGroup);
+  AddPair(app,
+          "--banding",
+          banding,
+          "AMPLITUDE,PERIOD of a sine along y [DN], [rows], with another phase in each frame",
+          SensorGroup);
+  app.add_flag("--dark", isDark, "Frames with the shutter closed: the same sensor and fixed pattern, other noise")
     ->group(SensorGroup);
+  this->AddProcessingTo(app);
+}
 
+void
+SimulateFlawOptions::AddProcessingTo(CLI::App & app)
+{
+  const auto add = [&app](const char * name, auto & value, const char * help) {
+    app.add_option(name, value, help)->group(CameraGroup);
+  };
   add("--defect-correction",
       defectCorrection,
-      "A pixel so many standard deviations of its neighbours off becomes their median; 0: none",
-      CameraGroup);
-  add("--temporal-filter", temporalFilter, "Weight of the last frame in each frame; 0: none", CameraGroup);
-  add("--median", median, "Radius of a median filter [pixels], 1: 3 x 3; 0: none", CameraGroup);
-  add("--smoothing", smoothing, "Standard deviation of a Gaussian filter [pixels]; 0: none", CameraGroup);
-  add("--binning", binning, "Means of squares of so many pixels, in the old size; 1: none", CameraGroup);
-  add("--binning-interpolation", binningInterpolation, "Between the squares: nearest or linear", CameraGroup);
+      "Deviation from the neighbours, in their standard deviations, from which a pixel becomes their median; 0: none");
+  add("--temporal-filter", temporalFilter, "Weight of the last frame in each frame; 0: none");
+  add("--median", median, "Radius of a median filter [pixels], 1: 3 x 3; 0: none");
+  add("--smoothing", smoothing, "Standard deviation of a Gaussian filter [pixels]; 0: none");
+  add(
+    "--binning", binning, "Side of the square tiles whose pixels become their mean, at the old size [pixels]; 1: none");
+  add("--binning-interpolation", binningInterpolation, "Interpolation between the tiles: nearest or linear");
   AddPair(app, "--resampling", resampling, "X,Y: shift by interpolation [pixels]", CameraGroup);
-  add("--resampling-interpolation", resamplingInterpolation, "linear or cubic", CameraGroup);
-  add("--block-quality",
-      blockQuality,
-      "JPEG-like quantisation of 8 x 8 pixels: libjpeg's quality, 1 to 100; 0: none",
-      CameraGroup);
-  add("--companding", companding, "Bits of the square-root quantization that is expanded again; 0: none", CameraGroup);
-  add("--repeat", repeat, "How often each exposure is written", CameraGroup);
-  add("--repeat-period", repeatPeriod, "Of so many exposures the last one alone is repeated", CameraGroup);
+  add("--resampling-interpolation", resamplingInterpolation, "linear or cubic");
+  add("--block-quality", blockQuality, "JPEG-like quantization of 8 x 8 pixels: libjpeg's quality, 1 to 100; 0: none");
+  add("--companding", companding, "Bits of the square-root quantization that is expanded again; 0: none");
+  add("--repeat", repeat, "Number of times that each exposure is written");
+  add("--repeat-period", repeatPeriod, "Number of exposures in a period, whose last one alone is repeated");
 }
 
 } // namespace sensornoise::tools

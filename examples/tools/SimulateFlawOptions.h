@@ -54,6 +54,10 @@ struct SimulateFlawOptions
   void
   AddTo(CLI::App & app);
 
+  /** Adds the options of the processing in the camera. AddTo() calls it. */
+  void
+  AddProcessingTo(CLI::App & app);
+
   /** Sets the options of an itk::SensorNoiseStackSource. */
   template <typename TSource>
   void

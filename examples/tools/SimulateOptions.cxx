@@ -27,31 +27,33 @@ SimulateOptions::Parse(int argc, char ** argv)
   app.add_option("--reference", reference, "Scene: target, bars, texture, flat, or a grey image file");
   app.add_option("--size", size, "Width x height of the scene, as 512x512 (the default)");
   app.add_option("--camera", camera, "Camera of the paper's Table 1: A, B or C");
-  app.add_option("--gain", gain, "Gain instead of the camera's [DN/e-]");
-  app.add_option("--offset", offset, "Offset instead of the camera's [DN]");
-  app.add_option("--read-noise", readNoise, "Read noise instead of the camera's [DN]");
-  app.add_option("--electrons", electrons, "Electrons of the brightest pixel instead of the camera's");
-  app.add_option("--condition", condition, "Light and floor of the paper's Table 1: 1, 2 or 3");
-  app.add_option("--flicker-sd", flickerSd, "Standard deviation of the flicker instead of the condition's");
+  app.add_option("--gain", gain, "System gain instead of the gain of the camera [DN/e-]");
+  app.add_option("--offset", offset, "Dark offset instead of the offset of the camera [DN]");
+  app.add_option("--read-noise", readNoise, "Read noise instead of the read noise of the camera [DN]");
+  app.add_option("--electrons", electrons, "Electrons of the brightest pixel instead of the electrons of the camera");
+  app.add_option("--condition", condition, "Illumination and vibration of the paper's Table 1: 1, 2 or 3");
+  app.add_option(
+    "--flicker-sd", flickerSd, "Standard deviation of the flicker instead of the flicker of the condition");
   app.add_option(
     "--illumination",
     illumination,
     "Illumination factor of the frames: steady, pulses, ramp, decay, sine, uniform or exponential, then the "
     "lowest factor and the period in frames (pulses:0.3:4); or a text file with one factor a frame");
   app
-    .add_option(
-      "--vibration-sd", vibrationSd, "Standard deviations X,Y of the shifts instead of the condition's [pixel]")
+    .add_option("--vibration-sd",
+                vibrationSd,
+                "Standard deviations X,Y of the shifts instead of the vibration of the condition [pixel]")
     ->delimiter(',')
     ->expected(2)
     ->default_str("");
-  app.add_option(
-    "--optical-blur", opticalBlur, "Standard deviation of a blur of the light, before the photons [pixels]");
+  app.add_option("--optical-blur", opticalBlur, "Standard deviation of the Gaussian optical blur [pixels]");
   app.add_option("--rolling-shutter",
                  rollingShutterPeriod,
                  "Period of pulsed illumination in rows of a rolling shutter; 0: the whole frame flickers");
   app.add_option("--frames", frames, "Number of frames");
-  app.add_option("--bit-depth", bitDepth, "Bits of the converter, at most 16; 0: no clipping below 65535");
-  app.add_option("--clip", clip, "Levels LOW,HIGH between which the sensor itself is limited [DN]")
+  app.add_option(
+    "--bit-depth", bitDepth, "Bits of the analogue-to-digital converter, at most 16; 0: no clipping below 65535");
+  app.add_option("--clip", clip, "LOW,HIGH: lowest and highest level that the sensor attains [DN]")
     ->delimiter(',')
     ->expected(2)
     ->default_str("");

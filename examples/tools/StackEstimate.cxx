@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/StackEstimate.h"
 
-#include "files/FrameSizes.h"
+#include "files/FrameReader.h"
 #include "tools/CompanionFiles.h"
 #include "tools/EstimateOptions.h"
 #include "tools/FilesHash.h"
@@ -11,8 +11,8 @@
 #include "tools/SvgAsPng.h"
 #include "base/FreeMemory.h"
 #include "sensornoise/ReportPage.h"
-#include "report/StackSettings.h"
-#include "refined/MemoryNeed.h"
+#include "report/StackReport.h"
+#include "refined/PixelProjections.h"
 #include "itkCommand.h"
 #include "itkExtractImageFilter.h"
 #include "itkSensorNoiseEstimator.h"

@@ -42,7 +42,8 @@ OpenFirst(const std::string & file, const EstimateOptions & options)
   return OpenFrames({ file }, {}, options.raw, options.choice);
 }
 
-/** Fills in the files of a burst, and the ISO speed that the first one records. What is wrong becomes its reason. */
+/** Fills in the files of a burst, and the ISO speed that the first one records. A failure becomes the reason of the
+ * burst. */
 void
 FillBurst(const std::vector<std::string> & frames,
           const std::vector<std::string> & dark,

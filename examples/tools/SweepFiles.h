@@ -20,10 +20,10 @@ struct SweepBurst
   std::vector<std::string> files;
   std::vector<std::string> dark;    ///< dark frames at the same setting; empty: none
   std::optional<double>    setting; ///< ISO speed, gain as a factor, or exposure [s]; none: not known
-  std::string              reason;  ///< why it cannot be measured; "": it can
+  std::string              reason;  ///< reason why it cannot be measured; "": it can be measured
 };
 
-/** The bursts of a camera, by their setting; those without one are the last. */
+/** Bursts of a camera in the order of their settings. Bursts without a setting are last. */
 struct SweepPlan
 {
   SettingKind             kind{ SettingKind::Iso };

@@ -83,7 +83,7 @@ IsSameInput(const InputFiles & files, const nlohmann::json & stored)
          HasMember(stored, "files", files.files) && HasMember(stored, "bytes", files.bytes);
 }
 
-/** Returns whether a stored report was made of these files. Reads them once. */
+/** Returns whether a stored report is from these files. Reads them once. */
 bool
 IsOfFiles(const nlohmann::json & report, const EstimateOptions & one, const FrameList & list)
 {

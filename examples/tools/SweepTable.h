@@ -16,7 +16,7 @@ struct SweepTableRow
 {
   NamedSetting setting;
   std::string  frames; ///< file, folder or pattern
-  std::string  dark;   ///< the same; "": none
+  std::string  dark;   ///< dark frames: file, folder or pattern; "": none
 };
 
 /** Reads the table of --sweep: a header with the columns iso, gain, gain_db, exposure or exposure_ms, frames and, if

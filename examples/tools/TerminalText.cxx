@@ -28,12 +28,25 @@ IsUtf8()
   }
   return false;
 }
+
+/** Returns the text, in ASCII if \a descriptor is a terminal whose character set is not UTF-8. */
+std::string
+ForStream(int descriptor, const std::string & text)
+{
+  return isatty(descriptor) != 0 && !IsUtf8() ? WithoutSigns(text) : text;
+}
 } // namespace
 
 std::string
 ForStandardOutput(const std::string & text)
 {
-  return isatty(STDOUT_FILENO) != 0 && !IsUtf8() ? WithoutSigns(text) : text;
+  return ForStream(STDOUT_FILENO, text);
+}
+
+std::string
+ForStandardError(const std::string & text)
+{
+  return ForStream(STDERR_FILENO, text);
 }
 
 } // namespace sensornoise::tools

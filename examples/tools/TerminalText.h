@@ -13,6 +13,10 @@ namespace sensornoise::tools
 std::string
 ForStandardOutput(const std::string & text);
 
+/** Returns the text as standard error can show it, by the rule of ForStandardOutput(). */
+std::string
+ForStandardError(const std::string & text);
+
 } // namespace sensornoise::tools
 
 #endif

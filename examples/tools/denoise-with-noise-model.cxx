@@ -10,6 +10,7 @@
 #include "tools/FilesInUse.h"
 #include "tools/NoiseModelFile.h"
 #include "tools/ReportFile.h"
+#include "tools/TerminalText.h"
 #include "tools/ItkThreads.h"
 
 #include <exception>
@@ -108,12 +109,12 @@ main(int argc, char * argv[])
   }
   catch (const UnfitReport & error)
   {
-    std::cerr << "error: " << SentenceOf(error) << '\n';
+    std::cerr << "error: " << ForStandardError(SentenceOf(error)) << '\n';
     return ExitUnfitReport;
   }
   catch (const std::exception & error)
   {
-    std::cerr << "error: " << SentenceOf(error) << '\n';
+    std::cerr << "error: " << ForStandardError(SentenceOf(error)) << '\n';
   }
   return ExitWrongUse;
 }

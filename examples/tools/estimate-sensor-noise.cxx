@@ -150,7 +150,7 @@ PrintWarnings(const MeasuredStack & measured)
   const auto warnings = channels != nullptr ? WarningsOf(*channels) : std::get<sensornoise::Report>(measured).warnings;
   for (const sensornoise::Warning & warning : warnings)
   {
-    std::cerr << sensornoise::TextOf(warning);
+    std::cerr << ForStandardError(sensornoise::TextOf(warning));
   }
 }
 
@@ -308,7 +308,7 @@ main(int argc, char * argv[])
   }
   catch (const std::exception & error)
   {
-    std::cerr << "error: " << SentenceOf(error) << '\n';
+    std::cerr << "error: " << ForStandardError(SentenceOf(error)) << '\n';
   }
   return ExitWrongUse;
 }

@@ -11,6 +11,7 @@
 #include "tools/PendingFile.h"
 #include "tools/ReportFile.h"
 #include "tools/StoredReportFile.h"
+#include "tools/TerminalText.h"
 
 #include <algorithm>
 #include <deque>
@@ -154,7 +155,7 @@ Run(const ExportOptions & options)
   }
   if (!made.note.empty())
   {
-    std::cerr << "note: " << made.note << '\n';
+    std::cerr << "note: " << ForStandardError(made.note) << '\n';
   }
 }
 } // namespace
@@ -174,17 +175,17 @@ main(int argc, char * argv[])
   }
   catch (const UnfitReport & error)
   {
-    std::cerr << "error: " << SentenceOf(error) << '\n';
+    std::cerr << "error: " << ForStandardError(SentenceOf(error)) << '\n';
     return ExitUnfitReport;
   }
   catch (const sensornoise::ExportError & error)
   {
-    std::cerr << "error: " << SentenceOf(error) << '\n';
+    std::cerr << "error: " << ForStandardError(SentenceOf(error)) << '\n';
     return ExitUnfitReport;
   }
   catch (const std::exception & error)
   {
-    std::cerr << "error: " << SentenceOf(error) << '\n';
+    std::cerr << "error: " << ForStandardError(SentenceOf(error)) << '\n';
   }
   return ExitWrongUse;
 }

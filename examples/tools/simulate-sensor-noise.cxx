@@ -6,7 +6,7 @@
 #include "base/FreeMemory.h"
 #include "sensornoise/SimulationSettings.h"
 #include "sensornoise/FrameFile.h"
-#include "simulation/CollectedCharge.h"
+#include "simulation/SimulatedSensor.h"
 #include "tools/ErrorSentence.h"
 #include "tools/FilesInUse.h"
 #include "tools/ImageOnFile.h"

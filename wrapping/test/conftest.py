@@ -49,7 +49,7 @@ def pixel(request) -> str:
 
 
 @pytest.fixture(scope="session")
-def codes() -> np.ndarray:
+def grey_values() -> np.ndarray:
     """Returns a stack (40, 64, 96) whose grey values fit every pixel type [DN]."""
     stack, _ = itk.simulate_sensor_noise(
         frames=40, size=(96, 64), dtype="uint8", gain=0.07, offset=12, read_noise=1.2, seed=3
@@ -58,9 +58,9 @@ def codes() -> np.ndarray:
 
 
 @pytest.fixture
-def stack(codes, pixel) -> np.ndarray:
+def stack(grey_values, pixel) -> np.ndarray:
     """Returns the same grey values in each pixel type."""
-    return codes.astype(pixel)
+    return grey_values.astype(pixel)
 
 
 @pytest.fixture(scope="session")

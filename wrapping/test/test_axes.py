@@ -74,9 +74,9 @@ def test_any_layout_gives_the_same_report(burst, layout):
         np.testing.assert_array_equal(laid_out, before)
 
 
-def test_pixel_types_that_hold_the_same_codes_agree(stack, codes, pixel):
+def test_pixel_types_that_hold_the_same_grey_values_agree(stack, grey_values, pixel):
     report = itk.estimate_sensor_noise(stack, rolling_shutter="off", clip=(0, 255), step=1)
-    expected = itk.estimate_sensor_noise(codes, rolling_shutter="off", clip=(0, 255), step=1)
+    expected = itk.estimate_sensor_noise(grey_values, rolling_shutter="off", clip=(0, 255), step=1)
     assert report["pixels"] == expected["pixels"]
     # With integers the sums are in another order: errors far below 1e-9. Means of floating-point numbers differ in
     # their last bits, so that pixels at the limits of a set may change sides. The limit 1e-4 is a fortieth of the

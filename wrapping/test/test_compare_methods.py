@@ -93,6 +93,21 @@ def test_quick_measures_one_setting_of_each_kind(tmp_path):
     assert text == "processor time: 10 s (simulation 60 %, methods of this project 30 %, other programs 10 %)"
 
 
+def test_rms_errors_have_two_digits():
+    from compare_methods import rms_cell
+    from compare_rows import Estimate, Row
+    from compare_settings import paper_settings
+
+    setting = next(paper_settings(None, None))
+    cells = []
+    for error in (0.0007, 0.02, 0.07, 0.143, 14.33, None):
+        found = {} if error is None else {"gain": Estimate(setting.truth.gain * (1 + error), None)}
+        measured = [(setting, [Row("one", "burst", found, 0.1)], [])]
+        cells.append(rms_cell(measured, "one", "paper", "target"))
+    assert cells == [f"{text} (1 of 1)" for text in ("0.070", "2.0", "7.0", "14", "1433")] + ["– (0 of 1)"]
+    assert rms_cell(measured, "other", "paper", "target") == "–"
+
+
 def test_dark_noise_of_emva_1288_is_in_electrons():
     from compare_rows import Estimate, emva_estimates
 

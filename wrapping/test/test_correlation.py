@@ -123,13 +123,13 @@ def test_class_style(smooth, pixel):
 
 def test_a_sum_that_fails_is_not_a_number_in_class_style():
     """Flicker and vibration of the scene are not taken out here. They correlate pixels as no linear filter does."""
-    codes, _ = itk.simulate_sensor_noise(
+    grey_values, _ = itk.simulate_sensor_noise(
         frames=40, size=(96, 64), dtype="uint8", gain=0.07, offset=12, read_noise=1.2, seed=4
     )
-    found = itk.NoiseCorrelationEstimator[itk.Image[itk.UC, 3]].New(itk.image_view_from_array(codes), offset=12.0)
+    found = itk.NoiseCorrelationEstimator[itk.Image[itk.UC, 3]].New(itk.image_view_from_array(grey_values), offset=12.0)
     found.Update()
     assert found.GetKind() == "not-linear" and np.isnan(found.GetSumOverLags())
-    assert itk.noise_correlation_estimator(codes, offset=12).sum_over_lags is None
+    assert itk.noise_correlation_estimator(grey_values, offset=12).sum_over_lags is None
 
 
 def test_the_report_has_the_same_record(burst):

@@ -89,8 +89,8 @@ def test_psnr_rises(scene, denoiser, least):
     assert psnr_gain(noisy, clean, truth) > least
 
 
-def test_types_images_and_stacks(codes, pixel):
-    stack = codes[:3].astype(pixel)
+def test_types_images_and_stacks(grey_values, pixel):
+    stack = grey_values[:3].astype(pixel)
     model = {"variance_slope": 0.07, "total_intercept": 1.44 - 0.84 + 1 / 12}
     clean = itk.denoise_with_noise_model(stack, None, box, **model)
     assert clean.shape == stack.shape and clean.dtype == stack.dtype

@@ -31,8 +31,8 @@ def client(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def stack(codes):
-    return codes.astype(np.uint16)
+def stack(grey_values):
+    return grey_values.astype(np.uint16)
 
 
 @pytest.fixture(scope="module")

@@ -23,8 +23,8 @@ MIB = 1 << 20
 
 
 @pytest.fixture(scope="module")
-def stack(codes):
-    return codes.astype(np.uint16)
+def stack(grey_values):
+    return grey_values.astype(np.uint16)
 
 
 def cluster_of(**options):

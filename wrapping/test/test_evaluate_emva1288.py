@@ -12,7 +12,7 @@ import pytest
 
 GAIN, OFFSET, DARK_NOISE = 0.5, 60.0, 6.0  # [DN/e-], [DN], [e-]
 SATURATION = 4095  # [DN]
-ELECTRONS = 8600.0  # of the exposure 1 [e-]: 4360 DN
+ELECTRONS = 8600.0  # signal at the exposure 1 [e-]: 4360 DN
 EXPOSURES = [0.1 * level for level in range(1, 11)]
 SIZE = (48, 64)  # rows, columns [pixel]
 

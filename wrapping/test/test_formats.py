@@ -111,7 +111,7 @@ def test_tiff_is_read_as_it_is_stored(burst, expected, tmp_path):
     ("compression", "predictor"), [(None, None), ("zlib", None), ("zlib", 2), ("lzw", None), ("lzw", 2)]
 )
 def test_tiff_of_tiles(burst, expected, tmp_path, tile, compression, predictor):
-    """The tiles are those of another writer, tifffile."""
+    """Tiles that tifffile, another writer, makes are read."""
     tifffile = pytest.importorskip("tifffile")
     if compression is not None:
         pytest.importorskip("imagecodecs")  # tifffile compresses with it

@@ -17,21 +17,21 @@ from frame_stacks import LONG, RATIONAL, SHORT
 from frame_stacks import write_dng as write_dng_of
 
 
-def write_dng(name, codes, cfa=(0, 1, 1, 2), black=100, white=4095):
-    """Writes a DNG of a camera that records 1/50 s at ISO 400."""
-    exif = [(33434, RATIONAL, [1, 50]), (34855, SHORT, [400])]
-    write_dng_of(name, codes, black, white, cfa, b"Model 5", exif=exif)
+def write_dng(name, grey_values, cfa=(0, 1, 1, 2), black=100, white=4095, exposure=(1, 50)):
+    """Writes a DNG of a camera that records an exposure [s], by default of 1/50 s, at ISO 400."""
+    exif = [(33434, RATIONAL, list(exposure)), (34855, SHORT, [400])]
+    write_dng_of(name, grey_values, black, white, cfa, b"Model 5", exif=exif)
 
 
 @pytest.fixture
 def names(burst, tmp_path):
     names = [tmp_path / f"a{number}.dng" for number in range(12)]
-    for name, codes in zip(names, burst, strict=False):
-        write_dng(name, codes)
+    for name, grey_values in zip(names, burst, strict=False):
+        write_dng(name, grey_values)
     return names
 
 
-def test_codes_are_those_of_the_file(burst, names):
+def test_grey_values_equal_the_file(burst, names):
     mono = {"bayer": "none"}  # the files wrongly say RGGB
     expected = itk.estimate_sensor_noise(burst[:12], **mono)
 
@@ -55,9 +55,17 @@ def test_metadata_are_what_the_file_says(burst, tmp_path, pattern):
         "black_levels": [128.0] * 4,
         "white_level": 4000.0,
         "iso_speed": 400.0,
-        "exposure_seconds": pytest.approx(0.02),
+        "exposure_seconds": 0.02,  # LibRaw has 0.01999999955
         "camera": "Maker Model 5",
     }
+
+
+@pytest.mark.parametrize(
+    ("exposure", "seconds"), [((1, 100), 0.01), ((1, 8000), 0.000125), ((1, 60), 0.016666668), ((30, 1), 30.0)]
+)
+def test_exposures_are_the_shortest_decimals_of_single_precision(burst, tmp_path, exposure, seconds):
+    write_dng(tmp_path / "a.dng", burst[0], exposure=exposure)
+    assert itk_sensornoise.raw_metadata(tmp_path / "a.dng")["exposure_seconds"] == seconds
 
 
 def refused(names):
@@ -81,7 +89,7 @@ def test_truncated_raw_file_is_refused(names):
     assert refused(names).startswith(f"{names[3]}: ")
 
 
-def test_missing_codes_are_reported(names):
+def test_missing_grey_values_are_reported(names):
     whole = names[3].read_bytes()
     names[3].write_bytes(whole.replace(struct.pack("<HHIH", 259, SHORT, 1, 1), struct.pack("<HHIH", 259, SHORT, 1, 7)))
     assert names[3].read_bytes() != whole

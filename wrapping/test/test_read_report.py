@@ -36,6 +36,8 @@ KINDS = {
     "mixed frames": lambda: sn.estimate_sensor_noise(simulated(temporal_filter=0.4)),
     "floating point": lambda: sn.estimate_sensor_noise(simulated().astype(np.float32)),
     "exposures": ramp_of_exposures,
+    "single image": lambda: sn.estimate_sensor_noise(simulated(size=(256, 192))[:1], method="single-image"),
+    "single images": lambda: sn.estimate_sensor_noise(simulated(size=(256, 192))[:4], method="single-image"),
 }
 
 

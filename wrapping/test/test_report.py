@@ -191,8 +191,8 @@ def test_plot_dashes_the_line_where_the_gain_is_not_identified():
     from matplotlib.figure import Figure
 
     stack, _ = itk.simulate_sensor_noise(frames=40, size=(128, 96), offset=300, seed=5)
-    codes = np.clip(4095 * (np.clip(stack - 300.0, 0, None) / 3795) ** 0.45, 20, None)
-    report = itk.estimate_sensor_noise(np.rint(codes).astype(np.uint16))
+    grey_values = np.clip(4095 * (np.clip(stack - 300.0, 0, None) / 3795) ** 0.45, 20, None)
+    report = itk.estimate_sensor_noise(np.rint(grey_values).astype(np.uint16))
     assert "variance-not-affine" in [warning["code"] for warning in report["warnings"]]
     assert report["gain"]["value"] is None
     axes = Figure().subplots()
@@ -204,7 +204,7 @@ def test_plot_dashes_the_line_where_the_gain_is_not_identified():
     expected = fit["line"]["gain"] * np.array(line.get_xdata()) + fit["line"]["intercept"]
     np.testing.assert_allclose(line.get_ydata(), expected)
     title = axes.get_legend().get_title().get_text()
-    assert title == f"the response bends: variance off its line by up to {100 * fit['nonlinearity']:.2g} %"
+    assert title == f"the response is non-linear: variance off its line by up to {100 * fit['nonlinearity']:.2g} %"
     assert f"indicative: variance = {fit['line']['gain']:.5g} mean" in str(report)
 
 

@@ -104,3 +104,32 @@ def test_a_situation_is_measured(tmp_path):
     assert not stack["refused"]
     assert stack["wrong"] == []
     assert (stack["named"], stack["unlike"], stack["named_falsely"]) == (1, 1, 0)
+
+
+def test_without_the_gains_of_parts_quadrants_are_not_noticed(capsys):
+    programs = os.environ.get("SENSORNOISE_BIN")
+    if not programs or not Path(programs, "measure-varied-stack").exists():
+        pytest.skip("needs measure-varied-stack: SENSORNOISE_BIN, and SensorNoise_BUILD_INFLUENCE=ON")
+    import study_ablation
+
+    chosen = ["--bin", programs, "--lines", "parts/quadrants-2", "--mechanism", "gains of parts"]
+    assert study_ablation.main(chosen) == 0
+    title, _, *rows = capsys.readouterr().out.splitlines()
+    assert title.startswith("3 of 3 bursts")
+    cells = rows[-1].split(" | ")
+    assert cells[0] == "| gains of parts"
+    assert cells[2] == "3"  # reports that change
+    with pytest.raises(SystemExit):
+        study_ablation.main([*chosen, "--mechanism", "none of them"])
+
+
+def test_constants_that_switch_a_mechanism_off_exist():
+    programs = os.environ.get("SENSORNOISE_BIN")
+    if not programs or not Path(programs, "measure-varied-cases").exists():
+        pytest.skip("needs measure-varied-cases: SENSORNOISE_BIN, and SensorNoise_BUILD_INFLUENCE=ON")
+    from study_ablation import MECHANISMS
+    from study_influence import constants_of
+
+    names = {name for mechanism in MECHANISMS for name in mechanism.off}
+    assert set(constants_of(Path(programs, "measure-varied-cases"), names)) == names
+    assert len({mechanism.name for mechanism in MECHANISMS}) == len(MECHANISMS)

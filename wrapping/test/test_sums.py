@@ -37,8 +37,8 @@ def measure_in_parts(stack, parts, order=1, **settings):
 
 @pytest.mark.parametrize("count", range(1, 8))
 @pytest.mark.parametrize("cut", [runs_of, in_turn])
-def test_parts_of_integers_give_the_bits_of_the_whole(codes, count, cut):
-    stack = codes.astype(np.uint16)
+def test_parts_of_integers_give_the_bits_of_the_whole(grey_values, count, cut):
+    stack = grey_values.astype(np.uint16)
     expected = itk.estimate_sensor_noise(stack, maps=True)
     report = measure_in_parts(stack, cut(len(stack), count), bayer="none").report(maps=True)
     assert report.to_json() == expected.to_json() and str(report) == str(expected)
@@ -47,8 +47,8 @@ def test_parts_of_integers_give_the_bits_of_the_whole(codes, count, cut):
 
 
 @pytest.mark.parametrize("method", ["refined", "published"])
-def test_frames_unlike_the_others_are_left_out_by_all(codes, method):
-    stack = codes.astype(np.uint16)
+def test_frames_unlike_the_others_are_left_out_by_all(grey_values, method):
+    stack = grey_values.astype(np.uint16)
     stack[4], stack[30] = 0, 60  # frames without noise
     expected = itk.estimate_sensor_noise(stack, method=method, bayer="none")
     sums = measure_in_parts(stack, in_turn(len(stack), 3), bayer="none", method=method)
@@ -101,34 +101,34 @@ def test_mosaics(bayer):
     assert report == expected and "channels" in report
 
 
-def test_sums_that_come_twice_are_ignored_and_overlaps_refused(codes):
-    sums = SensorNoiseSums(codes.shape, codes.dtype, bayer="none")
-    other = SensorNoiseSums(codes.shape, codes.dtype, bayer="none")
-    sums.add(codes[:10])
-    other.add(codes[30:], 30)
+def test_sums_that_come_twice_are_ignored_and_overlaps_refused(grey_values):
+    sums = SensorNoiseSums(grey_values.shape, grey_values.dtype, bayer="none")
+    other = SensorNoiseSums(grey_values.shape, grey_values.dtype, bayer="none")
+    sums.add(grey_values[:10])
+    other.add(grey_values[30:], 30)
     assert sums.merge(other) and not sums.merge(other) and not sums.merge(other.to_bytes())
     np.testing.assert_array_equal(sums.frames, [*range(10), *range(30, 40)])
     before = sums.to_bytes()
-    other.add(codes[9:11], 9)
+    other.add(grey_values[9:11], 9)
     with pytest.raises(ValueError, match="both hold frame 9"):
         sums.merge(other)
     with pytest.raises(ValueError, match="frame 8 was added before"):
-        sums.add(codes[7:9], 7 + 1)
+        sums.add(grey_values[7:9], 7 + 1)
     assert sums.to_bytes() == before
     with pytest.raises(
         ValueError, match=r"^frames 10, 11, 12, 13, 14, ... \(20 in all\) are missing in pass 1; expected"
     ):
         sums.end_pass()
-    sums.add(codes[10:29], 10)
+    sums.add(grey_values[10:29], 10)
     with pytest.raises(ValueError, match="^frame 29 is missing in pass 1; expected all 40"):
         sums.end_pass()
 
 
-def test_a_run_goes_on_from_a_pickle_and_from_bytes(codes):
-    sums = SensorNoiseSums(codes.shape, codes.dtype, bayer="none")
-    sums.add(codes)
+def test_a_run_goes_on_from_a_pickle_and_from_bytes(grey_values):
+    sums = SensorNoiseSums(grey_values.shape, grey_values.dtype, bayer="none")
+    sums.add(grey_values)
     sums.end_pass()
-    sums.add(codes[:25])
+    sums.add(grey_values[:25])
     kept = pickle.dumps(sums)
     text = sums.to_bytes()
     again = pickle.loads(kept)
@@ -136,12 +136,12 @@ def test_a_run_goes_on_from_a_pickle_and_from_bytes(codes):
     again.forget()
     assert not len(again.frames)
     again.from_bytes(text)
-    again.add(codes[25:], 25)
+    again.add(grey_values[25:], 25)
     again.end_pass()
-    again.add(codes)
+    again.add(grey_values)
     again.end_pass()
     done = pickle.loads(pickle.dumps(again))
-    assert done.report() == again.report() == itk.estimate_sensor_noise(codes)
+    assert done.report() == again.report() == itk.estimate_sensor_noise(grey_values)
     assert "all passes ended" in repr(done)
     with pytest.raises(ValueError, match="all passes have ended"):
         done.to_bytes()
@@ -150,11 +150,11 @@ def test_a_run_goes_on_from_a_pickle_and_from_bytes(codes):
         pickle.dumps(sums)
 
 
-def test_equal_frames_in_two_hands(codes):
-    stack = codes.copy()
+def test_equal_frames_in_two_hands(grey_values):
+    stack = grey_values.copy()
     stack[30] = stack[4]
     expected = itk.estimate_sensor_noise(stack)
-    one, two = (SensorNoiseSums(codes.shape, codes.dtype, bayer="none") for _ in range(2))
+    one, two = (SensorNoiseSums(grey_values.shape, grey_values.dtype, bayer="none") for _ in range(2))
     one.add(stack[:20])
     two.add(stack[20:], 20)
     with pytest.raises(ValueError, match="frame 30 equals frame 4, and each was counted by another process"):
@@ -173,37 +173,37 @@ def test_equal_frames_in_two_hands(codes):
     assert one.report() == expected
 
 
-def test_little_is_sent_of_few_frames(codes):
+def test_little_is_sent_of_few_frames(grey_values):
     """Pass 1 sends 20 bytes per pixel, and some bytes for each added frame, not for all frames. Pass 2 is similar."""
     sums = SensorNoiseSums((4000, 64, 96), "uint8", bayer="none")
-    sums.add(codes[:5], 100)
+    sums.add(grey_values[:5], 100)
     assert len(sums.to_bytes()) < 20 * 64 * 96 + 5 * 2600 + 4000 * 1.1
-    full = SensorNoiseSums(codes.shape, codes.dtype, bayer="none")
-    full.add(codes)
+    full = SensorNoiseSums(grey_values.shape, grey_values.dtype, bayer="none")
+    full.add(grey_values)
     full.end_pass()
-    full.add(codes[7:8], 7)
+    full.add(grey_values[7:8], 7)
     of_one = len(full.to_bytes())
-    full.add(codes[:7])
-    full.add(codes[8:], 8)
+    full.add(grey_values[:7])
+    full.add(grey_values[8:], 8)
     assert 10 * of_one < len(full.to_bytes())
 
 
-def test_files_and_lazy_frames(codes, tmp_path):
+def test_files_and_lazy_frames(grey_values, tmp_path):
     names = [tmp_path / f"{number:02}.mha" for number in range(40)]
-    for name, frame in zip(names, codes, strict=True):
+    for name, frame in zip(names, grey_values, strict=True):
         itk.imwrite(itk.image_view_from_array(frame), str(name))
-    np.save(tmp_path / "a.npy", codes)
+    np.save(tmp_path / "a.npy", grey_values)
     lazy = np.load(tmp_path / "a.npy", mmap_mode="r")
-    sums = SensorNoiseSums(codes.shape, codes.dtype, bayer="none", roi=(4, 2, 80, 50))
+    sums = SensorNoiseSums(grey_values.shape, grey_values.dtype, bayer="none", roi=(4, 2, 80, 50))
     while not sums.is_done:
         sums.add(names[:7])
         sums.add(lazy, 7, frame_range=(7, 30))
         sums.add(names, 30, frame_range=(30, 40))
         sums.end_pass()
-    assert sums.report() == itk.estimate_sensor_noise(codes, roi=(4, 2, 80, 50))
+    assert sums.report() == itk.estimate_sensor_noise(grey_values, roi=(4, 2, 80, 50))
 
 
-def test_wrong_use_is_refused(codes):
+def test_wrong_use_is_refused(grey_values):
     def refused(pattern, *given, **settings):
         with pytest.raises(ValueError, match=pattern):
             SensorNoiseSums(*given, **settings)
@@ -212,14 +212,14 @@ def test_wrong_use_is_refused(codes):
     refused("dtype is int64; expected uint8", (40, 64, 96), "int64")
     refused("frames; expected at least 5", (4, 64, 96), "uint8", bayer="none")
     refused("expected at most 4194304", ((1 << 22) + 1, 3, 3), "uint8", bayer="none")
-    refused('the Bayer pattern is "auto" and the stack\'s metadata do not have it', codes.shape, "uint8")
-    refused("method is 'x'", codes.shape, "uint8", method="x")
-    sums = SensorNoiseSums(codes.shape, codes.dtype, bayer="none")
+    refused('the Bayer pattern is "auto" and the stack\'s metadata do not have it', grey_values.shape, "uint8")
+    refused("method is 'x'", grey_values.shape, "uint8", method="x")
+    sums = SensorNoiseSums(grey_values.shape, grey_values.dtype, bayer="none")
     for frames, first, pattern in [
-        (codes, 1, "the number of frames is 40; expected a whole number from 1 to 39"),
-        (codes, 40, "first is 40"),
-        (codes[:, 1:], 0, "frames has 96 x 63 pixels of type uint8; expected 96 x 64 of uint8"),
-        (codes.astype(float), 0, "of type float64; expected 96 x 64 of uint8"),
+        (grey_values, 1, "the number of frames is 40; expected a whole number from 1 to 39"),
+        (grey_values, 40, "first is 40"),
+        (grey_values[:, 1:], 0, "frames has 96 x 63 pixels of type uint8; expected 96 x 64 of uint8"),
+        (grey_values.astype(float), 0, "of type float64; expected 96 x 64 of uint8"),
     ]:
         with pytest.raises(ValueError, match=pattern):
             sums.add(frames, first)
@@ -235,6 +235,6 @@ def test_wrong_use_is_refused(codes):
         sums.merge(whole[:-1] + bytes([whole[-1] ^ 1]))
     with pytest.raises(ValueError, match=r"of module 0.0.0, expected version .* of module"):
         sums.merge(whole[:16] + b"0.0.0".ljust(32, b"\0") + whole[48:])
-    other = SensorNoiseSums((40, 64, 95), codes.dtype, bayer="none")
+    other = SensorNoiseSums((40, 64, 95), grey_values.dtype, bayer="none")
     with pytest.raises(ValueError, match="expected 6144"):
         sums.merge(other)

@@ -23,7 +23,7 @@ class NoiseModelCheck(Record):
     """The result of check_noise_model(): the record "itk-sensornoise-check/1", with the names of its JSON members.
 
         found["verdict"]     "fits", "does-not-fit" or "not-told"
-        found["sentence"]    the same for people, with the ranges of levels
+        found["sentence"]    the verdict in words, with the ranges of levels
         found["bands"]       dark to bright: low, high [DN], pixels; variance over the model's, its standard_error [1]
                              (None: the model has none there); transform_variance, what the transform makes of the right
                              model [1] (None: in the dark, where the read noise is not known); fits
@@ -89,8 +89,8 @@ def check_noise_model(frames: Any, report: Any, *, mask: Any = None, **parameter
     mask : array_like (y, x) or itk.Image, optional
         Only pixels where this is not 0: an array (y, x), or an image, of a frame's size.
     **parameters
-        Those of itk.SensorNoiseEstimator in snake case, for example `bit_depth=12`. Not the method: the frames are
-        measured by the refined one, whatever method the report is of.
+        Parameters of itk.SensorNoiseEstimator in snake case, for example `bit_depth=12`, without the method: the frames
+        are measured by the refined method, whatever the method of the report.
 
     Returns
     -------

@@ -36,10 +36,10 @@ def is_closed(frames: Any) -> bool:
 
 
 def require_chunks(frames: Any, name: str) -> None:
-    """Raises ValueError if stored chunks are missing, as far as that can be asked.
+    """Raises ValueError if stored chunks are missing, as far as the store shows it.
 
-    It can be for zarr (versions 2 and 3) on stores of zarr's own that list what they hold, for h5py, and for both
-    inside of dask and xarray. Of a shard it cannot be asked what is missing in it, of foreign stores nothing."""
+    They are found for zarr (versions 2 and 3) on stores of zarr's own that list what they hold, for h5py, and for both
+    inside of dask and xarray. Chunks that are missing in a shard, or in other stores, are not found."""
     for stored in _stored(frames):
         module = type(stored).__module__
         if module.startswith("zarr.") and hasattr(stored, "nchunks_initialized"):

@@ -90,7 +90,7 @@ class NoiseCorrelation(Record):
     def _rows(self) -> list[tuple[str, str]]:
         correlation = self["noise_correlation"]
         rows = [("kind", self.kind), ("sum over lags", _number(self["sum_over_lags"]))]
-        rows += [(f"{signal_bin['light']:.4g} DN of light", _bin_text(signal_bin)) for signal_bin in self["lights"]]
+        rows += [(f"{signal_bin['light']:.4g} DN of signal", _bin_text(signal_bin)) for signal_bin in self["lights"]]
         rows += [(f"{lag['lag'][0]} columns, {lag['lag'][1]} rows", _lag(lag)) for lag in correlation["space"]]
         rows += [(f"{lag['lag']} frames", _lag(lag)) for lag in correlation["time"]]
         rows += [(f"{line} noise", _number(correlation[f"{line}_noise"])) for line in ("row", "column")]
@@ -141,8 +141,8 @@ def noise_correlation_estimator(
         Pixels of value 0 are left out, an array (y, x) or an image. Default: all that are finite and never clipped.
         With `mean` and `mask` the stack is read once, else twice.
     series : array_like (frames,) or (frames, k), optional
-        What changes from frame to frame (flicker, motion), of any unit: an array (frames,) or (frames, k). What is in
-        proportion to it is taken out of every pixel, each by its own factor. Default: none.
+        Temporal components (flicker, motion), in any unit: an array (frames,) or (frames, k). The part of every pixel
+        in proportion to them is subtracted, with a factor for each pixel. Default: none.
     remove_frame_means : bool, default True
         Takes out the means of the frames, too, plain and weighted with the signal: flicker and a drifting offset.
         Without it, a fluctuating illumination counts as noise correlation.

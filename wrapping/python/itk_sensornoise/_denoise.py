@@ -25,12 +25,12 @@ from ._update import update
 # BilateralDenoiser.cxx in examples/tools.
 _NON_LOCAL_MEANS_H = 1.3
 _BILATERAL_SIGMAS = 1.5, 2.0
-_CODES_PER_SIGMA = 256.0
+_GREY_VALUES_PER_SIGMA = 256.0
 
 # Limits of what can be a frame of the report's camera, as in examples/tools/ImageScale.cxx, which says why.
 _IMPOSSIBLE_SIGNAL = 8.0
 _DOUBTFUL_SIGNAL = 2.0
-_LEAST_CODES = 16
+_LEAST_GREY_VALUES = 16
 
 Denoiser = Callable[[np.ndarray], Any]
 
@@ -78,7 +78,7 @@ def denoise_with_noise_model(
         A wrong type.
     ValueError
         A wrong value; a report without the two numbers, or with a slope that is not above 0; a pixel that is not
-        finite; levels on another scale than the report's (codes times 16, for one).
+        finite; levels on another scale than the report's (grey values times 16, for one).
     ImportError
         "nlm" without OpenCV.
 
@@ -155,9 +155,9 @@ def _require_scale(levels: np.ndarray, slope: float, intercept: float, record: M
     high = record.get("clip_high")
     means = [mean for mean in (record.get("scatter") or {}).get("mean") or [] if mean is not None]
     signal = (median - zero) / (max(means) - zero) if means and max(means) > zero else 0.0
-    spacing = _code_spacing(levels) if levels.dtype.kind in "iu" and step >= 1 else 0
+    spacing = _grey_value_spacing(levels) if levels.dtype.kind in "iu" and step >= 1 else 0
     found = None
-    # Every second code of a frame of few levels may lack by chance; a spacing below the report's is never chance.
+    # Every second grey value of a frame of few levels may lack by chance; a spacing below the report's is never chance.
     if spacing >= 4 * step > 0 or 0 < 2 * spacing <= step:
         found = f"its digital numbers are multiples of {spacing}, the report's of {step:g}"
     elif median < lowest:
@@ -179,10 +179,10 @@ def _require_scale(levels: np.ndarray, slope: float, intercept: float, record: M
         )
 
 
-def _code_spacing(levels: np.ndarray) -> int:
+def _grey_value_spacing(levels: np.ndarray) -> int:
     """Returns the greatest common divisor of the distances between grey values [DN]; 0 if there are too few values."""
-    codes = np.unique(levels).astype(np.int64)
-    return int(np.gcd.reduce(np.diff(codes))) if codes.size >= _LEAST_CODES else 0
+    grey_values = np.unique(levels).astype(np.int64)
+    return int(np.gcd.reduce(np.diff(grey_values))) if grey_values.size >= _LEAST_GREY_VALUES else 0
 
 
 def _denoiser(denoiser: Any, strength: Any) -> Denoiser:
@@ -223,10 +223,12 @@ def _non_local_means(strength: float) -> Denoiser:
 
     def remove(frame: np.ndarray) -> np.ndarray:
         low, high = float(frame.min()), float(frame.max())
-        scale = min(_CODES_PER_SIGMA, 65535.0 / (high - low)) if high > low else _CODES_PER_SIGMA
-        codes = ((frame.astype(np.float64) - low) * scale + 0.5).astype(np.uint16)
+        scale = min(_GREY_VALUES_PER_SIGMA, 65535.0 / (high - low)) if high > low else _GREY_VALUES_PER_SIGMA
+        grey_values = ((frame.astype(np.float64) - low) * scale + 0.5).astype(np.uint16)
         h = strength * _NON_LOCAL_MEANS_H * scale
-        clean = cv2.fastNlMeansDenoising(codes, h=[h], templateWindowSize=3, searchWindowSize=21, normType=cv2.NORM_L1)
+        clean = cv2.fastNlMeansDenoising(
+            grey_values, h=[h], templateWindowSize=3, searchWindowSize=21, normType=cv2.NORM_L1
+        )
         return (low + clean / scale).astype(np.float32)
 
     return remove

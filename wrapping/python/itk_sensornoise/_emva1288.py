@@ -76,7 +76,7 @@ def evaluate_emva1288(
     Returns
     -------
     Emva1288Report, or dict of str to Emva1288Report
-        Of a mosaic a dict with the reports of the planes "R", "G1", "G2" and "B"; else one report. Quantities that the
+        One report; for a mosaic a dict with the reports of the planes "R", "G1", "G2" and "B". Quantities that the
         frames do not determine are `not-identifiable`, and notes say what is missing.
 
     Raises

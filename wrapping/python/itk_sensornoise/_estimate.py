@@ -98,16 +98,16 @@ def estimate_sensor_noise(
     Parameters
     ----------
     frames : frames
-        Raw frames in time order, at least 5 of at least 3 x 3 pixels: a NumPy array (t, y, x); an itk.Image of 3
-        dimensions (x, y, t); a list of file names or of 2-D arrays (y, x), or of objects with `__array__`; the name of
-        one stack file; a pattern of names ("frames/*.png"), a folder of files of one kind, a set or a generator of
-        names, which are sorted with numbers as numbers (frame_2 before frame_10; a list keeps its order); or anything
-        with `shape` (t, y, x), `dtype` and slices along time, frames[first:end]: h5py, zarr, dask, memory maps,
-        astropy's sections, your own class; axes of xarray may be in any order, as their names are honoured. uint8,
-        uint16, int16, float32 or float64 [DN]. Files and such objects are read a few frames at a time and never held
-        together. Stored chunks that are missing are an error, as far as h5py and zarr say so. Raw files of cameras
-        (.dng, .cr2, .nef, ...) are read by rawpy, if installed: unprocessed digital numbers. Arrays are shared; an
-        array that is not C-contiguous or not in the machine's byte order is copied once.
+        Raw frames in time order, at least 5 of at least 3 x 3 pixels, in one of these forms. A NumPy array (t, y, x),
+        or an itk.Image of 3 dimensions (x, y, t). A list of file names, of 2-D arrays (y, x), or of objects with
+        `__array__`, or the name of one stack file. A pattern of names ("frames/*.png"), a folder of files of one kind,
+        a set or a generator of names: they are sorted with numbers as numbers (frame_2 before frame_10), whereas a list
+        keeps its order. Any object with `shape` (t, y, x), `dtype` and slices along time, frames[first:end]: h5py,
+        zarr, dask, memory maps, astropy's sections, your own class. Axes of xarray may be in any order, as their names
+        are honoured. Pixels are uint8, uint16, int16, float32 or float64 [DN]. Files and such objects are read a few
+        frames at a time and never held together. Stored chunks that are missing are an error, as far as h5py and zarr
+        say so. Raw files of cameras (.dng, .cr2, .nef, ...) are read by rawpy, if installed: unprocessed digital
+        numbers. Arrays are shared; an array that is not C-contiguous or not in the machine's byte order is copied once.
     method : {"refined", "published", "single-image"}, default "refined"
         "refined": all pixels of a static scene, textured or not; every `identified` quantity has a standard error and a
         95 % interval. "published": Figure 2 of Sur & Grédiac 2015, even areas only, without errors. "single-image":
@@ -207,7 +207,7 @@ def estimate_sensor_noise(
     MemoryError
         There is not enough memory.
     ImportError
-        A raw file of a camera without rawpy. What a reader of lazy frames raises is raised as it is.
+        A raw file of a camera without rawpy. Exceptions of a reader of lazy frames are raised unchanged.
 
     Warns
     -----
@@ -220,7 +220,7 @@ def estimate_sensor_noise(
     compare : Several reports side by side.
     check_noise_model : Whether a report's noise model serves for other frames.
     denoise_with_noise_model : Images without their noise, by a report.
-    itk_sensornoise.distributed.estimate_sensor_noise : The same by several machines.
+    itk_sensornoise.distributed.estimate_sensor_noise : Measures on several machines.
 
     Examples
     --------
@@ -297,7 +297,7 @@ def is_of_frames(report: Mapping[str, Any], frames: Frames, settings: Mapping[st
     if dark is not None and not FramesHash(dark).is_in(known["dark"]):
         return False
     first = report.get("channels", [report])[0]
-    planes = 2 if "channels" in report else 1  # of a mosaic along each axis
+    planes = 2 if "channels" in report else 1  # planes of a mosaic along each axis
     is_cut = span is not None or settings.get("roi") is not None
     size = tuple(int(first[name]) for name in ("width", "height", "frames"))
     return is_cut or size == (stack.size[0] // planes, stack.size[1] // planes, stack.size[2])

@@ -92,4 +92,4 @@ def _nonlinearity(report: Mapping[str, Any]) -> str | None:
     codes = {warning["code"] for warning in report["warnings"]}
     if not nonlinearity or codes.isdisjoint(NONLINEARITY_CODES):
         return None
-    return f"the response bends: variance off its line by up to {100 * nonlinearity:.2g} %"
+    return f"the response is non-linear: variance off its line by up to {100 * nonlinearity:.2g} %"

@@ -8,6 +8,7 @@ from typing import Any
 
 _TWO_SIDED_95 = 1.959963984540054
 _LINE_PIECES = 32
+_OF_LEVEL_SET = 2.3085  # TruncatedVariance of the module
 
 
 def figure_data_of(record: Mapping[str, Any]) -> dict[str, Any]:
@@ -73,15 +74,20 @@ def _residuals(
     kurtosis = (noise["excess_kurtosis"]["value"] or 0.0) if noise else 0.0
     shared = _factor_of(noise["time"]) if noise else 1.0
     found = []
+    of_level_sets = record.get("single_image") is not None
     for mean, _, corrected, count in rows:
-        if not count or frames < 2:
+        if not count or (frames < 2 and not of_level_sets):
             continue
         expected = slope * mean + intercept
-        of_pixel = max(2.0 / (frames - 1.0) * shared + kurtosis / frames, 0.0)
+        of_pixel = _OF_LEVEL_SET
+        if not of_level_sets:
+            of_pixel = max(2.0 / (frames - 1.0) * shared + kurtosis / frames, 0.0)
         of_variance = abs(expected) * math.sqrt(of_pixel / count)
         if not of_variance > 0.0:
             continue
-        of_level = math.sqrt(abs(expected) / frames) * min(max(dark / abs(expected), 0.0), 1.0)
+        of_level = 0.0
+        if not of_level_sets:
+            of_level = math.sqrt(abs(expected) / frames) * min(max(dark / abs(expected), 0.0), 1.0)
         error = math.hypot(of_variance, slope * of_level)
         if math.isfinite(error):
             found.append((mean, (corrected - expected) / error))

@@ -100,7 +100,7 @@ def open_frames(frames: Frames, frame_range: tuple[int, int] | None = None, name
     if hasattr(frames, "GetLargestPossibleRegion"):
         return _from_image(frames, name)
     if is_lazy(frames):
-        return _from_lazy(frames, name)  # type: ignore[arg-type]  # told by what it has
+        return _from_lazy(frames, name)  # type: ignore[arg-type]  # checked by its members
     if not hasattr(frames, "__array__"):
         raise InvalidTypeError(f"{name} is of type {type(frames).__name__}; {EXPECTED}")
     array = as_array(frames, name)

@@ -81,7 +81,7 @@ class LazyStack:
         arrays = [array for array in arrays_of_graph(self._frames) if isinstance(array, np.ndarray)]
         mapped = [array for array in [self._frames, *arrays] if mapping_of(array) is not None]
         self._piece = self._frames_of_piece(like.dtype.itemsize, 1 if arrays else frames_of_chunk(self._frames))
-        # What was changed in a private map is there alone.
+        # Changes in a private map exist there alone.
         maps = [mapping_of(array) for array in mapped if _is_of_file(array)]
         self._forgettable = [each for number, each in enumerate(maps) if each is not None and each not in maps[:number]]
 

@@ -33,7 +33,7 @@ class Quantity:
     interval95 : tuple of float or None, or None
         Ends of the 95 % interval, in `unit`; an end that is None is open.
     status : {"identified", "not-identifiable", "upper-limit", "failed"}
-        What is known of the quantity.
+        Whether the quantity has a value, an upper limit, or neither.
     unit : str
         The unit, for example "DN/e-"; "1" of a pure number.
     limits : tuple of float or None, or None

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads raw files of cameras with the package rawpy (LibRaw): unprocessed digital numbers, and camera settings."""
 
+import math
 import os
 import struct
 from collections.abc import Iterator, Sequence
@@ -21,6 +22,9 @@ ENDINGS = (
 # No raw file packs more; as LibRawFrame.cxx has it.
 _MOST_PIXELS_PER_BYTE = 32
 
+# Digits that distinguish any two numbers of single precision.
+_DIGITS_OF_SINGLE = 9
+
 # Tags of a TIFF, which most raw files are.
 _MAKE, _MODEL, _TEXT = 271, 272, 2
 
@@ -30,10 +34,10 @@ def is_raw(name: FileName) -> bool:
     return os.fsdecode(name).lower().endswith(ENDINGS)
 
 
-def read_codes(name: FileName, is_new: bool = True) -> np.ndarray:
+def read_grey_values(name: FileName, is_new: bool = True) -> np.ndarray:
     """Returns the unprocessed digital numbers (y, x) of the active area of a raw file. A new file is checked."""
     with _open(name, is_new) as raw:
-        return _codes_of(raw, name).copy()
+        return _grey_values_of(raw, name).copy()
 
 
 def raw_metadata(name: FileName) -> dict[str, Any]:
@@ -71,18 +75,23 @@ def raw_metadata(name: FileName) -> dict[str, Any]:
     >>> itk_sensornoise.raw_metadata("frame.dng")["bayer"]
     """
     with _open(name) as raw:
-        other = getattr(raw, "other", None)
         black = [float(level) for level in raw.black_level_per_channel]
-        _codes_of(raw, name)  # is a mosaic
+        _grey_values_of(raw, name)  # is a mosaic
         return {
             "bayer": _bayer(raw),
             "black_level": sum(black) / len(black) if black else None,
             "black_levels": black,
             "white_level": float(raw.white_level) or None,
-            "iso_speed": _positive(other, "iso_speed"),
-            "exposure_seconds": _positive(other, "shutter_speed"),
+            **_settings_of(raw),
             "camera": _camera(name),
         }
+
+
+def raw_settings(name: FileName) -> dict[str, float | None]:
+    """Returns `iso_speed` and `exposure_seconds` of a raw file, whose pixels are not read. Raises errors as
+    raw_metadata()."""
+    with _open(name) as raw:
+        return _settings_of(raw)
 
 
 class RawFiles:
@@ -90,7 +99,7 @@ class RawFiles:
 
     def __init__(self, names: Sequence[FileName]) -> None:
         self.names = list(names)
-        first = read_codes(self.names[0])
+        first = read_grey_values(self.names[0])
         self._checked = {os.fsdecode(self.names[0])}
         self.shape = (len(self.names), *first.shape)
         self.dtype = first.dtype
@@ -98,15 +107,15 @@ class RawFiles:
     def __getitem__(self, times: slice) -> np.ndarray:
         frames = np.empty((len(self.names[times]), *self.shape[1:]), self.dtype)
         for frame, name in zip(frames, self.names[times], strict=True):
-            codes = read_codes(name, is_new=os.fsdecode(name) not in self._checked)
+            grey_values = read_grey_values(name, is_new=os.fsdecode(name) not in self._checked)
             self._checked.add(os.fsdecode(name))
-            if codes.shape != frame.shape or codes.dtype != frame.dtype:
+            if grey_values.shape != frame.shape or grey_values.dtype != frame.dtype:
                 raise ValueError(
-                    f"{os.fsdecode(name)}: {codes.shape[1]} x {codes.shape[0]} pixels of type {codes.dtype}, but "
-                    f"{os.fsdecode(self.names[0])} has {self.shape[2]} x {self.shape[1]} of type {self.dtype}; all "
-                    "frames must be alike"
+                    f"{os.fsdecode(name)}: {grey_values.shape[1]} x {grey_values.shape[0]} pixels of type "
+                    f"{grey_values.dtype}, but {os.fsdecode(self.names[0])} has {self.shape[2]} x {self.shape[1]} "
+                    f"of type {self.dtype}; all frames must be alike"
                 )
-            frame[...] = codes
+            frame[...] = grey_values
         return frames
 
 
@@ -148,13 +157,13 @@ def _require_whole(name: str, raw: Any) -> None:
         itk.SensorNoiseImageIO.RequireWholeRawTiff(name, raw.sizes.raw_width, raw.sizes.raw_height)
 
 
-def _codes_of(raw: Any, name: FileName) -> np.ndarray:
-    codes: np.ndarray | None = raw.raw_image_visible
-    if codes is None or codes.ndim != 2:
+def _grey_values_of(raw: Any, name: FileName) -> np.ndarray:
+    grey_values: np.ndarray | None = raw.raw_image_visible
+    if grey_values is None or grey_values.ndim != 2:
         raise ValueError(
             f"{os.fsdecode(name)}: is no mosaic, but has several colours a pixel; expected what a raw sensor gives, one"
         )
-    return codes
+    return grey_values
 
 
 def _bayer(raw: Any) -> str | None:
@@ -165,9 +174,26 @@ def _bayer(raw: Any) -> str | None:
     return found if found in ("RGGB", "GRBG", "GBRG", "BGGR") else None
 
 
+def _settings_of(raw: Any) -> dict[str, float | None]:
+    other = getattr(raw, "other", None)
+    return {
+        "iso_speed": _positive(other, "iso_speed"),
+        "exposure_seconds": _shortest_decimal(_positive(other, "shutter_speed")),
+    }
+
+
 def _positive(other: Any, name: str) -> float | None:
     value = getattr(other, name, None)
-    return float(value) if value else None
+    return float(value) if value and math.isfinite(value) else None
+
+
+def _shortest_decimal(value: float | None) -> float | None:
+    """Returns the decimal number of fewest digits that is the value in single precision, which LibRaw's exposures have:
+    0.01, not 0.009999999776."""
+    if value is None:
+        return None
+    decimals = (float(f"{value:.{digits}g}") for digits in range(1, _DIGITS_OF_SINGLE + 1))
+    return next((decimal for decimal in decimals if np.float32(decimal) == np.float32(value)), value)
 
 
 def _camera(name: FileName) -> str | None:

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """A record of a measurement: a mapping that cannot be changed.
 
-Beside its members a record has a JSON text and a table, which C++ made; a value that was changed would be in none of
-them, and be lost without a word when the record is printed, drawn, written or pickled. So changing is an error, and
-copies are plain: to_dict(), dict() of it, and copy.copy() or copy.deepcopy() of a member.
+Beside its members a record has a JSON text and a table, which C++ made. They would not have a value that was changed,
+so that it would be lost when the record is printed, drawn, written or pickled. Changing a value is therefore an error.
+Copies are plain: to_dict(), dict() of it, and copy.copy() or copy.deepcopy() of a member.
 
 It is a dict, as json.dumps() takes no other mapping. To type checkers, and to editors that complete names, it is a
 Mapping: the methods of a dict that change it are not among its names.

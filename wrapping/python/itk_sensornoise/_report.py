@@ -152,7 +152,7 @@ class Report(QuantityAttributes, PagedRecord):
 
         See Also
         --------
-        ChannelReports.from_json : The same of a mosaic.
+        ChannelReports.from_json : Reads the reports of a mosaic.
         """
         text, name = text_of(source)
         if "channels" in record_of(text, name):

@@ -7,7 +7,7 @@ from typing import Any
 
 from ._catalogue import quantity_list
 from ._quantity import member
-from ._rounding import end_of_interval, limits_of, measured, rounded_quantity, shortened, with_signs
+from ._rounding import end_of_interval, limits_of, measured, of_three_digits, rounded_quantity, shortened, with_signs
 
 # Quantities that the table has only where they say something; all others stand in every table.
 _RECORD_ONLY = {"vibration.covariance", "noise_correlation.excess_kurtosis"}
@@ -30,7 +30,7 @@ def text_of_report(record: Mapping[str, Any]) -> str:
     pixels = record["pixels"]
     used = 100.0 * pixels["used"] / pixels["total"]
     lines = [
-        f"{_frames(record)}{_counted(record)} of {record['width']} x {record['height']} pixels{_codes(record)}",
+        f"{_frames(record)}{_counted(record)} of {record['width']} x {record['height']} pixels{_dn_range(record)}",
         f"{pixels['used']} of {pixels['total']} pixels used ({used:.1f} %), {pixels['clipped']} clipped, "
         f"{pixels['not_finite']} not finite",
         f"method: {record['method']}",
@@ -75,7 +75,7 @@ def text_of_channels(record: Mapping[str, Any]) -> str:
 
 
 def _with_warnings(lines: Sequence[str], warnings: Sequence[Mapping[str, Any]]) -> str:
-    texts = [f"{warning['severity']}: {warning['message']} [{warning['code']}]" for warning in warnings]
+    texts = [f"{warning['severity']}: {with_signs(warning['message'])} [{warning['code']}]" for warning in warnings]
     return "\n".join([*lines, *(["", *texts] if texts else [])]) + "\n"
 
 
@@ -105,13 +105,18 @@ def _counted(record: Mapping[str, Any]) -> str:
     return f" ({', '.join(parts)})" if parts else ""
 
 
-def _codes(record: Mapping[str, Any]) -> str:
+def _dn_range(record: Mapping[str, Any]) -> str:
     text = f", {record['bit_depth']} bits ({record['bit_depth_source']})" if record["bit_depth"] is not None else ""
     step, low, high = (record[name] for name in ("quantisation_step", "clip_low", "clip_high"))
     text += f", quantization step {step:g} DN" if step is not None else ""
     if low is not None or high is not None:
-        text += f", levels {shortened(low)} to {shortened(high)} DN ({record['clip_source']})"
+        text += f", levels {shortened(low)} to {shortened(high)} DN ({_clip_source(record['clip_source'])})"
     return text
+
+
+def _clip_source(source: str) -> str:
+    """Returns the source of a clip level of the record in words."""
+    return source.replace("code range", "DN range").replace("pile-up", "repeated extreme values")
 
 
 def _input(record: Mapping[str, Any] | None) -> list[str]:
@@ -206,7 +211,7 @@ def _linearity(record: Mapping[str, Any]) -> str:
     source = found["offset_source"]
     return (
         f"linearity: {used} of {len(found['levels'])} exposures in the range, saturation "
-        f"{found['saturation_dn'] or 0.0:.5g} DN ({found['saturation_source']}), offset of "
+        f"{found['saturation_dn'] or 0.0:.5g} DN ({_clip_source(found['saturation_source'])}), offset of "
         f"{'the line' if source == 'line' else source}"
     )
 
@@ -220,18 +225,14 @@ def _cell(quantity: Mapping[str, Any]) -> str:
     if value is not None:
         return f"{value:.6g}" if error is None else str(measured(value, error))
     if quantity["status"] == "upper-limit" and limits and limits[1] is not None:
-        return f"< {_of_three_digits(limits[1])}"
+        return f"< {of_three_digits(limits[1])}"
     return str(quantity["status"])
-
-
-def _of_three_digits(number: float) -> str:
-    return f"{number:.3g}" if abs(number) < 999.5 else f"{round(number):.15g}"
 
 
 def _joint_offset(joint: Mapping[str, Any]) -> str:
     if joint["precision_gain"] is None:
         return "joint offset: none, the channels' differ by more than their errors"
-    gain, chi2 = (_of_three_digits(joint[name]) for name in ("precision_gain", "reduced_chi2"))
+    gain, chi2 = (of_three_digits(joint[name]) for name in ("precision_gain", "reduced_chi2"))
     precision = f"{gain} times as precise as the best channel's (chi2 of the four {chi2})"
     return f"joint offset: {_cell(joint['offset'])} DN, {precision}"
 

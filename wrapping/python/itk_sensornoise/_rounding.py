@@ -55,6 +55,11 @@ def shortened(number: float | None) -> str:
     return "-" if number is None else f"{number:.5g}"
 
 
+def of_three_digits(number: float) -> str:
+    """Returns a number of three digits, or an integer from 1000 on."""
+    return f"{number:.3g}" if abs(number) < 999.5 else f"{round(number):.15g}"
+
+
 def limits_of(quantity: Mapping[str, Any]) -> Any:
     """Returns the 95 % interval of a quantity if there is one, else its limits."""
     return quantity["interval95"] or quantity["bracket"]
@@ -66,12 +71,14 @@ def rounded_quantity(quantity: Mapping[str, Any]) -> Rounded:
     if value is not None and error is not None:
         return measured(value, error)
     if quantity["status"] == "upper-limit" and limits and limits[1] is not None:
-        return Rounded(f"< {shortened(limits[1])}", "", None)
+        return Rounded(f"< {of_three_digits(limits[1])}", "", None)
     return Rounded(shortened(value), "", None)
 
 
 def end_of_interval(end: float | None, rounded: Rounded) -> str:
-    """Returns an end of an interval with the decimals of its value."""
+    """Returns an end of an interval with the decimals of its value, or the digits of its upper limit."""
+    if end is not None and rounded.value.startswith("<"):
+        return of_three_digits(end)
     if end is not None and rounded.decimals is not None and rounded.decimals <= _MOST_DECIMALS and abs(end) < 1e9:
         return f"{end:.{rounded.decimals}f}"
     return shortened(end)

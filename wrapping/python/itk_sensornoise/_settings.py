@@ -109,7 +109,7 @@ def prepare(stack: Stack, dark: Stack | None, settings: Settings) -> Prepared:
         estimator.SetSourceFrames(*span)
     set_pattern(estimator, settings.bayer, whole, corner)
     estimator.SetExcessNoiseFactor(_excess_noise_factor(settings.excess_noise_factor))
-    _set_codes(estimator, settings)
+    _set_dn_settings(estimator, settings)
     if not is_single:
         _set_burst(estimator, settings, dark, (size[2], total))
     if mask is not None:
@@ -245,7 +245,7 @@ def _mask_of(mask: Frame | FileName, size: tuple[int, int]) -> np.ndarray:
     return array
 
 
-def _set_codes(estimator: ItkObject, settings: Settings) -> None:
+def _set_dn_settings(estimator: ItkObject, settings: Settings) -> None:
     if settings.bit_depth is not None:
         estimator.SetBitDepth(_options.integer("bit_depth", settings.bit_depth, 1, 16))
     if settings.clip is not None:

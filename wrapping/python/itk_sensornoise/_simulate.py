@@ -136,13 +136,13 @@ def simulate_sensor_noise(
     flicker_sd, vibration_sd : float, (float, float), optional
         Standard deviations of the flicker [1] and of the shifts (x, y) [pixel]. Default: the values of the condition.
     optical_blur : float, default 0.5
-        Standard deviation of a Gaussian blur of the scene, before the photons are counted [pixel].
+        Standard deviation of the Gaussian optical blur [pixel].
     rolling_shutter : float, default 0
         Period of pulsed illumination in rows of a rolling shutter; 0: the whole frame flickers.
     bit_depth : int, optional
         Bits of the converter, at most 16; 0: no clipping below the pixel type's range. Default 12, or 8 for uint8.
     clip : (float, float), optional
-        Levels (low, high) between which the sensor itself is limited [DN]. Default: none.
+        Lowest and highest level that the sensor attains [DN]. Default: none.
     bayer, transmission : str, (float, float, float), optional
         Mosaic of colour filters by its pattern, and the transmission of its filters (R, G, B) for the scene's
         electrons [1]. Default: no filters; (0.6, 1, 0.5).
@@ -162,18 +162,19 @@ def simulate_sensor_noise(
     read_noise_spread : float, default 0
         Standard deviation of the logarithm of the pixels' read noise [1]; `read_noise` is their median.
     read_noise_tail : (float, float), optional
-        (fraction, spread): in so many pixels that logarithm is greater by |normal| times spread. Default: none.
+        (fraction, spread): fraction of pixels whose logarithm is greater by |normal| times spread. Default: none.
     response : (str, float), optional
         (shape, size): ("quadratic", "wave" or "shoulder", deviation of the local gain), ("gamma", exponent) or
         ("s-curve", weight). Default: straight.
     row_noise, column_noise : float, default 0
-        Standard deviations of what the pixels of a row or of a column share in a frame [DN].
+        Standard deviations of the noise common to the pixels of a row or of a column in a frame [DN].
     banding : (float, float), optional
         (amplitude, period) of a sine along y with a phase of its own in each frame [DN], [row]. Default: none.
     dark : bool, default False
         The shutter is closed: frames of the same sensor, with the same fixed patterns and other noise.
     defect_correction : float, default 0
-        In the camera: a pixel so many standard deviations of its neighbours off becomes their median; 0: none.
+        In the camera: deviation from the neighbours, in their standard deviations, from which a pixel becomes their
+        median; 0: none.
     temporal_filter : float, default 0
         In the camera: weight of the last frame in each frame [1], 0 to 0.99.
     median : int, default 0
@@ -181,14 +182,14 @@ def simulate_sensor_noise(
     smoothing : float, default 0
         In the camera: standard deviation of a Gaussian filter [pixel].
     binning, binning_interpolation : int, {"nearest", "linear"}
-        In the camera: means of squares of so many pixels, 1 to 64, made the old size again by "nearest" or "linear"
-        interpolation; 1: none.
+        In the camera: side of the square tiles whose pixels become their mean, 1 to 64, and the interpolation to the
+        old size; 1: none.
     resampling, resampling_interpolation : (float, float), {"linear", "cubic"}
         In the camera: shift (x, y) by "linear" or "cubic" interpolation [pixel]. Default: none.
     block_quality : int, default 0
-        In the camera: JPEG-like quantisation of 8 x 8 pixels, libjpeg's quality from 1 to 100; 0: none.
+        In the camera: JPEG-like quantization of 8 x 8 pixels, libjpeg's quality from 1 to 100; 0: none.
     companding : int, default 0
-        In the camera: bits of square-root codes that are expanded again, 2 to 16; 0: none.
+        In the camera: bits of the square-root quantization that is expanded again, 2 to 16; 0: none.
     repeat, repeat_period : int, default 1
         How often each exposure, or the last one of each `repeat_period` exposures, is written, 1 or more.
 
@@ -264,7 +265,7 @@ def simulate_sensor_noise(
     for name, (setter, names) in _NAMES.items():
         getattr(source, setter)(_options.one_of(name, parameters[name], names))
     source.SetDark(bool(dark))
-    # All that can go wrong here is a parameter out of range.
+    # The only possible error here is a parameter out of range.
     with itk_errors(kind=ValueError):
         stack = _draw(source, np.dtype(pixel))
     truth = json.loads(source.GetTruthAsJson())

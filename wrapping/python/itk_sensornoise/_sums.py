@@ -190,10 +190,10 @@ class SensorNoiseSums:
                 self._sums.AddFrames(part.image, first + at - start)
 
     def merge(self, other: "SensorNoiseSums | bytes | np.ndarray") -> bool:
-        """Adds the sums of other frames in the same pass: an object, or its to_bytes(). False, and nothing is changed,
-        if all of these frames are in: then they were handed over twice. Raises ValueError if only some are in, if a
-        frame here and one there are equal, if the sums were made with other settings or of another stack, or by another
-        version of the package, which it names, and if the bytes are damaged or not all that to_bytes() returned."""
+        """Adds the sums of other frames in the same pass: an object, or its to_bytes(). Returns False, and changes
+        nothing, if all of these frames were added before. Raises ValueError if only some of them were added, if a frame
+        here and a frame there are equal, or if the sums are of another stack. It also raises ValueError for other
+        settings, for another version of the package, which it names, and for bytes that are damaged or incomplete."""
         sums = _row(other._array() if isinstance(other, SensorNoiseSums) else other)
         with self._alone():
             return bool(self._sums.MergeSums(view(sums)))

@@ -32,8 +32,8 @@ class LazyFrames(Protocol):
     def __getitem__(self, times: slice, /) -> Any: ...
 
 
-# A stack: an array, an image or lazy frames (t, y, x), a file name, a pattern of names or a folder; a list of file
-# names or of arrays (y, x) in time order; a set or a generator of file names.
+# A stack is an array, an image or lazy frames (t, y, x), a file name, a pattern of names or a folder. It may also be a
+# list of file names or of arrays (y, x) in time order, or a set or a generator of file names.
 Frames: TypeAlias = (
     FileName
     | HasArray

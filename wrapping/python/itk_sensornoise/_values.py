@@ -10,7 +10,7 @@ from . import _options
 from ._errors import itk_errors
 from ._types import ItkObject
 
-# What the sentences of the library call the parameters, and their names here.
+# Names of the parameters in the sentences of the library, and their names here.
 _PARAMETERS = {
     " (--check-profile)": "",
     "--black": "black=",

@@ -62,7 +62,7 @@ class StabiliseDenoise(Panel):
         self.strength.setEnabled(is_denoising)
 
     def layers_changed(self) -> None:
-        """Lists the noise models, reports of measured layers and stored reports. What was chosen stays chosen."""
+        """Lists the noise models, reports of measured layers and stored reports. The choice is kept."""
         chosen = self.model.currentData()
         self.model.clear()
         for layer in reversed(images(self.viewer.layers)):

@@ -103,7 +103,7 @@ class Panel(QWidget):
         return box
 
     def _fill(self, box: QComboBox, none: str | None) -> None:
-        """Lists the layers anew. What was chosen stays chosen."""
+        """Lists the layers anew. The choice is kept."""
         chosen = box.currentData()
         box.blockSignals(True)
         box.clear()

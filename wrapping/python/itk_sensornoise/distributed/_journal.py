@@ -42,8 +42,8 @@ def _as_json(name: str, value: Any) -> Any:
     if value is None or isinstance(value, (str, bool, int, float)):
         return value
     raise InvalidTypeError(
-        f"{name} is of type {type(value).__name__}, which the output cannot tell from another; expected names of files "
-        "or a NumPy array"
+        f"{name} is of type {type(value).__name__}, which the output cannot distinguish; "
+        "expected names of files or a NumPy array"
     )
 
 

@@ -70,11 +70,12 @@ def estimate_many(
     Returns
     -------
     pandas.DataFrame, or a list of dicts where pandas is not installed
-        A row for each source, of a mosaic for each channel, in the order of `sources`: `name`; `channel` ("mono", or
-        R, G1, G2, B); `status`, "measured" or "error"; `reason`, why there is no report; `method`; `frames`,
+        A row for each source, of a mosaic for each channel, in the order of `sources`: `name`; `channel` ("mono", or R,
+        G1, G2, B); `status`, "measured" or "error"; `reason`, why there is no report; `method`; `frames`,
         `frames_distinct`, `width`, `height`; for each quantity of quantity_list() its value, standard error and status,
         with the unit in the name, as gain_DN_per_e, gain_error_DN_per_e, gain_status; `warnings`, their codes with
-        spaces between. A value that is not identified is empty (NaN, None), as is all that an "error" cannot tell.
+        spaces between. A value that is not identified is empty (NaN, None), and so are all values of an "error" that
+        are not known.
 
     Raises
     ------
@@ -82,7 +83,7 @@ def estimate_many(
         A wrong type, or an unknown keyword.
     ValueError
         A wrong value, and an output that was measured with other settings; says what was found and what was expected.
-        What is wrong with one source is its row's reason.
+        An error of one source becomes the reason in its row.
     ImportError
         An output that ends in .parquet without PyArrow.
     RuntimeError

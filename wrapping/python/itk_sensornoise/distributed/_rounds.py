@@ -60,9 +60,9 @@ def estimate_sensor_noise(
     Parameters
     ----------
     frames
-        A dask array (t, y, x), which is computed block by block, three times, where its blocks lie; a list of file
-        names, or the name of one stack, which all workers must be able to read; or what has shape, dtype and slices
-        along time and can be pickled. What is handed over by value, as a NumPy array, goes to every task.
+        A dask array (t, y, x), a list of file names, the name of one stack, or an object with shape, dtype and slices
+        along time that can be pickled. Blocks of a dask array are computed three times, where they lie. All workers
+        must be able to read the files. An object that is passed by value, as a NumPy array, goes to every task.
     client
         A dask.distributed.Client. Default: the current one.
     frames_per_task
@@ -88,9 +88,9 @@ def estimate_sensor_noise(
     ValueError
         A wrong value; no client; a frame that no task brought, by its number.
     RuntimeError
-        What ITK threw; a worker whose memory_limit is below its need; workers that ended again and again over one task,
-        or that Dask paused so that nothing goes on for 30 s; a scheduler that went away or was restarted. What reading
-        frames raises on a worker is raised as it is.
+        An error of ITK; a worker whose memory_limit is below its need; workers that ended again and again over one
+        task, or that Dask paused so that no task goes on for 30 s. A scheduler that went away or was restarted.
+        Exceptions of reading frames on a worker are raised unchanged.
     """
     distributed = require_distributed()
     if client is None:

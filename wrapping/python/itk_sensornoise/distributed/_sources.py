@@ -23,7 +23,8 @@ class Burst:
     stored: dict[str, Any] | None = None
 
 
-# What estimate_sensor_noise() takes, or a function without arguments that returns it, called where it is measured.
+# Frames as estimate_sensor_noise() takes them, or a function without arguments that returns them. The function is
+# called where the frames are measured.
 Source: TypeAlias = Frames | Callable[[], Frames] | Burst
 Sources: TypeAlias = Mapping[str, Source] | Iterable[tuple[str, Source] | Source]
 

@@ -65,7 +65,7 @@ class Watch:
         try:
             workers = worker_states(self._client)
         except OSError:
-            return  # the client finds out whether it is back, and tells
+            return  # the client notices when it is back, and reports it
         is_waiting = not workers or any(worker.is_paused for worker in workers)
         if not is_waiting or any(worker.is_busy for worker in workers):
             self._moved = now

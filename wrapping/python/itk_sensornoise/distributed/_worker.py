@@ -106,7 +106,7 @@ def merge(run: str, start: dict[str, Any], ended: Sequence[Part], parts: Sequenc
         sums = _state(run, start, ended)
         try:
             for part in parts:
-                sums.merge(part.sums)  # type: ignore[arg-type]  # told above
+                sums.merge(part.sums)  # type: ignore[arg-type]  # checked above
         except RuntimeError as error:
             if " equals frame " not in str(error):
                 raise
