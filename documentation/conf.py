@@ -33,7 +33,7 @@ autodoc_member_order = "bysource"
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 
-# What the copy buttons leave out: the prompt of a command and its output.
+# The copy buttons leave out the prompt of a command and its output.
 copybutton_prompt_text = "$ "
 copybutton_here_doc_delimiter = "EOF"
 copybutton_line_continuation_character = "\\"
@@ -49,7 +49,7 @@ pygments_dark_style = "github-dark"
 
 
 # Files of the repository that have a page.
-PAGES = {"module/estimator.md": "method/derivation.md", "README.md": "index.md"}
+PAGES = {"README.md": "index.md"}
 
 
 def _with_included(text: str, folder: pathlib.Path) -> str:

@@ -166,7 +166,11 @@ def blocks(text: str) -> str:
     for paragraph in text.split("\n\n"):
         lines = paragraph.splitlines()
         is_code = all(line.startswith("  ") for line in lines)
-        paragraphs.append("\n".join(["```text", *lines, "```"]) if is_code else escaped(paragraph))
+        paragraphs.append(
+            "\n".join(["<!-- not run: a formula or a table -->", "```none", *lines, "```"])
+            if is_code
+            else escaped(paragraph)
+        )
     return "\n\n".join(paragraphs)
 
 
