@@ -4,7 +4,7 @@
 
 #include "base/Constants.h"
 #include "base/Eigen.h"
-#include "correlation/CorrelationSums.h"
+#include "base/Jackknife.h"
 #include "moments/DarkFrames.h"
 #include "pixels/IlluminationResponses.h"
 #include "refined/Constants.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "correlation/CorrelationSums.h"
+#include "base/Jackknife.h"
 #include "simulation/Random.h"
 
 #include <cmath>
