@@ -4,12 +4,12 @@
 
 #include "base/Eigen.h"
 #include "base/Constants.h"
+#include "base/Jackknife.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -133,39 +133,49 @@ VarianceCurve::FitHalves() const
   return slopes;
 }
 
+namespace
+{
+/** Adjacent bins of a curve. */
+struct GroupOfBins
+{
+  std::vector<CurveBin> bins;
+
+  GroupOfBins &
+  operator+=(const GroupOfBins & other)
+  {
+    bins.insert(bins.end(), other.bins.begin(), other.bins.end());
+    return *this;
+  }
+};
+} // namespace
+
 double
 VarianceCurve::SlopeVarianceByGroups() const
 {
-  const CurveBin      all = this->SumOf(0, bins.size());
-  const Slope         whole = this->SlopeOf(0, bins.size());
-  std::vector<double> slopes; // without one group each
-  double              information = 0.0;
-  for (std::size_t first = 0, b = 0; b < bins.size(); ++b)
+  const CurveBin           all = this->SumOf(0, bins.size());
+  const Slope              whole = this->SlopeOf(0, bins.size());
+  std::vector<GroupOfBins> groups;
+  double                   information = 0.0;
+  bool                     isComplete = true; // the last group
+  for (const CurveBin & bin : bins)
   {
-    const double x = bins[b].x / bins[b].weight - all.x / all.weight;
-    information += bins[b].weight * x * x;
-    if (information * Groups >= whole.information * static_cast<double>(slopes.size() + 1) || b + 1 == bins.size())
+    if (isComplete)
     {
-      VarianceCurve rest = *this;
-      rest.bins.erase(rest.bins.begin() + static_cast<std::ptrdiff_t>(first),
-                      rest.bins.begin() + static_cast<std::ptrdiff_t>(b + 1));
-      const Slope slope = rest.SlopeOf(0, rest.bins.size());
-      if (!(slope.information > 0.0))
-      {
-        return 0.0;
-      }
-      slopes.push_back(slope.excess);
-      first = b + 1;
+      groups.emplace_back();
     }
+    groups.back().bins.push_back(bin);
+    const double x = bin.x / bin.weight - all.x / all.weight;
+    information += bin.weight * x * x;
+    isComplete = information * Groups >= whole.information * static_cast<double>(groups.size());
   }
-  const auto   count = static_cast<double>(slopes.size());
-  const double mean = std::accumulate(slopes.begin(), slopes.end(), 0.0) / std::max(1.0, count);
-  double       squares = 0.0;
-  for (const double slope : slopes)
-  {
-    squares += (slope - mean) * (slope - mean);
-  }
-  return count > 1.0 ? squares * (count - 1.0) / count : 0.0;
+  bool                    isDetermined = groups.size() > 1;
+  const JackknifeEstimate slope = Jackknife(groups, [&](const GroupOfBins & rest) {
+    const VarianceCurve curve{ line, rest.bins };
+    const Slope         ofRest = curve.SlopeOf(0, rest.bins.size());
+    isDetermined = isDetermined && ofRest.information > 0.0;
+    return Eigen::VectorXd::Constant(1, ofRest.excess);
+  });
+  return isDetermined ? slope.covariance(0, 0) : 0.0;
 }
 
 namespace
