@@ -170,7 +170,7 @@ VarianceStep::RestOf(const VarianceCurve & curve) const
 }
 
 std::optional<VarianceStep>
-FindPossibleStep(const VarianceCurve & curve)
+FindVarianceStep(const VarianceCurve & curve)
 {
   const std::vector<ExcessOfBin> bins = ComputeExcesses(curve);
   if (bins.size() < 2 * InSteps.leastBins + 1)
@@ -218,13 +218,6 @@ FindPossibleStep(const VarianceCurve & curve)
   step.slopeAbove = ofAbove.value;
   step.errorOfSlopes = std::max(ofBelow.error, ofAbove.error);
   return step;
-}
-
-std::optional<VarianceStep>
-FindVarianceStep(const VarianceCurve & curve)
-{
-  std::optional<VarianceStep> step = FindPossibleStep(curve);
-  return step && step->isCertain ? step : std::nullopt;
 }
 
 } // namespace sensornoise

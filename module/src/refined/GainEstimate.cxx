@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -77,20 +78,16 @@ ChooseLine(GainEstimate &            estimate,
                          SlopeCovariance(ofClasses, all.pivotDn) + lines.covarianceOfCorrelation;
 }
 
-/** Fits one line on either side of a step of the variance, with the same gain, and replaces the curve by the deviations
- * from both lines. */
+/** Fits one line on either side of \a step, with the same gain, and replaces the curve by the deviations from both
+ * lines. */
 void
 ApplyStep(GainEstimate &            estimate,
+          const VarianceStep &      step,
           const SensorLines &       lines,
           const StaticVariance &    variance,
           const InitialNoiseModel & model)
 {
-  estimate.step = FindVarianceStep(lines.ofOwnLevels);
-  if (!estimate.step)
-  {
-    return;
-  }
-  const VarianceStep & step = *estimate.step;
+  estimate.step = step;
   estimate.line = step.line;
   estimate.curve = step.RestOf(lines.ofOwnLevels);
   estimate.reducedChi2 = estimate.curve.ReducedChi2(variance.varianceInflation);
@@ -106,20 +103,20 @@ ApplyStep(GainEstimate &            estimate,
  * certain.
  */
 void
-ExtendIntervalByStep(GainEstimate & estimate, const VarianceCurve & ofOwnLevels)
+ExtendIntervalByStep(GainEstimate & estimate, const VarianceStep & step)
 {
   const auto extend = [&](double slope) {
     double & side = slope < 0.0 ? estimate.below : estimate.above;
     side = std::max(side, std::abs(slope));
   };
-  if (estimate.step)
+  if (step.isCertain)
   {
-    extend(estimate.step->slopeBelow);
-    extend(estimate.step->slopeAbove);
+    extend(step.slopeBelow);
+    extend(step.slopeAbove);
   }
-  else if (const auto possible = FindPossibleStep(ofOwnLevels))
+  else
   {
-    extend(possible->line.gain - estimate.line.gain);
+    extend(step.line.gain - estimate.line.gain);
   }
 }
 
@@ -318,13 +315,20 @@ EstimateGain(const RefinedResults & found, const SensorLines & lines)
   estimate.curve = lines.curve;
   estimate.reducedChi2 = lines.curve.ReducedChi2(variance.varianceInflation);
   ChooseLine(estimate, lines, variance, found.scene.model);
-  ApplyStep(estimate, lines, variance, found.scene.model);
+  const std::optional<VarianceStep> step = FindVarianceStep(lines.ofOwnLevels);
+  if (step && step->isCertain)
+  {
+    ApplyStep(estimate, *step, lines, variance, found.scene.model);
+  }
   estimate.scale =
     estimate.line.At(estimate.line.pivotDn) / std::max(smallestDivisor, estimate.line.pivotDn - found.blackDn);
   const double dispersion =
     std::min(DispersionOfClasses(variance), InRefined.largestDispersion * variance.varianceInflation);
   FindModelError(estimate, estimate.curve, variance.pattern, found.blackDn, dispersion);
-  ExtendIntervalByStep(estimate, lines.ofOwnLevels);
+  if (step)
+  {
+    ExtendIntervalByStep(estimate, *step);
+  }
   ExtendIntervalByIllumination(estimate, found);
   CombineWithFrames(estimate, lines, found.blackDn, variance.varianceInflation);
   if (found.settings.offset)
