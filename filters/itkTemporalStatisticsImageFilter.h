@@ -140,31 +140,31 @@ public:
   double
   GetAttainedLow() const
   {
-    return m_Summary.codes.clipLowDn.value_or(std::numeric_limits<double>::quiet_NaN());
+    return m_Summary.dnRange.clipLowDn.value_or(std::numeric_limits<double>::quiet_NaN());
   }
   /** Returns the highest level that the sensor reaches [DN], given or found. NaN: no clip level. */
   double
   GetAttainedHigh() const
   {
-    return m_Summary.codes.clipHighDn.value_or(std::numeric_limits<double>::quiet_NaN());
+    return m_Summary.dnRange.clipHighDn.value_or(std::numeric_limits<double>::quiet_NaN());
   }
   /** Returns the source of the clip levels: `given`, `pile-up`, `code range`, `none`, or `low: ..., high: ...`. */
   std::string
   GetClipSource() const
   {
-    return m_Summary.codes.clipSource;
+    return m_Summary.dnRange.clipSource;
   }
   /** Returns the quantization step [DN], given or found. 0: no quantization. */
   double
   GetFoundQuantisationStep() const
   {
-    return m_Summary.codes.quantisationStepDn;
+    return m_Summary.dnRange.quantisationStepDn;
   }
   /** Returns the bit depth [bit], given or found. 0: floating-point data. */
   int
   GetFoundBitDepth() const
   {
-    return m_Summary.codes.bitDepth.value_or(0);
+    return m_Summary.dnRange.bitDepth.value_or(0);
   }
   /** Returns the number of pixels that reach a clip level. */
   SizeValueType

@@ -170,7 +170,7 @@ RunSingleImages(const Burst &                 burst,
                 const BurstProgress &         progress)
 {
   SingleImageSettings settings;
-  settings.codes = DnSettingsOf(burst, options);
+  settings.dnSettings = DnSettingsOf(burst, options);
   if (mosaic)
   {
     settings.bayerPattern = mosaic->pattern;
@@ -200,13 +200,13 @@ Estimate(const Burst & burst, const Burst * dark, const BurstOptions & options, 
   if (options.method == "published")
   {
     PublishedSettings settings;
-    settings.codes = DnSettingsOf(burst, options);
+    settings.dnSettings = DnSettingsOf(burst, options);
     return RunMethod<TPixel, PublishedMethod<TPixel>>(
       burst, mosaic, [&settings](std::size_t) { return settings; }, progress);
   }
   const auto      offsets = FindOffsets<TPixel>(burst, dark, options, mosaic, progress);
   RefinedSettings settings;
-  settings.codes = DnSettingsOf(burst, options);
+  settings.dnSettings = DnSettingsOf(burst, options);
   settings.memoryLimitBytes = MemoryLimitOf(burst, options) / static_cast<double>(offsets.size());
   const auto settingsOf = [&](std::size_t part) {
     RefinedSettings ofPart = settings;

@@ -168,7 +168,7 @@ NoiseCorrelationEstimator<TStack>::FindMeanAndMask()
     std::move(m_Measurement->moments),
     sensornoise::MakeDnSettings(0, std::nan(""), std::nan(""), m_QuantisationStep),
     this->GetParallelFor());
-  m_Measurement->settings.quantisationStepDn = maps.summary.codes.quantisationStepDn;
+  m_Measurement->settings.quantisationStepDn = maps.summary.dnRange.quantisationStepDn;
   if (m_Measurement->mean.empty())
   {
     m_Measurement->mean = std::move(maps.mean);

@@ -104,7 +104,7 @@ SensorNoiseEstimator<TStack>::FindOffsets(const SensorNoiseStack & stack)
       sink->SetMosaic(stack.mosaic->geometry);
     }
     sink->Update();
-    const std::vector<sensornoise::KnownOffset> measured = sink->Measure(settings.codes);
+    const std::vector<sensornoise::KnownOffset> measured = sink->Measure(settings.dnSettings);
     std::copy(measured.begin(), measured.end(), offsets.begin());
   }
   else if (const auto camera = this->GetCamera();

@@ -224,7 +224,7 @@ SensorNoiseEstimator<TStack>::MakePublishedSettings() const
   settings.sigmaRows = m_SigmaRows;
   settings.shutterAxis = m_ShutterAxis;
   settings.excessNoiseFactor = this->GetExcessNoiseFactor();
-  settings.codes = this->MakeDnSettings();
+  settings.dnSettings = this->MakeDnSettings();
   return settings;
 }
 
@@ -254,7 +254,7 @@ SensorNoiseEstimator<TStack>::MakeRefinedSettings() const
 {
   sensornoise::RefinedSettings settings;
   settings.rollingShutter = m_RollingShutter;
-  settings.codes = this->MakeDnSettings();
+  settings.dnSettings = this->MakeDnSettings();
   if (this->HasLevelRange())
   {
     settings.levelRangeDn = sensornoise::LevelRange{ m_LevelRangeLow, m_LevelRangeHigh };

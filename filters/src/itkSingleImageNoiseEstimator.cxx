@@ -85,7 +85,7 @@ SingleImageNoiseEstimator<TStack>::StartMeasurement(const PixelType * firstFrame
   sensornoise::SingleImageSettings settings;
   settings.bayerPattern = m_Measurement->pattern;
   settings.excessNoiseFactor = this->GetExcessNoiseFactor();
-  settings.codes = sensornoise::MakeDnSettings(
+  settings.dnSettings = sensornoise::MakeDnSettings(
     this->GetBitDepth(), this->GetClipLow(), this->GetClipHigh(), this->GetQuantisationStep());
   m_Measurement->method.emplace(
     settings, frame, this->GetNumberOfFrames(), m_Measurement->mask, this->GetParallelFor());

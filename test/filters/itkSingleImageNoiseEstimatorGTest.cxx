@@ -88,7 +88,7 @@ TEST(SingleImageNoiseEstimator, MaskAndSettingsReachTheMethod)
   estimator->SetExcessNoiseFactor(2.0);
   EXPECT_EQ(ErrorOf(estimator), "no error");
   SingleImageSettings settings;
-  settings.codes.clipHighDn = 3000.0;
+  settings.dnSettings.clipHighDn = 3000.0;
   settings.excessNoiseFactor = 2.0;
   EXPECT_EQ(estimator->GetReportAsJson(), ToJson(test::single::MeasureAll(Simulated(), settings, 1, pixels).front()));
 }

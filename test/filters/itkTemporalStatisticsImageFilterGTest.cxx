@@ -103,7 +103,7 @@ TEST(TemporalStatisticsImageFilter, PixelThatIsSaturatedOnceIsNotValid)
   const auto filter = StatisticsOf<StackType>(stack);
   filter->Update();
   EXPECT_EQ(filter->GetSummary().clipped, 2u);
-  EXPECT_EQ(filter->GetSummary().codes.bitDepth, 12);
+  EXPECT_EQ(filter->GetSummary().dnRange.bitDepth, 12);
   EXPECT_EQ(filter->GetValidMask()->GetPixel({ { 3, 2 } }), 0);
   EXPECT_EQ(filter->GetValidMask()->GetPixel({ { 4, 2 } }), 0);
   EXPECT_EQ(filter->GetValidMask()->GetPixel({ { 5, 2 } }), 1);
@@ -116,8 +116,8 @@ TEST(TemporalStatisticsImageFilter, FindsTheLevelAtWhichTheSensorSaturates)
   source->SetClipHigh(2500.0);
   const auto filter = StatisticsOf<StackType>(source->GetOutput());
   filter->Update();
-  EXPECT_EQ(filter->GetSummary().codes.clipHighDn, 2500.0);
-  EXPECT_EQ(filter->GetSummary().codes.clipSource, "low: code range, high: pile-up");
+  EXPECT_EQ(filter->GetSummary().dnRange.clipHighDn, 2500.0);
+  EXPECT_EQ(filter->GetSummary().dnRange.clipSource, "low: code range, high: pile-up");
   EXPECT_GT(filter->GetSummary().clipped, 0u);
 }
 

@@ -142,10 +142,10 @@ TEST(TemporalStatisticsImageFilterPipeline, SecondUpdateDoesNoWorkAndAParameterD
   EXPECT_EQ(clipped(), 0u);
   filter->SetBitDepth(16);
   filter->Update();
-  EXPECT_EQ(filter->GetSummary().codes.clipHighDn, 65535.0);
+  EXPECT_EQ(filter->GetSummary().dnRange.clipHighDn, 65535.0);
   filter->SetBitDepth(0);
   filter->Update();
-  EXPECT_EQ(filter->GetSummary().codes.clipHighDn, 4095.0);
+  EXPECT_EQ(filter->GetSummary().dnRange.clipHighDn, 4095.0);
 }
 
 TEST(TemporalStatisticsImageFilterPipeline, EveryStackFileGivesTheSameBits)

@@ -28,7 +28,7 @@ inline RefinedSettings
 WithDnSettings(double stepDn = 1.0, double lowDn = 0.0)
 {
   RefinedSettings settings;
-  settings.codes = MakeDnSettings(16, lowDn, lowDn + 4095.0 * stepDn, stepDn);
+  settings.dnSettings = MakeDnSettings(16, lowDn, lowDn + 4095.0 * stepDn, stepDn);
   return settings;
 }
 

@@ -57,9 +57,9 @@ MapsInType(const Stack<std::uint16_t> & stack)
 void
 ExpectTheSame(const StackMaps & maps, const StackMaps & expected)
 {
-  EXPECT_EQ(maps.summary.codes.clipLowDn, expected.summary.codes.clipLowDn);
-  EXPECT_EQ(maps.summary.codes.clipHighDn, expected.summary.codes.clipHighDn);
-  EXPECT_EQ(maps.summary.codes.clipSource, expected.summary.codes.clipSource);
+  EXPECT_EQ(maps.summary.dnRange.clipLowDn, expected.summary.dnRange.clipLowDn);
+  EXPECT_EQ(maps.summary.dnRange.clipHighDn, expected.summary.dnRange.clipHighDn);
+  EXPECT_EQ(maps.summary.dnRange.clipSource, expected.summary.dnRange.clipSource);
   EXPECT_EQ(maps.summary.clipped, expected.summary.clipped);
   EXPECT_EQ(maps.summary.notFinite, expected.summary.notFinite);
   EXPECT_EQ(maps.valid, expected.valid);
@@ -81,12 +81,12 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, CopiesOfIntegersThatSaturateLeaveOutT
       const auto      greyValues = StackBetween({}, 2500.0, width);
       const StackMaps expected = MapsOf(greyValues);
       const StackMaps maps = MapsOf(greyValues.Map<TypeParam>([&](std::uint16_t u) { return scale * u; }));
-      ASSERT_EQ(expected.summary.codes.clipSource, "low: code range, high: pile-up");
+      ASSERT_EQ(expected.summary.dnRange.clipSource, "low: code range, high: pile-up");
       const bool areWhole = scale == 1.0; // then the values are integers
-      EXPECT_EQ(maps.summary.codes.clipSource,
-                areWhole ? expected.summary.codes.clipSource : "low: none, high: pile-up");
-      EXPECT_EQ(maps.summary.codes.clipHighDn, static_cast<double>(static_cast<TypeParam>(scale * 2500.0)));
-      EXPECT_EQ(maps.summary.codes.clipLowDn.has_value(), areWhole);
+      EXPECT_EQ(maps.summary.dnRange.clipSource,
+                areWhole ? expected.summary.dnRange.clipSource : "low: none, high: pile-up");
+      EXPECT_EQ(maps.summary.dnRange.clipHighDn, static_cast<double>(static_cast<TypeParam>(scale * 2500.0)));
+      EXPECT_EQ(maps.summary.dnRange.clipLowDn.has_value(), areWhole);
       EXPECT_GT(maps.summary.clipped, 0u);
       EXPECT_EQ(maps.summary.clipped, expected.summary.clipped);
       EXPECT_EQ(maps.valid, expected.valid);
@@ -98,11 +98,11 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, ClipLevelThatMostPixelsAttainIsFound)
 {
   const auto      greyValues = StackBetween({}, 600.0);
   const StackMaps expected = MapsOf(greyValues);
-  EXPECT_EQ(expected.summary.codes.clipSource, "low: code range, high: pile-up");
-  EXPECT_EQ(expected.summary.codes.clipHighDn, 600.0);
+  EXPECT_EQ(expected.summary.dnRange.clipSource, "low: code range, high: pile-up");
+  EXPECT_EQ(expected.summary.dnRange.clipHighDn, 600.0);
   EXPECT_GT(expected.summary.clipped, Width * Height / 2);
   const StackMaps maps = MapsOf(greyValues.Map<TypeParam>([](std::uint16_t u) { return u / 16.0; }));
-  EXPECT_EQ(maps.summary.codes.clipHighDn, 600.0 / 16.0);
+  EXPECT_EQ(maps.summary.dnRange.clipHighDn, 600.0 / 16.0);
   EXPECT_EQ(maps.valid, expected.valid);
 }
 
@@ -110,13 +110,13 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, FloorIsFoundBelowAboveAndAtZero)
 {
   const auto      greyValues = StackBetween(500.0, {});
   const StackMaps expected = MapsOf(greyValues);
-  ASSERT_EQ(expected.summary.codes.clipSource, "low: pile-up, high: code range");
+  ASSERT_EQ(expected.summary.dnRange.clipSource, "low: pile-up, high: code range");
   for (const double floorDn : { 500.25, 0.25, -300.25 }) // levels that are not integers
   {
     const StackMaps maps = MapsOf(greyValues.Map<TypeParam>([&](std::uint16_t u) { return u - 500.0 + floorDn; }));
-    EXPECT_EQ(maps.summary.codes.clipLowDn, floorDn);
-    EXPECT_FALSE(maps.summary.codes.clipHighDn);
-    EXPECT_EQ(maps.summary.codes.clipSource, "low: pile-up, high: none");
+    EXPECT_EQ(maps.summary.dnRange.clipLowDn, floorDn);
+    EXPECT_FALSE(maps.summary.dnRange.clipHighDn);
+    EXPECT_EQ(maps.summary.dnRange.clipSource, "low: pile-up, high: none");
     EXPECT_EQ(maps.valid, expected.valid);
   }
 }
@@ -124,12 +124,12 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, FloorIsFoundBelowAboveAndAtZero)
 TYPED_TEST(SensorNoiseStackMapsOfFloating, LevelsBetweenIntegersSaturateToo)
 {
   const auto stack = Simulate<TypeParam>(FlickeringSettings(Frames), Width, Height);
-  EXPECT_EQ(MapsOf(stack).summary.codes.clipSource, "none");
+  EXPECT_EQ(MapsOf(stack).summary.dnRange.clipSource, "none");
   const auto      saturated = stack.Map([](TypeParam u) { return std::clamp<TypeParam>(u, 500, 2500); });
   const StackMaps maps = MapsOf(saturated);
-  EXPECT_EQ(maps.summary.codes.clipLowDn, 500.0);
-  EXPECT_EQ(maps.summary.codes.clipHighDn, 2500.0);
-  EXPECT_EQ(maps.summary.codes.clipSource, "pile-up");
+  EXPECT_EQ(maps.summary.dnRange.clipLowDn, 500.0);
+  EXPECT_EQ(maps.summary.dnRange.clipHighDn, 2500.0);
+  EXPECT_EQ(maps.summary.dnRange.clipSource, "pile-up");
   for (std::size_t p = 0; p < Width * Height; ++p)
   {
     bool isWithin = true;
@@ -151,7 +151,7 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, WithoutSaturationNothingIsLeftOut)
     {
       const StackMaps maps = MapsOf(
         greyValues.Map<TypeParam>([&](std::uint16_t u) { return 0.25 + stepDn * static_cast<int>(u / stepDn + 0.5); }));
-      EXPECT_EQ(maps.summary.codes.clipSource, "none") << width << ", " << stepDn;
+      EXPECT_EQ(maps.summary.dnRange.clipSource, "none") << width << ", " << stepDn;
       EXPECT_EQ(maps.summary.clipped, 0u);
       EXPECT_EQ(std::count(maps.valid.begin(), maps.valid.end(), 1), static_cast<std::ptrdiff_t>(maps.valid.size()));
     }
@@ -172,8 +172,8 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, PixelsThatAreNotFiniteHideNoClipLevel
       stack.pixels[((k + 1) % Frames) * Width * Height + 7 * k] = 9999; // beyond the clip level
     }
     const StackMaps maps = MapsOf(stack);
-    EXPECT_EQ(maps.summary.codes.clipHighDn, 2500.0);
-    EXPECT_EQ(maps.summary.codes.clipSource, expected.summary.codes.clipSource);
+    EXPECT_EQ(maps.summary.dnRange.clipHighDn, 2500.0);
+    EXPECT_EQ(maps.summary.dnRange.clipSource, expected.summary.dnRange.clipSource);
     EXPECT_EQ(maps.summary.notFinite, 20u);
     for (std::size_t p = 0; p < Width * Height; ++p)
     {
@@ -182,7 +182,7 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, PixelsThatAreNotFiniteHideNoClipLevel
   }
   std::fill(stack.pixels.begin(), stack.pixels.end(), std::numeric_limits<TypeParam>::quiet_NaN());
   const StackMaps maps = MapsOf(stack);
-  EXPECT_EQ(maps.summary.codes.clipSource, "none");
+  EXPECT_EQ(maps.summary.dnRange.clipSource, "none");
   EXPECT_EQ(maps.summary.notFinite, Width * Height);
 }
 
@@ -190,7 +190,7 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, AreTheSameForAnyChunksThreadsAndProce
 {
   const auto      stack = StackBetween(500.0, 2500.0).Map<TypeParam>([](std::uint16_t u) { return u / 3.0; });
   const StackMaps expected = MapsOf(stack);
-  ASSERT_EQ(expected.summary.codes.clipSource, "pile-up");
+  ASSERT_EQ(expected.summary.dnRange.clipSource, "pile-up");
   for (const std::size_t chunk : { 1, 5 })
   {
     ExpectTheSame(MapsOf(stack, chunk, Threads(3)), expected);
@@ -212,19 +212,19 @@ TEST(SensorNoiseStackMaps, TheTypeOfWholeNumbersChangesNothing)
 {
   const Stack<std::uint16_t> stack = StackBetween(std::nullopt, 2000.0);
   const StackMaps            expected = MapsOf(stack);
-  EXPECT_EQ(expected.summary.codes.clipHighDn, 2000.0);
+  EXPECT_EQ(expected.summary.dnRange.clipHighDn, 2000.0);
   for (const StackMaps & maps : { MapsInType<short>(stack), MapsInType<float>(stack), MapsInType<double>(stack) })
   {
     ExpectTheSame(maps, expected);
-    EXPECT_EQ(maps.summary.codes.bitDepth, expected.summary.codes.bitDepth);
-    EXPECT_EQ(maps.summary.codes.quantisationStepDn, 1.0);
+    EXPECT_EQ(maps.summary.dnRange.bitDepth, expected.summary.dnRange.bitDepth);
+    EXPECT_EQ(maps.summary.dnRange.quantisationStepDn, 1.0);
   }
 }
 
 TEST(SensorNoiseStackMaps, ClipLevelsThatNoPixelAttainsHaveCutOffNothing)
 {
   const StackSummary plain = MapsOf(StackBetween(std::nullopt, std::nullopt)).summary;
-  EXPECT_TRUE(plain.codes.clipLowDn && plain.codes.clipHighDn); // the ends of the DN range
+  EXPECT_TRUE(plain.dnRange.clipLowDn && plain.dnRange.clipHighDn); // the ends of the DN range
   EXPECT_FALSE(plain.AttainedRange().clipLowDn || plain.AttainedRange().clipHighDn);
   const StackSummary saturated = MapsOf(StackBetween(std::nullopt, 2000.0)).summary;
   EXPECT_EQ(saturated.clippedLow, 0U);
@@ -243,6 +243,6 @@ TEST(SensorNoiseStackMaps, ScaledNumbersHaveTheirStep)
     scaled.pixels.push_back(static_cast<float>(greyValues.pixels[i]) / 65535.0F);
     noisy.pixels.push_back(static_cast<float>(greyValues.pixels[i]) + 0.001F * static_cast<float>(i % 997));
   }
-  EXPECT_NEAR(MapsOf(scaled).summary.codes.quantisationStepDn, 1.0 / 65535.0, 1e-9);
-  EXPECT_EQ(MapsOf(noisy).summary.codes.quantisationStepDn, 0.0);
+  EXPECT_NEAR(MapsOf(scaled).summary.dnRange.quantisationStepDn, 1.0 / 65535.0, 1e-9);
+  EXPECT_EQ(MapsOf(noisy).summary.dnRange.quantisationStepDn, 0.0);
 }

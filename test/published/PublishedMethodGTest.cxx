@@ -151,7 +151,7 @@ TEST(SensorNoisePublishedMethod, WrongUseIsRefused)
   settings.brightQuantile = 0.005;
   EXPECT_THROW(Method(settings, geometry, 20), std::invalid_argument);
   settings = {};
-  settings.codes.bitDepth = 10;
+  settings.dnSettings.bitDepth = 10;
   EXPECT_THROW(Measure(FlickeringStack(), settings), std::invalid_argument); // the data exceed 1,023
 }
 

@@ -141,7 +141,7 @@ TEST(SensorNoisePublishedMethod, FloatingPointPixelsGiveTheSameAsIntegers)
 {
   const auto        integers = Measure(FlickeringStack(), WithGlobalShutter());
   PublishedSettings given = WithGlobalShutter();
-  given.codes = MakeDnSettings(12, 0.0, 4095.0, 1.0);
+  given.dnSettings = MakeDnSettings(12, 0.0, 4095.0, 1.0);
   const auto floats = Measure(FlickeringStack().Map<float>([](int u) { return u; }), given);
   ExpectSameCamera(integers.GetReport(), floats.GetReport());
   EXPECT_EQ(integers.GetPixelUse(), floats.GetPixelUse());
@@ -158,7 +158,7 @@ TEST(SensorNoisePublishedMethod, MaskedPixelsTakeNoPart)
     mask[p] = p / stack.width < 40 ? 7 : 0;
   }
   PublishedSettings settings = WithGlobalShutter();
-  settings.codes = MakeDnSettings(12, 0.0, 4095.0, 1.0); // otherwise the digital numbers of masked pixels are used
+  settings.dnSettings = MakeDnSettings(12, 0.0, 4095.0, 1.0); // otherwise the digital numbers of masked pixels are used
   const auto expected = Measure(stack, settings, 1000, mask);
   for (std::size_t i = 0; i < stack.pixels.size(); ++i)
   {

@@ -266,10 +266,10 @@ TEST(KnownOffset, DnSettingsAndLevelsOutOfRangeAreRejected)
     EXPECT_THROW(settings.Validate(), std::invalid_argument);
   };
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  refuses([](RefinedSettings & s) { s.codes.clipLowDn = -infinity; });
-  refuses([](RefinedSettings & s) { s.codes.clipHighDn = 1e308; });
-  refuses([](RefinedSettings & s) { s.codes.quantisationStepDn = 1e308; });
-  refuses([](RefinedSettings & s) { s.codes.quantisationStepDn = infinity; });
+  refuses([](RefinedSettings & s) { s.dnSettings.clipLowDn = -infinity; });
+  refuses([](RefinedSettings & s) { s.dnSettings.clipHighDn = 1e308; });
+  refuses([](RefinedSettings & s) { s.dnSettings.quantisationStepDn = 1e308; });
+  refuses([](RefinedSettings & s) { s.dnSettings.quantisationStepDn = infinity; });
   refuses([](RefinedSettings & s) { s.levelRangeDn = LevelRange{ 0.0, infinity }; });
   refuses([](RefinedSettings & s) { s.levelRangeDn = LevelRange{ -std::numeric_limits<double>::infinity(), 5.0 }; });
 }

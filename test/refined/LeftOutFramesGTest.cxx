@@ -173,7 +173,7 @@ TEST(SensorNoiseLeftOutFrames, OfThePublishedMethodAreLeftOutAlike)
   const auto & stack = SmallStack<GreyValue>();
   const auto   measure = [](const Stack<GreyValue> & frames) {
     PublishedSettings settings;
-    settings.codes = WithDnSettings().codes;
+    settings.dnSettings = WithDnSettings().dnSettings;
     PublishedMethod<GreyValue> method(settings, GeometryOf(frames), frames.frames);
     while (!method.IsDone())
     {

@@ -190,9 +190,9 @@ TEST(SensorNoiseRefinedMethod, WrongUseIsRefused)
   EXPECT_THROW(Method({}, { 2, 3, 1 }, 20), std::invalid_argument);
   EXPECT_THROW(Method({}, geometry, 20, std::vector<std::uint8_t>(319, 1)), std::invalid_argument);
   RefinedSettings settings;
-  settings.codes.bitDepth = 17;
+  settings.dnSettings.bitDepth = 17;
   EXPECT_THROW(Method(settings, geometry, 20), std::invalid_argument);
-  settings.codes.bitDepth = 10;
+  settings.dnSettings.bitDepth = 10;
   EXPECT_THROW(Measure(TexturedStack<GreyValue>(), settings), std::invalid_argument); // the data exceed 1,023
 }
 

@@ -118,10 +118,10 @@ TEST(SensorNoiseFullWells, PaperBesideThingsThatMoveIsNoSaturation)
     maps.variance[p] *= (SensorVariance(1600.0) + (place < 1.0 ? 1e4 : 0.0)) / own;
   }
   EXPECT_TRUE(FindFullWells(maps, Geometry)); // by the fall of the variance alone
-  maps.summary.codes.clipLowDn = 0.0;
+  maps.summary.dnRange.clipLowDn = 0.0;
   EXPECT_FALSE(FindFullWells(maps, Geometry));
   StackMaps full = MapsOf(1200.0, 10.0);
-  full.summary.codes.clipLowDn = 0.0;
+  full.summary.dnRange.clipLowDn = 0.0;
   EXPECT_TRUE(FindFullWells(full, Geometry));
 }
 
@@ -135,7 +135,7 @@ TEST(SensorNoiseFullWells, TooFewPixelsShowNothing)
 TEST(SensorNoiseFullWells, BecomeTheUpperClipLevelOfTheScene)
 {
   StackMaps maps = MapsOf(1200.0, 10.0);
-  DnRange & dnRange = maps.summary.codes;
+  DnRange & dnRange = maps.summary.dnRange;
   dnRange.quantisationStepDn = 1.0;
   dnRange.clipLowDn = 0.0;
   dnRange.clipHighDn = 4095.0;
@@ -145,8 +145,8 @@ TEST(SensorNoiseFullWells, BecomeTheUpperClipLevelOfTheScene)
     const StaticScene scene = MakeStaticScene(maps, {}, Geometry, 32, std::vector<double>(32, 900.0), {}).scene;
     ASSERT_FALSE(scene.failureReason);
     ASSERT_TRUE(scene.fullWells);
-    EXPECT_EQ(scene.summary.codes.clipHighDn, std::round(scene.fullWells->levelDn));
-    EXPECT_EQ(scene.summary.codes.clipSource,
+    EXPECT_EQ(scene.summary.dnRange.clipHighDn, std::round(scene.fullWells->levelDn));
+    EXPECT_EQ(scene.summary.dnRange.clipSource,
               std::string("low: ") + (isFound ? "pile-up" : "code range") + ", high: full wells");
     EXPECT_EQ(scene.summary.clippedHigh, scene.summary.clipped);
     std::size_t clipped = 0;

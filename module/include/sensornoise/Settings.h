@@ -139,7 +139,7 @@ struct SensorNoise_EXPORT RefinedSettings
    * F. 1 (default): no excess noise. */
   double excessNoiseFactor{ 1.0 };
   /** Given properties of the digital numbers; the others are found. */
-  DnSettings codes;
+  DnSettings dnSettings;
   /** Largest memory of the method, without the frames that are added [bytes]; infinite (default): no limit. With less
    * memory the stack is read more often, and the result has the same bits. At least 64 bytes per pixel, 20 kB per frame
    * and 32 MiB are needed. */
@@ -174,7 +174,7 @@ struct SensorNoise_EXPORT PublishedSettings
   /** Excess noise factor F of the sensor [1], 1 or more. The gain is the slope of the variance, divided by F. */
   double excessNoiseFactor{ 1.0 };
   /** Given properties of the digital numbers; the others are found. */
-  DnSettings codes;
+  DnSettings dnSettings;
 
   /** Throws std::invalid_argument if a parameter is out of its range. */
   void

@@ -29,7 +29,7 @@ struct SensorNoise_EXPORT SingleImageSettings
    * (default): none. */
   double excessNoiseFactor{ 1.0 };
   /** Known settings of the digital numbers; others are found from the first frame. */
-  DnSettings codes;
+  DnSettings dnSettings;
 
   /** Throws std::invalid_argument if a parameter is out of its range. */
   void

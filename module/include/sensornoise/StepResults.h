@@ -162,7 +162,7 @@ struct SensorNoise_EXPORT StackSummary
     return this->AttainedRange();
   }
 
-  DnRange     codes;            ///< quantization and clip levels
+  DnRange     dnRange;          ///< quantization and clip levels
   std::size_t clipped{ 0 };     ///< number of pixels that attain a clip level in a frame
   std::size_t clippedLow{ 0 };  ///< number of pixels that attain the lower clip level
   std::size_t clippedHigh{ 0 }; ///< number of pixels that attain the upper clip level

@@ -223,7 +223,7 @@ SurveyPixels(TemporalMaps<TPixel> &            ofStack,
   DarkMaps &        maps = survey.maps;
   maps.frames = frames;
   maps.usable.resize(pixels);
-  survey.dnRange = SummariseStack<TPixel>(ofStack, dnSettings, parallelFor, maps.usable.data()).codes;
+  survey.dnRange = SummariseStack<TPixel>(ofStack, dnSettings, parallelFor, maps.usable.data()).dnRange;
   maps.offsetDn = std::move(ofStack.mean);
   maps.varianceDn2 = std::move(ofStack.variance);
   maps.stepDn = survey.dnRange.quantisationStepDn;

@@ -363,7 +363,7 @@ FitExposures(const std::vector<double> &      exposures,
   }
   return FitExposures(
     FindExposureLevels(thumbnails, counted, exposures, FindEvenPixels(thumbnails, counted, exposures, maps)),
-    maps.summary.codes);
+    maps.summary.dnRange);
 }
 
 } // namespace sensornoise

@@ -271,9 +271,9 @@ FindEnds(const TemporalMaps<TPixel> & maps, const ParallelFor & parallelFor)
 DnRange
 StackSummary::AttainedRange() const
 {
-  DnRange attained = codes;
-  attained.clipLowDn = clippedLow > 0 ? codes.clipLowDn : std::nullopt;
-  attained.clipHighDn = clippedHigh > 0 ? codes.clipHighDn : std::nullopt;
+  DnRange attained = dnRange;
+  attained.clipLowDn = clippedLow > 0 ? dnRange.clipLowDn : std::nullopt;
+  attained.clipHighDn = clippedHigh > 0 ? dnRange.clipHighDn : std::nullopt;
   return attained;
 }
 
@@ -289,8 +289,8 @@ SummariseStack(const TemporalMaps<TPixel> & maps,
   StackSummary      summary;
   // Integers are digital numbers, even if they are stored as floating-point numbers.
   const bool areIntegers = std::is_integral_v<TPixel> || (ends.high.pixels > 0 && ends.areWhole);
-  summary.codes = areIntegers ? FindDnRangeOfIntegers(maps, settings, parallelFor)
-                              : FindLevelsOfFloating(maps, settings, parallelFor);
+  summary.dnRange = areIntegers ? FindDnRangeOfIntegers(maps, settings, parallelFor)
+                                : FindLevelsOfFloating(maps, settings, parallelFor);
 
   std::vector<StackSummary> counts((pixels + PixelsPerBlock - 1) / PixelsPerBlock);
   ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
@@ -298,8 +298,8 @@ SummariseStack(const TemporalMaps<TPixel> & maps,
     for (std::size_t p = begin; p < end; ++p)
     {
       const bool finite = maps.IsFinite(p);
-      const bool isLow = finite && summary.codes.IsClippedLow(maps.GetMinimum(p));
-      const bool isHigh = finite && summary.codes.IsClippedHigh(maps.GetMaximum(p));
+      const bool isLow = finite && summary.dnRange.IsClippedLow(maps.GetMinimum(p));
+      const bool isHigh = finite && summary.dnRange.IsClippedHigh(maps.GetMaximum(p));
       valid[p] = finite && !isLow && !isHigh ? 1 : 0;
       count.clipped += isLow || isHigh ? 1 : 0;
       count.clippedLow += isLow ? 1 : 0;

@@ -276,8 +276,8 @@ struct SensorNoise_EXPORT VarianceStep
   RestOf(const VarianceCurve & curve) const;
 };
 
-/** Finds a step of the variance, up or down, that describes the variance better than a line does, and about as well as a
- * smooth curve or a broken line of as many parameters. It is certain if it describes the variance better than any of
+/** Finds a step of the variance, up or down, that describes the variance better than a line does, and about as well as
+ * a smooth curve or a broken line of as many parameters. It is certain if it describes the variance better than any of
  * them. Null if there is none, or if it is small. */
 SensorNoise_EXPORT std::optional<VarianceStep>
 FindVarianceStep(const VarianceCurve & curve);

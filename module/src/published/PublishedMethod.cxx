@@ -139,7 +139,7 @@ template <typename TPixel>
 PublishedScene
 PublishedPasses<TPixel>::EndMoments()
 {
-  StackMaps      maps = MakeStackMaps<TPixel>(m_Moments.Take(), m_Settings.codes, m_ParallelFor);
+  StackMaps      maps = MakeStackMaps<TPixel>(m_Moments.Take(), m_Settings.dnSettings, m_ParallelFor);
   PublishedScene scene;
   scene.summary = maps.summary;
   scene.mean = std::move(maps.mean);
@@ -195,7 +195,7 @@ PublishedSettings::Validate() const
   {
     throw std::invalid_argument("the shutter axis is " + std::to_string(shutterAxis) + "; expected 0 (x) or 1 (y)");
   }
-  ValidateDnSettings(codes);
+  ValidateDnSettings(dnSettings);
   ValidateExcessNoiseFactor(excessNoiseFactor);
 }
 

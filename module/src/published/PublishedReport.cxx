@@ -36,7 +36,7 @@ DescribeSettings(Report & report, const PublishedFindings & found)
                       { "rolling_shutter", std::string(NameOf(settings.rollingShutter)) },
                       { "sigma_rows", found.flicker.sigmaRows },
                       { "shutter_axis", std::string(settings.shutterAxis == 0 ? "x" : "y") } };
-  NoteDnSettings(report, settings.codes);
+  NoteDnSettings(report, settings.dnSettings);
 }
 
 void

@@ -154,7 +154,7 @@ GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
 void
 CombineWithDarkPoint(GainEstimate & estimate, const RefinedResults & found)
 {
-  const DarkPoint dark = AddHiddenNoise(PointOf(found), found.scene.summary.codes.quantisationStepDn);
+  const DarkPoint dark = AddHiddenNoise(PointOf(found), found.scene.summary.dnRange.quantisationStepDn);
   // Smaller deviations from the line do not explain a difference, but are in its error.
   const bool         isNonlinear = estimate.IsCurved();
   const GainEstimate before = estimate;

@@ -39,7 +39,7 @@ TextOfFailure(const RefinedResults & found, const TestedGain & tested)
 {
   const GainEstimate & gain = tested.line;
   const std::string    notRaw = ": the frames are not raw (gamma, compression), not linear";
-  const bool           hasClipLevel = found.scene.summary.codes.clipHighDn.has_value();
+  const bool           hasClipLevel = found.scene.summary.dnRange.clipHighDn.has_value();
   switch (tested.verdict)
   {
     case GainVerdict::FramesDiffer:

@@ -155,7 +155,7 @@ FindFailure(const RefinedResults & found,
 double
 RoundingOfDarkestFrameDn(const RefinedResults & found, const GainEstimate & gain, double offsetDn)
 {
-  const double stepDn = found.scene.summary.codes.quantisationStepDn;
+  const double stepDn = found.scene.summary.dnRange.quantisationStepDn;
   if (!(stepDn > 0.0))
   {
     return 0.0;

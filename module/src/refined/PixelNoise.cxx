@@ -34,7 +34,7 @@ BlackLevel(const RefinedSettings & settings, const StaticScene & scene, const st
   {
     return std::min(series->offset + scene.model.centreDn, scene.model.darkestDn);
   }
-  return std::min(scene.summary.codes.clipLowDn.value_or(0.0), scene.model.darkestDn);
+  return std::min(scene.summary.dnRange.clipLowDn.value_or(0.0), scene.model.darkestDn);
 }
 
 std::vector<std::uint8_t>
@@ -278,7 +278,7 @@ MeasurePixelNoise(ResidualSquares                          squares,
   const bool                isIdentifiable = settings.offset.has_value() || series->isOffsetIdentifiable;
   const double              zeroDn =
     isIdentifiable ? blackDn : ZeroOfSignal(scene.model.darkestDn, scene.model.brightestDn, blackDn);
-  const double   repeated = sample.RepeatedFraction(chosen, scene.summary.codes.quantisationStepDn);
+  const double   repeated = sample.RepeatedFraction(chosen, scene.summary.dnRange.quantisationStepDn);
   NoiseResiduals residuals(
     std::move(sample), series->basis.GetBasis(), { scene.frame.mean, chosen, zeroDn, isIdentifiable }, parallelFor);
   AllowedLines allowed;

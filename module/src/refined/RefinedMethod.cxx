@@ -22,7 +22,7 @@ namespace sensornoise
 void
 RefinedSettings::Validate() const
 {
-  ValidateDnSettings(codes);
+  ValidateDnSettings(dnSettings);
   ValidateExposures(exposures);
   ValidateExcessNoiseFactor(excessNoiseFactor);
   if (levelRangeDn)

@@ -215,7 +215,7 @@ template <typename TPixel>
 void
 RefinedPasses<TPixel>::EndMoments()
 {
-  StackMaps                 maps = MakeStackMaps<TPixel>(m_Moments.Take(), m_Settings.codes, m_ParallelFor);
+  StackMaps                 maps = MakeStackMaps<TPixel>(m_Moments.Take(), m_Settings.dnSettings, m_ParallelFor);
   const std::vector<double> levels = m_Distinct.OfDistinct(m_Moments.GetFrameMeans());
   m_ExposureFit = FitExposures(m_Settings.exposures, m_Thumbnails, m_Distinct.Counted(), maps);
   const bool isStrong = m_Thumbnails.FindIlluminationChange(m_Distinct.Counted()) > InMoments.strongIlluminationChange;
@@ -396,7 +396,7 @@ RefinedPasses<TPixel>::FindQuantisationNoise() const
 {
   const auto & offset = m_Settings.offset;
   const double darkStepDn = offset && offset->maps ? offset->maps->stepDn : 0.0;
-  return MakeQuantisationNoise(m_Scene->summary.codes, m_Scene->frame, m_Scene->model, darkStepDn);
+  return MakeQuantisationNoise(m_Scene->summary.dnRange, m_Scene->frame, m_Scene->model, darkStepDn);
 }
 
 template <typename TPixel>

@@ -194,7 +194,7 @@ DescribeInput(const RefinedSettings & settings, const StaticScene & scene, const
       report.settings.emplace_back("dark_variance_standard_error", variance->standardErrorDn2);
     }
   }
-  NoteDnSettings(report, settings.codes);
+  NoteDnSettings(report, settings.dnSettings);
   DescribeStack(report, scene.frame.geometry, scene.frame.frames, scene.summary, scene.valid, pixelUse);
   WarnOfStack(report, scene.frame.frames, scene.summary);
   WarnOfBorder(report, scene);

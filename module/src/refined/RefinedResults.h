@@ -225,7 +225,7 @@ BlackLevel(const RefinedSettings &                  settings,
 inline double
 QuantisationVariance(const StaticScene & scene)
 {
-  const double step = scene.summary.codes.quantisationStepDn;
+  const double step = scene.summary.dnRange.quantisationStepDn;
   return step * step / 12.0;
 }
 

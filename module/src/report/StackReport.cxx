@@ -50,7 +50,7 @@ DescribeStack(Report &                          report,
   report.width = geometry.width;
   report.height = geometry.height;
 
-  const DnRange & dnRange = summary.codes;
+  const DnRange & dnRange = summary.dnRange;
   report.bitDepth = dnRange.bitDepth;
   report.bitDepthSource = dnRange.bitDepthSource;
   if (dnRange.quantisationStepDn > 0.0)
@@ -72,7 +72,7 @@ DescribeStack(Report &                          report,
 void
 WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary)
 {
-  const DnRange & dnRange = summary.codes;
+  const DnRange & dnRange = summary.dnRange;
   if (frames >= MinimumFrames && frames < 20)
   {
     report.Warn(WarningCode::FewFrames,

@@ -103,7 +103,7 @@ FindFullWells(const StackMaps & maps, const FrameGeometry & geometry)
   }
   // Shot noise grows at most in proportion to the level above the end of the DN range. Dark pixels of more variance
   // move, and the brightest are the quiet paper of a page.
-  const double lowDn = maps.summary.codes.clipLowDn.value_or(levels.front()); // not known: no comparison
+  const double lowDn = maps.summary.dnRange.clipLowDn.value_or(levels.front()); // not known: no comparison
   const double ofLevels = (levels.front() - lowDn) / (noisyDn - lowDn);
   if (ofLevels > 0.0 && darkest - medians.back() > InScene.largestMedianRatio * ofLevels * (noise - medians.back()))
   {

@@ -229,7 +229,7 @@ LeaveOutFullWells(StackMaps & maps, const FullWells & wells)
   }
   maps.summary.clipped += pixels;
   maps.summary.clippedHigh += pixels;
-  DnRange &    dnRange = maps.summary.codes;
+  DnRange &    dnRange = maps.summary.dnRange;
   const double step = dnRange.quantisationStepDn;
   dnRange.clipHighDn = step > 0.0 ? step * std::round(wells.levelDn / step) : wells.levelDn;
   dnRange.SetClipSources(dnRange.GetLowClipSource(), "full wells");
@@ -318,7 +318,7 @@ MakeStaticScene(StackMaps                         maps,
     }
     // Under strong changes of the illumination the range of a pixel is known only roughly: in a flat field all pixels
     // or none are in the guard band.
-    const DnRange         dnRange = scene.changesStrongly ? scene.summary.AttainedRange() : scene.summary.codes;
+    const DnRange         dnRange = scene.changesStrongly ? scene.summary.AttainedRange() : scene.summary.dnRange;
     std::optional<double> darkestNoiseDn2;
     if (strongChange)
     {
@@ -331,7 +331,7 @@ MakeStaticScene(StackMaps                         maps,
     scene.usable = found.count;
     scene.nearClip = found.nearClip;
     scene.coarse = found.coarse;
-    RequireFineQuantization(found, scene.summary.codes.quantisationStepDn);
+    RequireFineQuantization(found, scene.summary.dnRange.quantisationStepDn);
     made.outliers = FindOutlierPixels(scene.frame, scene.model, parallelFor);
   }
   catch (const NothingToMeasure & failureReason)

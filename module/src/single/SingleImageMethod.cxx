@@ -97,7 +97,7 @@ LineOfMean(const PlaneOfFrame<double> & mean,
 void
 SingleImageSettings::Validate() const
 {
-  ValidateDnSettings(codes);
+  ValidateDnSettings(dnSettings);
   ValidateExcessNoiseFactor(excessNoiseFactor);
 }
 
@@ -131,7 +131,7 @@ struct SingleImageMethod<TPixel>::Planes
       {
         if (added == 0 || !plane.reason.empty())
         {
-          plane.dnRange = FindDnRangeOfFrame(ofPlane, settings.codes, parallelFor);
+          plane.dnRange = FindDnRangeOfFrame(ofPlane, settings.dnSettings, parallelFor);
           plane.reason.clear();
           CountPixels(ofPlane, plane, parallelFor);
         }

@@ -132,7 +132,7 @@ void
 DescribeFrames(Report & report, const SingleImageFindings & found, const AllFrames & all)
 {
   report.method = "single-image";
-  NoteDnSettings(report, found.settings.codes);
+  NoteDnSettings(report, found.settings.dnSettings);
   report.frames = found.frames.size();
   report.framesDistinct = report.frames;
   report.width = found.geometry.width;
