@@ -177,12 +177,13 @@ public:
   itkSetMacro(OffsetStandardError, double);
   itkGetConstMacro(OffsetStandardError, double);
 
-  /** Level of the test that finds pixels moved by vibrations, a probability. Default 0.01. Refined does not use it. */
+  /** Level of the test that finds pixels moved by vibrations, a probability. Default 0.01. The method Refined does not
+   * use this level. */
   itkSetMacro(Level, double);
   itkGetConstMacro(Level, double);
 
-  /** Quantiles of the mean at which the bright and the dark set lie, 0 to 1. Defaults 0.99 and 0.01. Refined does not
-   * use them. */
+  /** Quantiles of the mean at which the bright and the dark set lie, 0 to 1. Defaults 0.99 and 0.01. The method Refined
+   * does not use these quantiles. */
   itkSetMacro(BrightQuantile, double);
   itkGetConstMacro(BrightQuantile, double);
   itkSetMacro(DarkQuantile, double);
@@ -209,13 +210,13 @@ public:
     return m_RollingShutter;
   }
 
-  /** Standard deviation sigma_y of (3.28) for the RollingShutter mode Fixed [rows]. Default 50, as in the paper.
-   * Refined does not use it. */
+  /** Standard deviation sigma_y of (3.28) for the RollingShutter mode Fixed [rows]. Default 50, as in the paper. The
+   * method Refined does not use this number. */
   itkSetMacro(SigmaRows, double);
   itkGetConstMacro(SigmaRows, double);
 
-  /** Axis along which the shutter travels: 1 = y (default, row by row), or 0 = x (column by column). Refined does not
-   * use it. */
+  /** Axis along which the shutter travels: 1 = y (default, row by row), or 0 = x (column by column). The method Refined
+   * does not use this axis. */
   itkSetMacro(ShutterAxis, unsigned int);
   itkGetConstMacro(ShutterAxis, unsigned int);
 
@@ -526,7 +527,7 @@ private:
   GetInputRecord() const override;
   sensornoise::NoiseModelCheck
   CheckModel(double varianceSlope, double totalIntercept, double readNoiseElectrons, double quantisationStep) const;
-  /** Throws std::invalid_argument if the method cannot use what was given. */
+  /** Throws std::invalid_argument if a setting or an input was given that the method cannot use. */
   void
   RequireUsedSettings() const;
   bool

@@ -85,7 +85,7 @@ protected:
   /** Returns the number of a setting; null where it is NaN, the value of a setting that was not given. */
   static std::optional<double>
   IfKnown(double number);
-  /** Returns the levels and the analogue gain that were given. */
+  /** Returns the settings BlackLevel, WhiteLevel and AnalogueGain. A level that was not given is null. */
   sensornoise::ExportSettings
   MakeExportSettings() const;
 

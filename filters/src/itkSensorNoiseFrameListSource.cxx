@@ -136,7 +136,7 @@ template <typename TOutputStack>
 bool
 SensorNoiseFrameListSource<TOutputStack>::CanStream()
 {
-  this->GetFrameList(); // for its errors
+  this->GetFrameList(); // throws if the files do not make a stack
   return true;
 }
 
