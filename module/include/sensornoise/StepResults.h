@@ -92,8 +92,8 @@ struct DnRange
   double                quantisationStepDn{ 0.0 }; ///< step, for companded data at the darkest level [DN]; 0: none
   bool                  isRegular{ true };         ///< false: the data were rescaled, and the step varies
   QuantisationSteps     steps;                     ///< step by level, for companded data
-  std::optional<double> clipLowDn;                 ///< a pixel that attains it is clipped [DN]; null: none
-  std::optional<double> clipHighDn;                ///< a pixel that attains it is clipped [DN]; null: none
+  std::optional<double> clipLowDn;                 ///< a pixel that attains this level is clipped [DN]; null: none
+  std::optional<double> clipHighDn;                ///< a pixel that attains this level is clipped [DN]; null: none
   std::string           clipSource{ "none" }; ///< "given", "pile-up", "code range", "none", or "low: ..., high: ..."
 
   /** Sets clipSource from the sources of the lower and of the upper clip level. */
@@ -206,8 +206,8 @@ struct SensorNoise_EXPORT IsoIntensitySet
 /** Flicker and offset of a stack, by sections 3.2 and 3.5 of Sur & Gredi\'ac 2015. */
 struct FlickerEstimate
 {
-  std::vector<double> brightRatio;      ///< v^*(t), (3.8) [1]
-  std::vector<double> darkResidualDn;   ///< v_*(t), (3.14) [DN]
+  std::vector<double> brightRatio;      ///< v^*(t) of the bright set, (3.8) [1]
+  std::vector<double> darkResidualDn;   ///< v_*(t) of the dark set, (3.14) [DN]
   double              slopeDn{ 0.0 };   ///< K, slope of v_* against v^* - 1 [DN]
   double              offsetDn{ 0.0 };  ///< mu, (3.16) [DN]
   std::vector<double> gamma;            ///< gamma_t of the whole frame, (3.17) [1]

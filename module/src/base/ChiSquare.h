@@ -60,8 +60,8 @@ ChiSquareUpperQuantile(double probability, double dof);
 SensorNoise_EXPORT double
 StudentQuantile(double probability, double dof);
 
-/** Returns sqrt(a^2 + b^2 + c^2); infinite if one of them is. std::hypot() of three arguments is NaN then in libstdc++,
- * and an unknown error would pass for none. */
+/** Returns sqrt(a^2 + b^2 + c^2); infinite if one argument is infinite. In this case std::hypot() of three arguments
+ * returns NaN in libstdc++, and an unknown error would be treated as no error. */
 inline double
 AddInQuadrature(double a, double b, double c)
 {
@@ -70,10 +70,11 @@ AddInQuadrature(double a, double b, double c)
 
 /** Variance of the logarithm of the variance of n normal values, truncated at 3 standard deviations, times n [1]: 2
  * without truncation. Closed form: 4 / (m4 - m2^2), of the moments of the truncated normal distribution. The variances
- * of the detail coefficients of a single image have it. */
+ * of the detail coefficients of a single image have this variance. */
 inline constexpr double TruncatedVariance = 2.3085;
 
-/** Returns the size of a difference without its statistical scatter, \a z standard deviations. */
+/** Returns the size of a difference beyond \a z standard deviations of its scatter: the root of difference^2 - z^2
+ * variance, or 0 if this is negative. */
 inline double
 SizeBeyondChance(double difference, double variance, double z)
 {

@@ -22,7 +22,7 @@ namespace sensornoise
  * and twice: Estimator.md, 3.13. */
 struct SignificanceLevels
 {
-  /** 5 % two-sided: nothing is reported, but a number gets a larger error or another one is preferred. */
+  /** 5 % two-sided: nothing is reported, but a number gets a larger error or another number is preferred. */
   double hint{ 2.0 };
   /** 0.3 %: one test per burst. */
   double oneTest{ 3.0 };
@@ -48,13 +48,13 @@ struct CommonConstants
   double darkestQuantile{ 0.002 };
   double brightestQuantile{ 0.998 };
 
-  /** Largest relative error of a number that is reported [1]: with more it is an order of magnitude. Chosen
-   * empirically. The error is relative to the expected size, not to the estimate, so that a number is not reported
-   * because it happens to be large. */
+  /** Largest relative error of a number that is reported [1]: with a larger error the number is an order of magnitude.
+   * Chosen empirically. The error is relative to the expected size, not to the estimate, so that a number is not
+   * reported because it happens to be large. */
   double largestRelativeError{ 0.25 };
 
   /** Largest signal of a dark level, as a fraction of the signal of the brightest levels [1]. At levels of 20 to 80 % a
-   * gamma of 1.3 deviates from a line by 2 %, and has half the gain. */
+   * response with a gamma of 1.3 deviates from a line by 2 %, and gives half the gain. */
   double darkFraction{ 0.1 };
 
   /** Least difference of the variances without signal, relative to the larger one, that counts [1]. Chosen by the size

@@ -22,8 +22,8 @@ FreeMemoryBytes();
 SensorNoise_EXPORT void
 RequireMemory(double bytes, const std::string & what);
 
-/** Returns freed memory, which the C library keeps between pieces in use, to the system. Does nothing with C libraries
- * other than glibc. */
+/** Gives freed memory back to the system. The C library otherwise keeps freed memory that lies between pieces in use.
+ * Does nothing with C libraries other than glibc. */
 SensorNoise_EXPORT void
 ReleaseFreedMemory();
 

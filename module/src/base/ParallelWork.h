@@ -41,8 +41,9 @@ ForAll(std::size_t count, const ParallelFor & parallelFor, TFunction function)
   }
 }
 
-/** Extends a map, which has enough capacity, to \a count pixels; the new ones are \a value. The system allocates a page
- * of memory when it is first written to, which takes longer than later writes: here the threads do this in parallel. */
+/** Extends a map, which has enough capacity, to \a count pixels; the new pixels are \a value. The system allocates a
+ * page of memory when it is first written to, which takes longer than later writes: here the threads do this in
+ * parallel. */
 template <typename TNumber>
 void
 GrowMap(std::vector<TNumber> & map, std::size_t count, const ParallelFor & parallelFor, TNumber value = TNumber{})
@@ -108,7 +109,7 @@ public:
   }
 
   /** Calls function(k) for the planes first <= k < last, at the same time unless there are more threads than planes. An
-   * exception of one call stops the others, and is thrown. */
+   * exception of one call stops the other calls, and is thrown. */
   template <typename TFunction>
   void
   ForPlanes(std::size_t first, std::size_t last, TFunction function) const
@@ -121,7 +122,7 @@ public:
         function(first + k);
       }
       catch (const Stopped &)
-      {} // another plane throws the cause
+      {} // the plane that failed throws its exception
       catch (...)
       {
         m_State->isStopped = true;
@@ -145,7 +146,7 @@ private:
   {};
   struct State
   {
-    bool              isByPlane{ false }; // planes run at the same time
+    bool              isByPlane{ false }; // whether planes run at the same time
     std::atomic<bool> isStopped{ false };
   };
 

@@ -46,15 +46,15 @@ struct PolynomialFit
 SensorNoise_EXPORT PolynomialFit
 FitLine(const RegressionData & data, const ParallelFor & parallelFor = SerialFor);
 
-/** The line of FitLine(), and the parabola by ordinary regression: (2.21), whose curvature is sigma_gamma^2 where the
- * variance is not corrected. */
+/** The line of FitLine(), and the parabola (2.21) by ordinary regression. The curvature of the parabola is
+ * sigma_gamma^2 if the variance is not corrected. */
 struct LineAndParabola
 {
   PolynomialFit line;
   PolynomialFit parabola;
 };
 
-/** Fits both in one pass over the maps. */
+/** Fits the line and the parabola in one pass over the maps. */
 SensorNoise_EXPORT LineAndParabola
 FitLineAndParabola(const RegressionData & data, const ParallelFor & parallelFor = SerialFor);
 

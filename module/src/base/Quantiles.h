@@ -107,7 +107,7 @@ MediansOfBins(const std::vector<double> & values, const std::vector<std::size_t>
 SensorNoise_EXPORT std::vector<double>
 EdgesOfEqualCount(std::vector<double> values, std::size_t bins);
 
-/** Returns the number of the rising \a edges that fulfil \a isBefore, as the first ones do. The branches of
+/** Returns the number of the rising \a edges that fulfil \a isBefore, as the first edges do. The branches of
  * std::partition_point() are unpredictable, and each misprediction takes longer than this whole search. */
 template <typename TPredicate>
 std::size_t

@@ -73,8 +73,8 @@ struct CorrelationConstants
   double leastInterpolated{ 5e-4 };
   /** Largest fraction of such pixels [1]: of a demosaiced frame half of the pixels or more are computed. */
   double mostInterpolated{ 0.1 };
-  /** Largest fraction of the pixels found that may be found by chance [1], which changes the gain by a tenth of what
-   * computed pixels do. */
+  /** Largest fraction of the pixels found that may be found by chance [1], which changes the gain by a tenth of the
+   * effect of computed pixels. */
   double mostByChance{ 0.1 };
   ///@}
 

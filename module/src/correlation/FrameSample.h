@@ -213,7 +213,8 @@ public:
   void
   Clear();
 
-  /** Adds the sample of other frames of the same stack. Throws std::invalid_argument if the stack is another one. */
+  /** Adds the sample of other frames of the same stack. Throws std::invalid_argument if the stack is not the stack of
+   * the sample. */
   void
   Merge(const FrameSample & other);
 

@@ -130,7 +130,7 @@ FindLine(const Eigen::ArrayXXd & power, std::size_t tiles)
   {
     for (Eigen::Index u = -size / 2; u < size / 2; ++u)
     {
-      const bool isLow = std::max(v, std::abs(u)) <= distance / 2; // residual illumination, and what smooths
+      const bool isLow = std::max(v, std::abs(u)) <= distance / 2; // residual illumination and smoothing are there
       if (!isLow && at(v, u) > highest && at(v, u) > least * largestAround(v, u))
       {
         highest = at(v, u);

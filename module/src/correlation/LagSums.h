@@ -28,7 +28,7 @@ struct Lag
 /** Sums over pairs of pixels, where y is the noise covariance of a pair, V its typical variance, and z its signal. */
 struct PairSums
 {
-  double pairs{ 0.0 };      ///< sum of the weights by position
+  double pairs{ 0.0 };      ///< sum of the weights of the pairs by their position in the tile [1]
   double covariance{ 0.0 }; ///< sum of y / V [1]
   double constant{ 0.0 };   ///< sum of 1 / V [1/DN^2]
   double signal{ 0.0 };     ///< sum of z / V [1/DN]
@@ -80,7 +80,7 @@ private:
 
   const NoiseResiduals &    m_Residuals;
   std::vector<Lag>          m_Lags;
-  std::vector<PlaceWeights> m_Weights; // for each lag
+  std::vector<PlaceWeights> m_Weights; // weights for each lag
 };
 
 /** Returns the sums of every tile for each lag: [tile][lag]. */

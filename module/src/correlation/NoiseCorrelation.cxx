@@ -310,7 +310,7 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double quantisationDn2
   if (inTime)
   {
     CorrectKurtosisForTemporalCorrelation(residuals.GetBasis(), found);
-    found.upperTail = {}; // what the frames have in common, as flicker, need not be normally distributed
+    found.upperTail = {}; // common changes of the frames, as flicker, need not be normally distributed
   }
   if (found.isBySensitivity || !IsLinear(sums, found))
   {

@@ -42,9 +42,9 @@ public:
    * \param lags number K of lags */
   AutocovarianceFit(const Eigen::MatrixXd & basis, std::size_t lags);
 
-  /** Finds the tail: white noise and R_k = A q^k, with the ratio q for which both describe \a sums best. The tail
-   * stays 0 if these two terms leave more than InCorrelation.largestTailMisfit of what white noise alone leaves, as
-   * after means over several frames. */
+  /** Finds the tail: white noise and R_k = A q^k, with the ratio q for which both describe \a sums best. The tail stays
+   * 0 if the misfit of these two terms exceeds InCorrelation.largestTailMisfit times the misfit of white noise alone,
+   * as after means over several frames. */
   void
   FindTail(const Eigen::VectorXd & sums);
   bool
@@ -72,7 +72,7 @@ private:
   Eigen::MatrixXd    m_Basis;
   Eigen::MatrixXd    m_Mixing; // columns from lag 0 on
   double             m_Ratio{ 0.0 };
-  Eigen::MatrixXd    m_Autocovariances; // what the sums are multiplied by
+  Eigen::MatrixXd    m_Autocovariances; // matrix that turns the sums into autocovariances
   Eigen::RowVectorXd m_Total;
 };
 
@@ -135,7 +135,8 @@ SensorNoise_EXPORT void
 SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found);
 
 /** Returns whether one of the temporal \a coefficients, or the coefficient of neighbouring frames in the brightest bin,
- * significantly exceeds InCorrelation.leastTimeCoefficient. Image lag is proportional to the signal. */
+ * significantly exceeds InCorrelation.leastTimeCoefficient. The brightest bin shows image lag best, because image lag
+ * is proportional to the signal. */
 SensorNoise_EXPORT bool
 IsCorrelatedInTime(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients);
 
@@ -148,14 +149,15 @@ SensorNoise_EXPORT Eigen::MatrixXd
 CorrelationOfFrames(const std::vector<LagCoefficient> & lags, Eigen::Index frames);
 
 /** Returns the noise variance that the projection P = I - Q Q' leaves in each frame if frames have the correlation
- * matrix R, over what it leaves of white noise: the diagonal of P R P over the diagonal of P [1]. \a basis is Q. */
+ * matrix R, over the noise variance that it leaves of white noise: the diagonal of P R P over the diagonal of P [1].
+ * \a basis is Q. */
 SensorNoise_EXPORT Eigen::VectorXd
 RemainingOfCorrelated(const Eigen::MatrixXd & basis, const Eigen::MatrixXd & correlation);
 
-/** Sums the noise covariance over temporal lags, until the last two are small, and continues it beyond them where it
- * decreases as behind a recursive filter. Fits the dependence on the signal, and sets the noise class to Temporal. More
- * lags than needed increase the error: after the projection of a short burst, distant lags are hardly distinguishable.
- */
+/** Sums the noise covariance over temporal lags, until the covariances at the last two lags are small. Continues the
+ * sum beyond them where the covariance decreases as behind a recursive filter. Fits the dependence on the signal, and
+ * sets the noise class to Temporal. More lags than needed increase the error: after the projection of a short burst,
+ * distant lags are hardly distinguishable. */
 SensorNoise_EXPORT void
 SumOverTime(CorrelationSums & sums, NoiseCorrelation & found);
 

@@ -17,12 +17,12 @@ namespace sensornoise
 
 namespace
 {
-/** A part of the spatial variance, and its error. */
+/** A part of the spatial variance, and the means that determine its error. */
 struct SpatialPart
 {
-  double EmvaSpatialVariance::* variance;  ///< the part [DN^2]
-  bool                          ofColumns; ///< the means of the columns determine its error
-  bool                          ofRows;    ///< the means of the rows determine its error
+  double EmvaSpatialVariance::* variance;  ///< variance of the part [DN^2]
+  bool                          ofColumns; ///< the means of the columns determine the error of the part
+  bool                          ofRows;    ///< the means of the rows determine the error of the part
 };
 
 constexpr SpatialPart Total{ &EmvaSpatialVariance::totalDn2, false, false };
@@ -30,7 +30,8 @@ constexpr SpatialPart Columns{ &EmvaSpatialVariance::columnDn2, true, false };
 constexpr SpatialPart Rows{ &EmvaSpatialVariance::rowDn2, false, true };
 constexpr SpatialPart Pixels{ &EmvaSpatialVariance::pixelDn2, false, false };
 
-/** Returns the number of the series with the most frames of a kind; of equal ones the one with the least distance. */
+/** Returns the index of the series of a kind (dark or flat) with the most frames. Among series of equal length, it has
+ * the least distance. Null: no series is of this kind. */
 template <typename TDistance>
 std::optional<std::size_t>
 LongestSeries(const std::vector<EmvaSeries> & series, bool isDark, TDistance distance)

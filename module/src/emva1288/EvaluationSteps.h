@@ -39,8 +39,8 @@ struct EmvaConstants
   double darkNoiseLimit{ 0.40 };
   /** Least fraction of saturated values at saturation [1]. Section 6.5. */
   double leastSaturatedFraction{ 0.001 };
-  /** Fewest different exposures of dark frames of a dark current. The standard asks for 6 (section 7.1); a line has no
-   * error with fewer than 3. */
+  /** Fewest different exposures of dark frames of a dark current. The standard asks for 6 (section 7.1); a line through
+   * fewer than 3 has no error. */
   std::size_t fewestDarkExposures{ 3 };
   std::size_t darkExposuresOfStandard{ 6 };
   /** Fewest exposures in the range of a fit: a line through two has no error. */
@@ -49,8 +49,8 @@ struct EmvaConstants
   std::size_t exposuresOfStandard{ 50 };
   /** Frames of a series for the non-uniformity. Section 8. */
   std::size_t framesOfStandard{ 100 };
-  /** Rounds of the weighted line, whose weights follow from its own values. Chosen empirically: the third changes the
-   * slope by less than 1e-4 of its error. */
+  /** Number of rounds of the weighted line, whose weights follow from its own values. Chosen empirically: the third
+   * changes the slope by less than 1e-4 of its error. */
   int roundsOfWeights{ 4 };
 };
 
@@ -118,8 +118,8 @@ public:
     bool   isMeasured{ true };   ///< false: no dark frames have this exposure
   };
 
-  /** Returns the level at an exposure: of its dark frames, or interpolated between the nearest two exposures, or of the
-   * nearest exposure outside of all. */
+  /** Returns the level at an exposure: the level of its dark frames, else the level interpolated between the two
+   * nearest exposures. Outside of all exposures the level of the nearest exposure holds. */
   Level
   At(double exposure) const;
 
@@ -218,8 +218,8 @@ NumberOf(const Quantity & quantity)
 void
 MeasureGain(const TransferCurve & curve, const DarkLevels & dark, EmvaReport & report);
 
-/** Sets the weighted estimate of the system gain: the slope of a line through the variances of all flat series in this
- * range, also longer ones, and of all dark series, against their means.
+/** Sets the weighted estimate of the system gain: the slope of a line through variances against means. The line goes
+ * through all flat series in this range, also series of more than two frames, and through all dark series.
  *
  * Each variance has the weight 1 / (2 V^2 / (pixels (frames - 1))), with V the value of the line. The electrons of the
  * dark current are on the same line. */
@@ -247,12 +247,13 @@ void
 ModelSnr(const DarkLevels & dark, EmvaReport & report);
 
 /** Sets DSNU1288 (66) and PRNU1288 (67) with their parts of columns, rows and pixels, after the highpass filter and
- * without it, and the series that they are measured of.
+ * without it, and the series that they are measured from.
  *
- * The bright series is the one with the most frames; of equal ones the one whose signal is nearest to half of \a
- * saturationSignalDn [DN]. The dark series is the one with the most frames; of equal ones the one whose exposure is
- * nearest to the bright series. All are from report.series. A variance that is not distinguished from 0 gives an upper
- * limit. The standard errors are valid for white patterns. DSNU needs report.gain. */
+ * The bright series has the most frames of all flat series. Among flat series of equal length, its signal is the
+ * nearest to half of \a saturationSignalDn [DN]. The dark series has the most frames of all dark series. Among dark
+ * series of equal length, its exposure is the nearest to the exposure of the bright series. All are from report.series.
+ * A variance that is not distinguished from 0 gives an upper limit. The standard errors are valid for white patterns.
+ * DSNU needs report.gain. */
 void
 MeasureNonUniformity(const DarkLevels & dark, double saturationSignalDn, EmvaReport & report);
 

@@ -57,7 +57,7 @@ EmvaLowpassKernel()
 bool
 HasRoomForHighpass(std::size_t width, std::size_t height)
 {
-  constexpr std::size_t least = Taps + 2; // three columns and rows are left
+  constexpr std::size_t least = Taps + 2; // the filter leaves three columns and rows
   return width >= least && height >= least;
 }
 
@@ -177,8 +177,8 @@ SumOfSquares(const std::vector<double> & values, const ParallelFor & parallelFor
     values.size(), parallelFor, [&values](std::size_t p, auto & sums) { sums[0] += values[p] * values[p]; })[0];
 }
 
-/** Returns the mean over the pixels of their temporal variance, of the sum of their squares over frames and pixels, and
- * of the sum of the squares of the mean image. */
+/** Returns the mean over the pixels of the temporal variance. \a squares is the sum of the squares of all pixels in all
+ * frames, \a squaresOfMean the sum of the squares of the mean image. */
 double
 StackVariance(double squares, double squaresOfMean, double frames, double pixels)
 {

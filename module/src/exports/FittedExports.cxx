@@ -154,14 +154,14 @@ namespace
 constexpr int          levels = 4096;  // number of levels of the fit, at even distances of the root of the signal
 constexpr unsigned int scaleBits = 16; // libcamera's levels
 
-/** The standard deviation c + s r at the root r of the signal, on libcamera's scale. */
+/** Line of the standard deviation, c + s r, at the root r of the signal, on libcamera's scale. */
 struct RootLine
 {
   double constant{ 0.0 };
   double slope{ 0.0 };
 };
 
-/** The variance slope m + dark of the signal m, on libcamera's scale, up to the white level. */
+/** Line of the variance, slope m + dark, at the signal m, on libcamera's scale, up to the white level. */
 struct ScaledVariance
 {
   double slope{ 0.0 };
@@ -180,7 +180,7 @@ struct ScaledVariance
   }
 };
 
-/** Libcamera's levels per DN. */
+/** Returns the number of libcamera's levels per DN. Throws ExportError if the bit depth is not 1 to 16. */
 double
 DnScaleOf(const CameraNoise & noise)
 {

@@ -36,7 +36,7 @@ enum class ProfileForm : std::uint8_t
   Root        ///< libcamera: ((constant + scale / 1.4 sqrt(k (x - B))) / k)^2, k levels of 16 bits per DN
 };
 
-/** The numbers of one channel of a profile. ProfileForm says what they mean. */
+/** The numbers of one channel of a profile. ProfileForm defines their meaning. */
 struct ProfileChannel
 {
   std::string           channel{ "mono" }; ///< "mono": of all channels; else "R", "G", "G1", "G2", "B"
@@ -69,12 +69,12 @@ struct DarktableNumbers
 /** The noise model that a file of another program states. */
 struct NoiseProfile
 {
-  std::string                   file;   ///< its name, for messages
+  std::string                   file;   ///< name of the file, for messages
   std::string                   format; ///< a name of ExportFormats(), or "report"
   ProfileForm                   form{ ProfileForm::Line };
   std::vector<ProfileChannel>   channels;
-  std::optional<double>         blackLevelDn;         ///< the file's own; none: the camera's
-  std::optional<double>         whiteLevelDn;         ///< the file's own; none: the camera's
+  std::optional<double>         blackLevelDn;         ///< black level in the file; none: the level of the camera
+  std::optional<double>         whiteLevelDn;         ///< white level in the file; none: the level of the camera
   double                        floorDn2{ 0.0 };      ///< lowest variance that the program takes
   double                        roundingDn2{ 0.0 };   ///< largest error of the variance by rounding in the file
   double                        relativeError{ 0.0 }; ///< error of the variance, relative [1]
@@ -84,8 +84,8 @@ struct NoiseProfile
 
 /** Reads a noise profile from values by JSON Pointer, as a JSON or YAML file has them: a report, or a format of
  * libcamera, Android, darktable, ndsafir, anscombe-transform, deepinv, SMAP, ccdproc, LSST, PYME, picasso or DECODE.
- * Throws ExportError if it is of none, holds a number that its program does not take, or does not determine the
- * variance. */
+ * Throws ExportError if the file has none of these formats, holds a number that its program does not accept, or does
+ * not determine the variance. */
 SensorNoise_EXPORT NoiseProfile
 ReadNoiseProfile(const StoredReport & values);
 
@@ -122,7 +122,8 @@ public:
   Has(const std::string & member) const;
 
   /** Returns the only number with this name; none if there is none. A name may have several parts: "gain/value". Throws
-   * ExportError if the file has several: a profile of several cameras or modes does not say which one is meant. */
+   * ExportError if the file has several: a profile of several cameras or modes does not name the camera or mode that is
+   * meant. */
   std::optional<double>
   Find(const std::string & member) const;
 
@@ -262,7 +263,7 @@ VarianceOfProfile(const NoiseProfile & profile, const CameraNoise & burst);
  * \param profile noise profile
  * \param frames report of the refined method on the frames, of one channel
  * \param burst this report as exports use it, with the black and the white level; its only channel
- * \throws ExportError if the burst lacks what the profile needs, see VarianceOfProfile(). */
+ * \throws ExportError if the burst lacks a number that the profile needs, see VarianceOfProfile(). */
 SensorNoise_EXPORT NoiseModelCheck
 CheckNoiseProfile(const NoiseProfile & profile, const Report & frames, const CameraNoise & burst);
 

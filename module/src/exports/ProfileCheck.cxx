@@ -240,7 +240,7 @@ LibcameraMistakes(const ProfileVariance & profile)
   return mistakes;
 }
 
-/** Returns the known mistakes, the likely ones first. */
+/** Returns the known mistakes, likely mistakes first. */
 std::vector<ProfileMistake>
 KnownMistakes(const ProfileVariance & profile)
 {

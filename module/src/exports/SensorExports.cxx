@@ -98,7 +98,7 @@ namespace
 std::string
 FitsCard(const std::string & keyword, double number, const std::string & comment)
 {
-  constexpr int      decimals = 13; // the most that fit into the columns of the number
+  constexpr int      decimals = 13; // the largest number that fits into the columns of the card
   std::ostringstream card;
   card << std::left << std::setw(8) << keyword << "= " << std::right << std::setw(20) << std::uppercase
        << std::scientific << std::setprecision(decimals) << number << " / " << comment;

@@ -31,7 +31,7 @@ struct FrameFormat
    * InspectFrameFile(). */
   void (*inspect)(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating){ nullptr };
 
-  /** The paths of the other files that hold a part of this one; null: all is in one file. */
+  /** The paths of the other files that hold a part of this file; null: all is in one file. */
   std::vector<std::string> (*dataFiles)(FileBytes & bytes, const std::string & name){ nullptr };
 };
 
@@ -72,9 +72,9 @@ IsHeadOfRawCamera(const std::string & head, const std::string & name);
 SensorNoise_EXPORT bool
 ReadsRawCameraFiles();
 
-/** Fills in what the raw file of a camera says of itself, by LibRaw, and all of `FrameFile::camera`. \a file has its
- * name and identity. A frame has the digital numbers of the visible area as they are in the file, without black level,
- * white balance or colours: unsigned short, one a pixel. All of them are decoded for the check, and not kept.
+/** Fills in the properties that the raw file of a camera states, by LibRaw, and all of `FrameFile::camera`. \a file has
+ * its name and identity. A frame has the digital numbers of the visible area as they are in the file, without black
+ * level, white balance or colours: unsigned short, one a pixel. All of them are decoded for the check, and not kept.
  *
  * Throws FileError without LibRaw, for a file that LibRaw cannot read, which ends before its pixels do or whose decoder
  * meets an error, for several colours a pixel, several frames, and what is known to be compressed with loss. For a DNG,
@@ -86,8 +86,8 @@ InspectRawCamera(FileBytes & bytes, FrameFile & file, const BeforeInflating & be
 bool
 IsHeadOfTiff(const std::string & head, const std::string & name);
 
-/** Fills in what a TIFF, or a BigTIFF, says of itself. \a file has its name and identity. Throws FileError unless its
- * pages are all there, of one size and kind, and TiffStrips has nothing against them. */
+/** Fills in the properties that a TIFF, or a BigTIFF, states. \a file has its name and identity. Throws FileError
+ * unless its pages are all there, of one size and kind, and TiffStrips has nothing against them. */
 void
 InspectTiff(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 

@@ -18,8 +18,8 @@ namespace sensornoise
 struct PngChunk
 {
   std::string   type{};
-  std::uint64_t data{ 0 };   // offset of its data [bytes]
-  std::uint64_t length{ 0 }; // size of its data [bytes]
+  std::uint64_t data{ 0 };   // offset of the data [bytes]
+  std::uint64_t length{ 0 }; // size of the data [bytes]
 };
 
 /** Reads the chunks of a PNG file one after the other. */

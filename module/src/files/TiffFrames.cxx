@@ -176,7 +176,7 @@ CopyTile(const TiffPage & page, std::uint64_t index, const unsigned char * tile,
   }
 }
 
-/** Throws FileError unless it is what was inspected. */
+/** Reads the pixels of a page. Throws FileError if the page differs from the page that was inspected. */
 void
 ReadPage(const FrameFile & file, TiffBytes & tiff, std::uint64_t directory, unsigned char * pixels)
 {

@@ -125,8 +125,8 @@ struct TiffPage
   ChunkRowBytes() const;
 };
 
-/** Reads what a directory says, with the defaults of TIFF 6.0 for tags that it lacks. \a page begins the errors. Throws
- * FileError unless the page consists of strips or tiles of one grey value a pixel, of a type that a pixel holds
+/** Reads the values of a directory, with the defaults of TIFF 6.0 for tags that it lacks. \a page begins the errors.
+ * Throws FileError unless the page consists of strips or tiles of one grey value a pixel, of a type that a pixel holds
  * exactly, and whose compression can be checked. */
 TiffPage
 ReadTiffPage(const std::string & page, TiffBytes & tiff, const TiffDirectory & directory);

@@ -248,7 +248,7 @@ LogMedian
 MedianOfTrueVariances(const std::vector<double> & variances, double dof, double stepDn)
 {
   // The sum of the squares of T integers is even where their sum is even. The sums of squared deviations of pixels with
-  // the same mean are therefore 2 step^2 apart. Each is spread over this distance, for a smooth distribution.
+  // the same mean are therefore 2 step^2 apart. Each sum is spread over this distance, for a smooth distribution.
   const double                        cellDn2 = stepDn * stepDn / dof;
   const LogBinning                    binning = MakeLogBinning(variances, cellDn2);
   std::array<LogBins, NumberOfGroups> groups{};
@@ -260,7 +260,7 @@ MedianOfTrueVariances(const std::vector<double> & variances, double dof, double 
   }
   const std::vector<LogBins> kernel = ChiSquareKernel(dof, binning);
   LogDeconvolution           whole(all, kernel);
-  // Chosen for 6 to 100 frames: fewer iterations are biased by 1 %, more follow the noise of the counts.
+  // Chosen for 6 to 100 frames: fewer iterations are biased by 1 %, more iterations follow the noise of the counts.
   constexpr int iterations = 30;
   whole.Iterate(iterations);
   const double median = whole.GetMedianBin();

@@ -166,8 +166,8 @@ ScatterOfRepeats(const Levels & levels, const VectorXd & signals)
   return scatter;
 }
 
-/** Estimates the scatter from the deviations from a parabola, for stacks in which no exposure has two frames. It
- * includes the noise of the pixels. */
+/** Estimates the scatter from the deviations from a parabola, for stacks in which no exposure has two frames. This
+ * scatter includes the noise of the pixels. */
 Scatter
 ScatterAboutParabola(const Levels & levels, const VectorXd & scales, const VectorXd & signals)
 {

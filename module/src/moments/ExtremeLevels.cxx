@@ -141,7 +141,7 @@ FindQuantisationStep(const std::vector<std::int32_t> & valuesDn, bool & regular)
 
 namespace
 {
-/** Approximate number of local steps in the table; neighbouring ones have three quarters of their distances in common.
+/** Approximate number of local steps in the table; neighbouring steps have three quarters of their distances in common.
  */
 constexpr std::size_t StepsInTable = 256;
 

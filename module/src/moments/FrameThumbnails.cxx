@@ -79,7 +79,7 @@ SumIntegers(const TPixel * from, std::size_t count)
   {
     const auto step =
       static_cast<std::uint32_t>(static_cast<std::int32_t>(from[i]) - static_cast<std::int32_t>(from[i - 1]));
-    steps += step * step; // below 2^32, for either sign
+    steps += step * step; // the square is below 2^32 for either sign
   }
   return { static_cast<double>(count),
            static_cast<double>(sum),

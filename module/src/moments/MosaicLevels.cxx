@@ -36,7 +36,7 @@ struct BlockLevels
   double rough{ 0.0 };       ///< absolute difference of a pixel to the mean of its four neighbours [DN]
   double main{ 0.0 };        ///< upper left minus lower right pixel of the 2 x 2 [DN]
   double anti{ 0.0 };        ///< upper right minus lower left pixel [DN]
-  double ofDiagonals{ 0.0 }; ///< main diagonal minus the other [DN]
+  double ofDiagonals{ 0.0 }; ///< main diagonal minus the other diagonal [DN]
   bool   isKnown{ false };
 };
 
@@ -50,7 +50,7 @@ LevelsOfBlock(const double *              first,
 {
   const std::size_t size = window.size();
   // by phase, 2 * (y % 2) + x % 2: difference to the mean of the four diagonal neighbours, and of the four adjacent
-  // ones
+  // neighbours
   std::array<double, 4> aslant{};
   std::array<double, 4> beside{};
   std::array<double, 4> weight{};
@@ -90,8 +90,8 @@ LevelsOfBlock(const double *              first,
   return block;
 }
 
-/** Returns the levels of all blocks that lie in the frame with their neighbours. A frame that is too small for one has
- * a single smaller block. */
+/** Returns the levels of all blocks that lie in the frame with their neighbours. A frame that is too small for a block
+ * has a single smaller block. */
 template <typename TPixel>
 std::vector<BlockLevels>
 LevelsOfBlocks(const TPixel * frame, std::size_t width, std::size_t height, const ParallelFor & parallelFor)
@@ -141,10 +141,10 @@ RecogniseMosaic(const TPixel * frameDn, std::size_t width, std::size_t height, c
     anti += std::abs(block.anti);
   }
   const bool isGreenMain = main < anti;
-  double     contrast = 0.0; // difference of green to the mean of the others
+  double     contrast = 0.0; // difference of green to the mean of the other colours
   double     rough = 0.0;
   double     sumOfOne = 0.0; // difference of green to the colour beside the pixel of the main diagonal, and to the
-                             // other one
+                             // other colour
   double sumOfOther = 0.0;
   double oneLessOther = 0.0;
   for (const BlockLevels & block : blocks)

@@ -188,7 +188,7 @@ public:
   {
     return m_Originals[t];
   }
-  /** Number of frames that equal an earlier one. */
+  /** Number of frames that equal an earlier frame. */
   std::size_t
   Repeated() const
   {

@@ -45,10 +45,10 @@ struct ExtremeDepths
   double high{ 0.0 }; ///< depth of the highest level [1]
 };
 
-/** Returns whether a repeated extreme value is evidence of clipping. It is not if the noise is below half a step of the
- * levels, because then every level is repeated. Nor is it if \a depth, see ExtremeDepths, is 2.5 or more. \a
- * typicalVarianceDn2 is the median variance of the pixels that vary [DN^2], \a stepDn the spacing of the levels [DN].
- */
+/** Returns whether a repeated extreme value is evidence of clipping. It is no evidence if the noise is below half a
+ * step of the levels, because then every level is repeated. It is no evidence either if \a depth, see ExtremeDepths, is
+ * 2.5 or more. \a typicalVarianceDn2 is the median variance of the pixels that vary [DN^2], \a stepDn the spacing of
+ * the levels [DN]. */
 inline bool
 IsClipEvidence(double typicalVarianceDn2, double stepDn, double depth)
 {
@@ -114,7 +114,7 @@ public:
     const double outwards = m_Sign * value;
     if (!m_Counts.empty() && outwards == m_Counts.begin()->first)
     {
-      ++m_Counts.begin()->second; // shortcut: at a clip level this is every second pixel
+      ++m_Counts.begin()->second; // shortcut, which every second pixel takes at a clip level
     }
     else if (m_Counts.size() < MostLevels || outwards >= m_Innermost)
     {
@@ -145,7 +145,7 @@ public:
   double
   Step() const;
 
-  /** Returns the largest number of pixels on one of the levels at most 16 steps inside of the outermost one. */
+  /** Returns the largest number of pixels on one of the levels at most 16 steps inside of the outermost level. */
   std::size_t
   MostInside(double stepDn) const;
 

@@ -151,8 +151,8 @@ FrameFingerprints::FindDistinct() const
 namespace
 {
 
-/** Returns the sum of the finite ones of \a count pixels, at most a block of fingerprints: 32 bits hold the sum of its
- * integers. */
+/** Returns the sum of the finite pixels among \a count pixels, at most a block of fingerprints: 32 bits hold the sum of
+ * its integers. */
 template <typename TPixel>
 double
 SumOfPixels(const TPixel * pixels, std::size_t count)

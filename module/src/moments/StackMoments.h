@@ -46,7 +46,7 @@ public:
   std::vector<std::uint8_t>
   Add(std::size_t first, const std::vector<BytesFingerprint> & fingerprints);
 
-  /** Throws std::runtime_error if both this object and \a other have counted the same frame, or equal ones. */
+  /** Throws std::runtime_error if both this object and \a other have counted the same frame, or equal frames. */
   void
   RequireApart(const FrameFingerprints & other) const;
 
@@ -76,7 +76,7 @@ public:
   FindDistinct() const;
 
 private:
-  /** Frames that are equal: the number of the first one, and whether one of them is counted. */
+  /** Frames that are equal: the number of the first frame, and whether one of these frames is counted. */
   struct Equal
   {
     std::size_t first;
@@ -96,7 +96,7 @@ private:
  * \brief Result of the first pass: the temporal moments of every pixel, the mean of every frame, and the frames that
  * are equal.
  *
- * A frame that equals an earlier one is not summed: the moments are over the distinct frames.
+ * A frame that equals an earlier frame is not summed: the moments are over the distinct frames.
  *
  * Frames may be added in parts, in several processes, and the parts merged. Integers are summed exactly, in any order.
  * Parts with floating-point pixels are kept and merged in the order of their first frames, so that the result has the

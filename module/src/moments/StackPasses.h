@@ -191,7 +191,7 @@ protected:
   struct Plane
   {
     StackPasses * passes; ///< plane, of the method that receives the call
-    std::size_t   place;  ///< place of the first frame among the distinct ones
+    std::size_t   place;  ///< place of the first frame among the distinct frames
   };
 
   /** Returns the frames that are left out, after the first pass has ended. */
@@ -203,7 +203,7 @@ protected:
 
   /** Leaves out further frames and starts again, if a later pass has found that they are unlike the others. The next
    * pass computes the moments of the rest, and the method computes all results anew.
-   * \param places places of the frames among the distinct ones
+   * \param places places of the frames among the distinct frames
    * \param fault reason why they are left out
    * \param largestFraction largest fraction of the frames that may be left out in all [1], see JoinUnlikeFrames()
    * \return false, without any change, if there are none or too many of them */

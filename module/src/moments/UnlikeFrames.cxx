@@ -183,7 +183,7 @@ DeviationsFromMedian(const std::vector<double> & values, std::size_t cells)
   return far;
 }
 
-/** Returns the distance of the frames from the others, the smaller one in both units [1]. */
+/** Returns the distance of the frames from the other frames: the smaller of the distances in both units [1]. */
 std::vector<double>
 DeviationsFromOthers(const MeanSquares & meanSquares, std::size_t cells)
 {

@@ -212,7 +212,7 @@ public:
 
 private:
   /** Bytes of each plane that are copied together. Chosen empirically with the published method, when it still copied
-   * its planes: with half of them it took a tenth longer, with twice as many as long and more memory. */
+   * its planes: with half as many it took a tenth longer; with twice as many it took as long, and more memory. */
   static constexpr std::size_t BytesTogether = std::size_t{ 8 } << 20;
 
   MosaicGeometry                          m_Geometry;
@@ -220,7 +220,7 @@ private:
 };
 
 /** \class DarkFrameSums
- * \brief Adds up dark frames, which are read once, and measures offset and read noise of them.
+ * \brief Adds up dark frames, which are read once, and measures their offset and read noise.
  *
  * The planes of a Bayer mosaic are measured separately. Frames are added in time order. The numbers of threads and of
  * frames per call do not change the result. */
@@ -260,7 +260,7 @@ public:
   }
 
   /** Returns offset and read noise, see MeasureDarkFrames(): one result per plane in the order of BayerPlanes, or one
-   * for frames that are no mosaics. Call it once, as it consumes the sums. */
+   * for frames that are no mosaics. Call this function once, because it consumes the sums. */
   std::vector<KnownOffset>
   Measure(const DnSettings & dnSettings, const ParallelFor & parallelFor)
   {

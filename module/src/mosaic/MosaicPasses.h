@@ -31,7 +31,7 @@ namespace sensornoise
  * while it is in the cache.
  *
  * \tparam TPixel the type of the frames' pixels.
- * \tparam TMethod RefinedPasses or PublishedPasses of it. */
+ * \tparam TMethod RefinedPasses<TPixel> or PublishedPasses<TPixel>. */
 template <typename TPixel, typename TMethod>
 class MosaicPasses
 {
@@ -80,7 +80,7 @@ public:
     }
   }
 
-  /** Sets frame \a t as the next one of the current pass. */
+  /** Sets frame \a t as the next frame of the current pass. */
   void
   GoTo(std::size_t t)
   {
@@ -131,7 +131,7 @@ public:
 
   /** Declares that no sums of RefinedPasses' third pass are saved or merged. If all frames are added together, there
    * are no sums. If the sums exceed \a many, the pass is for the planes of the red rows alone, and a further pass for
-   * the planes of the blue rows, which halves the memory. Call it before the first pass. */
+   * the planes of the blue rows, which halves the memory. Call this function before the first pass. */
   void
   DisableMerging(const std::optional<ManySums> & many)
   {

@@ -34,7 +34,7 @@ const char * const LevelSetWords =
   "Each point is a level set: areas of about one level, without edges and texture. Their variance is a line, whose "
   "slope is the gain if the noise is white.";
 
-/** Returns what the points of the noise curve are. */
+/** Returns a description of the points of the noise curve. */
 std::string
 PointWords(bool isOfLevelSets)
 {

@@ -93,8 +93,8 @@ BeginOfSentence(const std::string & text, std::size_t end)
   return 0;
 }
 
-/** Returns the position of a command behind the last colon, as in "the flicker is not known: give the offset". The
- * length of the message if there is none. */
+/** Returns the position of a command behind the last colon, as in "the flicker is not known: give the offset". Returns
+ * the length of the message if it has no command there. */
 std::size_t
 BeginOfClause(const std::string & message)
 {
@@ -106,7 +106,7 @@ BeginOfClause(const std::string & message)
   return IsCommand(SentenceText(message.substr(colon + 2))) ? colon + 2 : message.size();
 }
 
-/** Returns the position of the action at the end of a message; the length of the message if there is none. */
+/** Returns the position of the action at the end of a message, or the length of the message if it has no action. */
 std::size_t
 BeginOfAction(const std::string & message)
 {

@@ -124,8 +124,8 @@ struct ClassTable
 };
 
 /** Computes the table and \a ratio, the mean of variance over model of each class. The errors include the \a covariance
- * of gain and intercept of the model: flat classes that are all dark do not determine the variance
- * of bright ones. */
+ * of gain and intercept of the model: flat classes that are all dark do not determine the variance of bright classes.
+ */
 ClassTable
 MakeTable(const SumsOfClasses & sums, const Eigen::Matrix2d & covariance, std::vector<double> & ratio)
 {
@@ -209,7 +209,7 @@ SlopeVariance(const SumsOfClasses & sums, std::size_t end)
   return common > 0.0 ? neighbours / (common * common) : std::numeric_limits<double>::infinity();
 }
 
-/** Sets the first class to be rejected, given that \a firstBad and rougher ones fail. Rejecting classes avoids their
+/** Sets the first class to be rejected, given that \a firstBad and rougher classes fail. Rejecting classes avoids their
  * excess, but costs precision: where all bright areas are rough, nothing is left to determine the gain. The limit is
  * where the sum of the squared relative errors is the smallest. */
 void

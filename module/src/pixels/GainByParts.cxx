@@ -65,8 +65,8 @@ struct Deviations
   double          z{ 0 };     ///< significance, in standard deviations of chi-square [1]
 };
 
-/** Returns the deviations of the quantity whose \a count coefficients start at \a first. \a unit is what the quantity
- * is relative to: 1 plus its mean, or 1 [1]. */
+/** Returns the deviations of the quantity whose \a count coefficients start at \a first. \a unit is the number that the
+ * quantity is relative to: 1 plus its mean, or 1 [1]. */
 Deviations
 DeviationsOf(const PartRegression &  fit,
              Eigen::Index            first,

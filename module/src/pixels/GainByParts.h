@@ -176,7 +176,7 @@ struct SensorNoise_EXPORT PartGains
   /** Covariance of the coefficients of dark: a number for each part, the coefficients of the smooth field, or one
    * number that all parts have in common [1]. */
   Eigen::MatrixXd darkCovariance;
-  Eigen::VectorXd meanOfTerms; ///< mean over the pixels of what these coefficients are multiplied by [1]
+  Eigen::VectorXd meanOfTerms; ///< mean over the pixels of the terms that these coefficients are multiplied by [1]
 
   /** Adds to \a sums, 2 x coefficients, the terms that the coefficients of dark are multiplied by at a place, each
    * times both \a weights. The place is given as in RatioAt(). */
@@ -231,8 +231,8 @@ struct GainByParts
   }
 };
 
-/** Returns what the errors of the variances without signal of \a parts add to the covariance of gain and intercept,
- * where the variance of \a data was divided by their ratios, or may have to be. Estimator.md, 3.15. */
+/** Returns the contribution of the errors of the variances without signal of \a parts to the covariance of gain and
+ * intercept, where the variance of \a data was divided by their ratios, or may have to be. Estimator.md, 3.15. */
 SensorNoise_EXPORT Eigen::Matrix2d
 CovarianceByRatios(const std::vector<PartGains> & parts,
                    const VarianceData &           data,
@@ -267,7 +267,7 @@ struct SensorNoise_EXPORT PartRegression
   double                scale{ 1.0 }; ///< dispersion of the tiles over their sampling error, 1 or more [1]
   bool                  isDetermined{ false };
 
-  /** Returns whether what differs is a smooth field over the frame. */
+  /** Returns whether the partition is a smooth field over the frame. */
   bool
   IsSmooth() const
   {

@@ -174,7 +174,7 @@ struct ClassFit
 
 /** Compares the mean variance of each roughness class with the flat classes. A class fails if its mean is higher by
  * more than 3 standard errors and 0.15 %, or if its fraction of outliers is higher by 1 %. The first of two failing
- * classes in a row, and all rougher ones, are rejected. Estimator.md, 3.5. */
+ * classes in a row, and all rougher classes, are rejected. Estimator.md, 3.5. */
 SensorNoise_EXPORT ClassFit
 TestClasses(const ProjectedVariance &         projected,
             const RejectionModel &            line,

@@ -79,14 +79,15 @@ EstimateParameters(const PolynomialFit &             line,
 
 namespace
 {
-/** Contrast of the bright and the dark set that a line needs, in the sum of the standard deviations of their levels
- * [1]. Chosen. */
+/** Contrast of the bright and the dark set that a line needs, in units of the sum of the standard deviations of their
+ * levels [1]. Chosen. */
 constexpr double LeastContrast = 6.0;
 /** Significance of a curvature of the corrected variance [standard errors]. Chosen. */
 constexpr double LeastCurvatureZ = 5.0;
 /** Fraction of the pixels that are darker than the darkest level, which bounds the offset [1]. Chosen. */
 constexpr double DarkestFraction = 0.001;
-/** Errors by which the darkest level may be below the offset, as it is a mean of noisy values [1]. Chosen. */
+/** Number of standard errors by which the darkest level, a mean of noisy values, may be below the offset [1]. Chosen.
+ */
 constexpr double DarkestErrors = 3.0;
 
 void

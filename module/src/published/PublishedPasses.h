@@ -150,7 +150,7 @@ EstimatePublished(const PublishedFindings & found, const ParallelFor & parallelF
 SensorNoise_EXPORT Report
 MakePublishedReport(const PublishedFindings & found, const ParallelFor & parallelFor);
 
-/** Copies the parameters and the quality of the fit to \a report, and warns of what contradicts them. */
+/** Copies the parameters and the quality of the fit to \a report, and warns of findings that contradict them. */
 SensorNoise_EXPORT void
 FileParameters(Report & report, const NoiseParameters & parameters);
 

@@ -149,7 +149,7 @@ WarnOfScatter(Report & report, const NoiseParameters & found)
                   "within the frame, or moving objects are left in it. Use --method refined");
   }
 }
-/** Copies the parameters of the sensor and warns of what contradicts them. */
+/** Copies the parameters of the sensor, and warns of findings that contradict them. */
 void
 FillParameters(Report & report, const PublishedFindings & found, const PublishedEstimate & estimate)
 {

@@ -141,7 +141,8 @@ SlopeOfTiles(const Regression & data, const Eigen::MatrixXd & weights)
 }
 
 /** Returns the fraction of the information on the slope that remains without the fifth of the frames that contribute
- * most [1]. As many frames may have other noise, and a slope that depends on them alone is not identifiable. */
+ * most [1]. Up to a fifth of the frames may have other noise, and a slope that depends on these frames alone is not
+ * identifiable. */
 double
 InformationWithoutLargest(const Regression & data, Eigen::MatrixXd weights, const FrameSlope & slope)
 {

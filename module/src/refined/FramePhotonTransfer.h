@@ -188,7 +188,8 @@ struct FrameNoise
   /** Groups of frames: first the largest, which has at least half of the frames, then the others by increasing noise.
    * One group if all frames agree. */
   std::vector<FrameGroup> groups;
-  /** Whether the frames have about one level: then the groups cannot be caused by the model of their illumination. */
+  /** Whether the frames have about one level. If so, the model of their illumination cannot be the cause of the groups.
+   */
   bool areFramesEqual{ false };
   /** Root mean square difference from 1, if it exceeds the threshold without groups: the noise varies from frame to
    * frame; else 0 [1]. */

@@ -81,7 +81,8 @@ WeighFrames(const std::vector<double> & gamma)
   return weights;
 }
 
-/** Shifts from the coefficients of a derivative, which are (1 + gamma_t) times the shift, and their variance. */
+/** Shifts from the coefficients of a derivative, and the variance of the shifts. A coefficient is (1 + gamma_t) times
+ * the shift. */
 struct ShiftVariance
 {
   std::vector<double> series;        ///< shift of every frame [pixel]; 0 for a frame without a weight
@@ -186,8 +187,9 @@ Slack(double phi)
 
 /** Returns the shifts, their variance over time without the variance of their noise, and its squared error. The noise
  * lies between white noise and white noise times the dispersion of the frames' illumination, which need not be caused
- * by motion. A wrong offset leaves a part of the flicker in the shifts. On average this adds its square, which is
- * subtracted: half of the sum of what an offset too low and an offset too high add. */
+ * by motion. A wrong offset leaves a part of the flicker in the shifts. On average this part adds its square to the
+ * variance. The square is estimated and subtracted: it is half of the sum of the increases of the variance at an offset
+ * too low and at an offset too high. */
 ShiftVariance
 SpreadAbout(const AxisShifts &           shifts,
             const IlluminationOfShifts & illumination,

@@ -235,7 +235,7 @@ FirstGain(const StaticScene & scene, const SceneSeries & series)
 }
 
 /** Compares the noise of the frames and, if it does not differ, of their parts. Frames of several scenes are not
- * comparable: nothing is left of what was found between them. */
+ * comparable: their line and their groups are dropped. */
 void
 MeasureFrames(PixelNoise &            noise,
               const FrameComparison & by,

@@ -39,7 +39,7 @@ LimitsOf(const RefinedResults & found, const GainEstimate & gain, double quantis
 /** Reason why the illumination does not determine the dark offset. */
 enum class OffsetFailure : std::uint8_t
 {
-  None,              ///< it determines the offset
+  None,              ///< the illumination determines the offset
   UnlikeOffsets,     ///< too many frames have another dark offset to be left out
   OneIntensity,      ///< the scene has one intensity
   Ramp,              ///< the scene is a ramp, along which motion changes every level alike, as an offset does
@@ -95,7 +95,7 @@ ChooseOffset(const RefinedResults & found,
 /** Reason why the standard deviation of the flicker is not identifiable. */
 enum class FlickerFailure : std::uint8_t
 {
-  None,            ///< it is identifiable, or an upper limit
+  None,            ///< the standard deviation is identifiable, or has an upper limit
   UnknownOffset,   ///< the change of the illumination has no bounds, as the offset has none
   UncertainOffset, ///< the error of the offset leaves the change of the illumination too uncertain
   LocalMotion,     ///< parts of the scene move by themselves, which looks like local illumination
@@ -106,7 +106,7 @@ enum class FlickerFailure : std::uint8_t
 struct SeriesOfFlicker
 {
   std::vector<double>     gamma; ///< illumination factor of every frame, minus 1 [1]
-  Quantity                sd;    ///< its standard deviation over the frames [1]
+  Quantity                sd;    ///< standard deviation of gamma over the frames [1]
   FlickerFailure          failure{ FlickerFailure::None };
   double                  scaleError{ 0.0 }; ///< relative error of the change by the error of the offset [1]
   std::optional<Interval> limit;             ///< 95 % interval of the standard deviation, also after a failure [1]
@@ -199,9 +199,9 @@ struct TestedGain
   GainEstimate             line;
   GainVerdict              verdict{ GainVerdict::NoiseNotLinear };
   Quantity                 gain;           ///< [DN/e-]
-  Quantity                 varianceSlope;  ///< with the slope of the quantization noise [DN/e-]
+  Quantity                 varianceSlope;  ///< variance slope, with the slope of the quantization noise [DN/e-]
   Quantity                 intercept;      ///< sigma^2 - g mu, without quantization noise [DN^2]
-  Quantity                 totalIntercept; ///< with quantization noise [DN^2]
+  Quantity                 totalIntercept; ///< intercept with quantization noise [DN^2]
   std::vector<UnlikeParts> parts;          ///< empty: the gain is uniform, or is not identified
 
   bool
@@ -228,12 +228,12 @@ struct DarkQuantities
   std::optional<std::array<std::array<double, 3>, 3>> covariance;
 };
 
-/** Returns what the dark frames or the user say of offset and read noise. Quantities that they do not determine have
+/** Returns offset and read noise from the dark frames or from the user. Quantities that they do not determine have
  * \a status. \a quantisationDn2 is the variance of the quantization noise [DN^2]. */
 SensorNoise_EXPORT DarkQuantities
 QuantitiesOfDarkFrames(const RefinedSettings & settings, double quantisationDn2, EstimateStatus status);
 
-/** Returns offset and read noise beside an identified gain. The offset is the known one, if there is one, else
+/** Returns offset and read noise beside an identified gain. The offset is the known offset, if it is given, else
  * \a flicker. \a quantisationDn2 is the variance of the quantization noise [DN^2]. */
 SensorNoise_EXPORT DarkQuantities
 QuantitiesByOffset(const RefinedResults & found,
@@ -267,17 +267,15 @@ struct RefinedEstimate
   bool isIlluminationSteady{ false };
   /** Whether the known offset lies outside of its limits. */
   bool isOffsetOutOfLimits{ false };
-  /** Addition of the illumination of rows or columns to the slope of the variance, where it is too large [1]; 0: it is
-   * not. */
+  /** Addition of the illumination of rows or columns to the slope of the variance, if it is too large, else 0 [1]. */
   double effectOfLines{ 0.0 };
-  /** Standard deviation that the vibration may have, where it is strong [pixel]; null: it is not. */
+  /** Standard deviation that the vibration may have, if it is strong, else null [pixel]. */
   std::optional<double> strongVibrationPixels;
   /** Ratio of the signals of the darkest and the brightest areas [1], if it is so large that a non-linear response
-   * would not be noticed; null: it is not. */
+   * would not be noticed, else null. */
   std::optional<double> uncheckedFraction;
 
-  /** Returns whether the verdict on the sensor follows from its variance line alone.
-   */
+  /** Returns whether the verdict on the sensor follows from the variance line of the sensor alone. */
   bool
   IsSensorLineTested() const
   {

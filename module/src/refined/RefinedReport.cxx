@@ -263,7 +263,7 @@ CopyQuantities(Report & report, const RefinedResults & found, const RefinedEstim
   }
 }
 
-/** Warns of what the estimate found, in the order of the passes. */
+/** Adds the warnings of the estimate, in the order of the passes. */
 void
 WarnOfEstimate(Report & report, const RefinedResults & found, const RefinedEstimate & estimate)
 {

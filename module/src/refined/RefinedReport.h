@@ -32,8 +32,8 @@ MakeFailedReport(const RefinedSettings &           settings,
                  const std::vector<std::uint8_t> & pixelUse,
                  const NothingToMeasure &          failureReason);
 
-/** Warns of what the verdict on the gain is due to, or, if the gain is identified, of what its interval allows for. The
- * numbers of pixels must be in the report. \a effectOfLines is RefinedEstimate::effectOfLines [1]. */
+/** Warns of the cause of the verdict on the gain, or, if the gain is identified, of the effects that its interval
+ * allows for. The numbers of pixels must be in the report. \a effectOfLines is RefinedEstimate::effectOfLines [1]. */
 SensorNoise_EXPORT void
 WarnOfGain(Report & report, const RefinedResults & found, const TestedGain & tested, double effectOfLines);
 

@@ -61,9 +61,9 @@ SetSensorParameters(Report & report, EstimateStatus status);
  * illumination: the least value with a correct gain was 0.50, and gains that were wrong by more than 10 % had 0.003 to
  * 0.1. Each method has its own upper limit, because responses may be non-linear. */
 inline constexpr double LeastReducedChi2 = 0.2;
-/** Largest standard deviation of the motion along an axis that is reported [pixel]. A larger one is not a motion of the
- * scene, but for example the flicker of a ramp, which looks like a shift. Chosen empirically: no motion was measured in
- * simulated scenes that moved this far. */
+/** Largest standard deviation of the motion along an axis that is reported [pixel]. A larger vibration is not a motion
+ * of the scene, but for example the flicker of a ramp, which looks like a shift. Chosen empirically: no motion was
+ * measured in simulated scenes that moved this far. */
 inline constexpr double LargestVibrationPixels = 5.0;
 
 /** Gives each quantity of the report its final status.

@@ -219,7 +219,7 @@ WriteJson(JsonWriter & json, const InputRecord & input)
 
 namespace
 {
-/** Writes a polynomial as member \a name; null: it was not fitted. \a isCurved: it is a parabola. */
+/** Writes a polynomial as member \a name; null: it was not fitted. \a isCurved: the polynomial is a parabola. */
 void
 WriteBaseline(JsonWriter & json, const char * name, const std::optional<Report::Baseline> & fit, bool isCurved)
 {

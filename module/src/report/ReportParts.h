@@ -65,7 +65,7 @@ SensorNoise_EXPORT std::string
 QuantityLine(const std::string & label, const std::string & unit, const Quantity & quantity, bool hasErrors);
 
 /** Returns the source of a clip level of the record in words: "DN range" for `code range`, "repeated extreme values"
- * for `pile-up`. Others stay. */
+ * for `pile-up`. Other sources stay as they are. */
 std::string
 DescribeClipSource(std::string source);
 
@@ -95,13 +95,13 @@ struct ReportConstants
   /** Least difference of the gains of the two greens, relative to their mean, that is reported [1]. Chosen by the size
    * of the effect: a difference of 0.5 % has no practical consequence. */
   double leastGreenDifference{ 0.005 };
-  /** Least difference of the mean levels of the two planes called green, for which they are not the greens [1]. It is
-   * relative to the larger of two differences: between the mean of the greens and the mean of the two other planes, and
-   * between the two other planes. It equals InMoments.leastColourDifference. Planes of one colour differ by less than
-   * 0.01, the contrast of the scene within a pixel. */
+  /** Least difference of the mean levels of the two planes called green, at which these planes are not the greens [1].
+   * It is relative to the larger of two differences: between the mean of the greens and the mean of the two other
+   * planes, and between the two other planes. It equals InMoments.leastColourDifference. Planes of one colour differ by
+   * less than 0.01, the contrast of the scene within a pixel. */
   double leastLevelDifference{ 0.08 };
   /** Difference of the mean levels of the planes called red and blue, relative to the difference of the two planes
-   * called green, below which red and blue are of one colour [1]. Chosen empirically. */
+   * called green [1]. Below this value red and blue are of one colour. Chosen empirically. */
   double largestLevelDifference{ 0.1 };
 };
 

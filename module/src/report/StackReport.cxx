@@ -264,7 +264,7 @@ ReportAllFrames(Report & report, const DistinctFrames & frames, const std::vecto
                    frames,
                    std::vector<double>(report.flickerRows.empty() ? 0 : report.flickerRows.front().size(), unknown));
   SpreadOverFrames(report.motion, frames, { unknown, unknown });
-  // These warnings come first, because the other ones are about the counted frames only.
+  // These warnings come first, because the other warnings are about the counted frames only.
   if (frames.Repeated() > 0)
   {
     const Warning warning{ WarningCode::RepeatedFrames,

@@ -114,7 +114,7 @@ NoteSelection(Report & report, const StackSelection & selection);
 SensorNoise_EXPORT void
 ValidateExcessNoiseFactor(double factor);
 
-/** Throws std::invalid_argument unless both bounds are finite and the lower one is below the upper one. */
+/** Throws std::invalid_argument unless both bounds are finite and the lower bound is below the upper bound. */
 SensorNoise_EXPORT void
 ValidateLevelRange(const LevelRange & range);
 

@@ -82,7 +82,7 @@ struct InitialNoiseModel
 SensorNoise_EXPORT InitialNoiseModel
 FitInitialNoiseModel(const ReferenceFrame & frame);
 
-/** The pixels to which a InitialNoiseModel is fitted: their raw variance, and the terms of the model. */
+/** The pixels to which an InitialNoiseModel is fitted: their raw variance, and the terms of the model. */
 struct VarianceSample
 {
   static constexpr int Terms = 6; ///< number of terms: intercept, x, x^2, gx^2, gy^2, gx gy
@@ -148,7 +148,8 @@ Predict(const VarianceSample &               sample,
 SensorNoise_EXPORT std::array<double, 2>
 SquaredStepsNear(const double * mean, std::size_t width, std::size_t p);
 
-/** Fits the initial noise model to a scene whose edges are sharper than a pixel. Null: they are not.
+/** Fits the initial noise model to a scene whose edges are sharper than a pixel. Returns null if the edges are not
+ * sharper, or if no vibration explains them.
  *
  * If a fit excludes pixels that hold more than a tenth of the squared derivatives of the mean, but hardly any of the
  * smoother half of the pixels, it has excluded the motion itself. This fit starts from the motion that sums over 3 x 3

@@ -44,9 +44,9 @@ namespace
 /** The 3 x 3 pixels around a pixel. */
 struct PixelSurroundings
 {
-  double                pixels{ 0.0 };   ///< number of usable ones
-  double                variance{ 0.0 }; ///< sum of their variances [DN^2]
-  std::array<double, 2> energy{};        ///< sums of their squared derivatives along x and y [DN^2/pixel^2]
+  double                pixels{ 0.0 };   ///< number of usable pixels
+  double                variance{ 0.0 }; ///< sum of the variances of these pixels [DN^2]
+  std::array<double, 2> energy{};        ///< sums of the squared derivatives along x and y [DN^2/pixel^2]
   std::array<double, 2> squaredSteps{};  ///< see SquaredStepsNear() [DN^2]
 };
 
@@ -74,9 +74,9 @@ SurroundingsOf(const ReferenceFrame & frame, std::size_t p)
   return around;
 }
 
-/** Returns the variance of the motion along \a axis that the sums over the surroundings of pixels show, given the
- * variance of each pixel without motion [pixel^2]; 0 if no derivatives are mainly along this axis. It is their median,
- * weighted by the squared derivatives, over the pixels whose derivatives are mainly along this axis. */
+/** Returns the variance of the motion along \a axis from the sums over the surroundings of pixels [pixel^2]. The result
+ * is a median over the pixels whose derivatives are mainly along this axis, weighted by the squared derivatives; 0 if
+ * there are no pixels of this kind. \a withoutMotion has the variance of each pixel without motion. */
 double
 MotionAlong(const std::vector<PixelSurroundings> & surroundings,
             const std::vector<double> &            withoutMotion,
@@ -107,8 +107,8 @@ MotionAlong(const std::vector<PixelSurroundings> & surroundings,
   return 0.0;
 }
 
-/** Returns the fraction of the pixels that \a prediction does not keep, where pixel i counts weightOf(i) [1]; 0 if none
- * counts. */
+/** Returns the fraction of the pixels that \a prediction does not keep, where pixel i counts weightOf(i) [1]; 0 if all
+ * weights are 0. */
 template <typename TFunction>
 double
 RejectedFraction(const VariancePrediction & prediction, TFunction weightOf)

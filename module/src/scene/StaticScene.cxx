@@ -28,8 +28,8 @@ struct BorderLines
   const std::vector<double> &       mean;
   const std::vector<std::uint8_t> & valid;
   std::size_t                       first;  // number of the pixel at the corner
-  std::ptrdiff_t                    inward; // distance from a line to the next one [pixels in memory]
-  std::ptrdiff_t                    along;  // distance from a pixel of a line to the next one [pixels in memory]
+  std::ptrdiff_t                    inward; // distance from a line to the next line [pixels in memory]
+  std::ptrdiff_t                    along;  // distance from a pixel of a line to the next pixel [pixels in memory]
   std::size_t                       lines;
   std::size_t                       length;
 
@@ -65,7 +65,8 @@ LevelsAlongLine(std::vector<double> levels)
   return CentreOf(std::move(levels));
 }
 
-/** Returns the median absolute difference between \a levels and \a others [DN]; infinite if there is none. */
+/** Returns the median absolute difference between \a levels and \a others [DN]; infinite if there are no differences.
+ */
 double
 MedianDifference(const std::vector<double> & levels, const std::vector<double> & others)
 {
@@ -136,7 +137,7 @@ EndsSharply(const BorderLines & border, const RobustCentre & outermost, std::siz
   return hasStructure || outermost.median + distance < darkest;
 }
 
-/** Returns the number of lines of the strip that begins with line 0; 0: there is none. */
+/** Returns the number of lines of the strip that begins with line 0; 0: no strip begins there. */
 std::size_t
 CountLines(const BorderLines & border, const RobustCentre & outermost)
 {
@@ -259,7 +260,7 @@ MarkBorder(StaticScene & scene)
   }
 }
 
-/** Excludes the region that a moving object crosses. Returns false if there is none. */
+/** Excludes the region that a moving object crosses. Returns false if there is no moving object. */
 bool
 ExcludeTransientRegion(StaticScene & scene)
 {

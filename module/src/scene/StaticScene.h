@@ -80,7 +80,7 @@ struct StaticScene
   std::optional<FullWells> fullWells;  ///< saturated pixels without a clip level, which are excluded
   std::size_t              valid{ 0 }; ///< number of pixels that are finite, never at a clip level, and not masked by
                                        ///< the user
-  ReferenceFrame            frame;     ///< its `usable` pixels are the usable ones of the scene
+  ReferenceFrame            frame;     ///< `usable` marks the usable pixels of the scene
   InitialNoiseModel         model;
   std::vector<std::uint8_t> pixelUse;      ///< values of PixelUse, as far as one pass determines them
   double                    usable{ 0.0 }; ///< number of usable pixels

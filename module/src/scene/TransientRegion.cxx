@@ -130,7 +130,7 @@ struct Candidate
 Coefficients
 NotNegative(Coefficients theta)
 {
-  for (int k = 0; k + 1 < VarianceSample::Terms; ++k) // the last one is a covariance
+  for (int k = 0; k + 1 < VarianceSample::Terms; ++k) // the last component is a covariance
   {
     theta(k) = std::max(0.0, theta(k));
   }

@@ -43,7 +43,7 @@ struct IlluminationTest
 {
   double explained{ 0.0 };  ///< fraction of the cells whose pixels are explained by one flicker per cell [1]
   double modulation{ 0.0 }; ///< square root of the ratio of the variance above the model to the squared level above the
-                            ///< darkest one [1]
+                            ///< darkest level [1]
 };
 
 /** \class VarianceTiles
@@ -98,11 +98,11 @@ private:
   std::size_t            m_Rows;
   double                 m_MedianRatio; // ratio of the median of a variance with T - 1 degrees of freedom to its
                                         // expectation
-  std::vector<std::size_t> m_CellOf;    // cells of the pixels of the sample
+  std::vector<std::size_t> m_CellOf;    // cell of each pixel of the sample
 };
 
-/** Finds the part of the frame that a moving object crosses. Returns 1 there, by cells of the frame; empty if there is
- * none.
+/** Finds the part of the frame that a moving object crosses. Returns a map of the frame with 1 in the cells of this
+ * part, else 0; empty if there is no moving object.
  *
  * A person who walks through a burst disturbs all pixels on the way, which may be most of the frame. A model of the
  * variance fitted to the majority then describes the person, and flicker and motion found with it are wrong. But a
@@ -140,7 +140,7 @@ struct UsablePixels
 
 /** Excludes the pixels that clipping could affect (FindGuardBand), and pixels whose noise is below half a quantization
  * step, which hides it.
- * \param frameMeans means of the frames [DN], for the brightest and the darkest one
+ * \param frameMeans means of the frames [DN], for the brightest and the darkest frame
  * \param pixelUse result of FindPixelUse()
  * \param darkestNoiseDn2 if given, the illumination changes strongly and the variance of \a frame is without these
  * changes; it is an upper bound of the noise variance in the darkest frame [DN^2] */

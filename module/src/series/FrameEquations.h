@@ -45,7 +45,7 @@ struct SensorNoise_EXPORT FrameEquations
    * same derivatives everywhere. Then `light` and `response` hold column 1 alone, all else partialled out. */
   bool isLevelMotion{ false };
 
-  /** Returns the place of a column among the active ones. */
+  /** Returns the place of a column among the active columns. */
   std::optional<std::size_t>
   Find(std::size_t column) const;
 };

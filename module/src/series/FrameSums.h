@@ -277,8 +277,8 @@ private:
   std::vector<ClassMatrix>                         m_ClassGram;
   Eigen::Matrix<double, Instruments, FrameColumns> m_InstrumentGram;
   std::vector<Cell>                                m_Cells;
-  InstrumentNoise                                  m_OfOne;   // for the variance 1
-  InstrumentNoise                                  m_OfLevel; // for a variance that equals the mean of the neighbours
+  InstrumentNoise                                  m_OfOne;   // noise at the variance 1
+  InstrumentNoise                                  m_OfLevel; // noise at a variance equal to the mean of the neighbours
 };
 
 } // namespace sensornoise

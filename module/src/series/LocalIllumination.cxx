@@ -144,9 +144,9 @@ GramOf(const Eigen::MatrixXd & rest)
                                    : Eigen::MatrixXd(rest * rest.transpose());
 }
 
-/** Returns whether several frames have a factor in common: an eigenvalue is above the edge also if much noisier frames
- * are scaled to a typical size. A few frames of another gain exceed the edge by the size of their noise alone, but
- * have no factor in common. */
+/** Returns whether several frames have a factor in common: an eigenvalue is still above the edge after much noisier
+ * frames are scaled to a typical size. A few frames of another gain exceed the edge by the size of their noise alone,
+ * but have no factor in common. */
 bool
 HaveFramesCommonFactors(Eigen::MatrixXd rest, Eigen::Index dof)
 {
@@ -168,8 +168,8 @@ HaveFramesCommonFactors(Eigen::MatrixXd rest, Eigen::Index dof)
   return found.values.front() > found.edge;
 }
 
-/** Finds the factors of \a rest above the edge of the noise, at most \a most; \a freedom is its degrees of freedom over
- * the frames. */
+/** Finds the factors of \a rest above the edge of the noise, at most \a most; \a dof is the degrees of freedom of
+ * \a rest over the frames. */
 LocalIllumination
 FindFactors(const Eigen::MatrixXd & rest, const Eigen::MatrixXd & whole, Eigen::Index dof, std::size_t most)
 {

@@ -20,7 +20,7 @@ namespace sensornoise
 struct SensorNoise_EXPORT MotionSeries
 {
   std::vector<std::size_t> stencils;     ///< indices of the derivatives in MotionStencils()
-  Eigen::MatrixXd          coefficients; ///< frames x stencils
+  Eigen::MatrixXd          coefficients; ///< coefficients, frames x stencils [pixel^order]
   Eigen::MatrixXd          covariance;   ///< covariance of the coefficients of one frame
   Eigen::MatrixXd          inverseGram;  ///< inverse Gram matrix of the regression
   /** Coefficients that imitate a change of the level by 1 DN, and a change of the contrast by 1; stencils x 2. */
@@ -39,10 +39,10 @@ struct SensorNoise_EXPORT MotionSeries
 SensorNoise_EXPORT MotionSeries
 SolveMotion(const FrameEquations & equations, const std::vector<double> & gamma, double offset);
 
-/** Returns the relative errors of the shifts of \a motion along x and y by the approximation of derivatives by
- * differences of pixels [1]; 0 where a first derivative is not active. They are the rms deviation of the shifts that
- * each gradient class gives with the first derivative alone, weighted by its squared derivatives: small where the scene
- * is smooth, and large where edges are sharper than a pixel. */
+/** Returns the relative errors of the shifts of \a motion along x and y that come from the approximation of derivatives
+ * by differences of pixels [1]; 0 where a first derivative is not active. Each gradient class gives shifts with the
+ * first derivative alone. The error is the rms deviation of these shifts from \a motion, weighted by the squared
+ * derivatives of the class. It is small where the scene is smooth, and large where edges are sharper than a pixel. */
 SensorNoise_EXPORT Eigen::Vector2d
 ScaleErrorsOf(const FrameSums &           sums,
               const RegressorNoise &      noise,
@@ -53,7 +53,7 @@ ScaleErrorsOf(const FrameSums &           sums,
 /** Shifts of every frame times (1 + gamma_t), estimated by instrumental variables. */
 struct InstrumentShifts
 {
-  Eigen::MatrixX2d coefficients; ///< frames x (x, y) [pixel]
+  Eigen::MatrixX2d coefficients; ///< shifts times (1 + gamma_t), frames x (x, y) [pixel]
   Eigen::Matrix2d  covariance;   ///< covariance of one frame, with the noise of the flicker that is subtracted
                                  ///< [pixel^2]
   /** Shifts along x and y that imitate a change of the level by 1 DN, and a change of the contrast by 1 [pixel/DN,

@@ -236,7 +236,7 @@ LevelsAbout(double offset, const Eigen::MatrixX2d & changes, const Eigen::Matrix
   return levels;
 }
 
-/** Returns the levels for the possible offsets: a grid over all, and two finer ones about the best. */
+/** Returns the levels for the possible offsets: a grid over all offsets, and two finer grids about the best offset. */
 std::vector<DarkLevels>
 LevelsOfOffsets(const ValueRange & offsets, const Eigen::MatrixX2d & changes, const Eigen::Matrix2d & covariance)
 {

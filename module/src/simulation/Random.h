@@ -20,9 +20,9 @@ namespace sensornoise
  * state of xoshiro256++ (Blackman and Vigna, ACM TOMS 47(4), 2021, DOI 10.1145/3460772). The construction of a
  * generator costs about as much as ten draws.
  *
- * Bits() and Uniform() use integer arithmetic: the same bits on every platform. Normal() and Poisson() use log, exp and
- * sqrt, whose last digit depends on the C library. About one in 1e12 numbers that are rounded to integer DN can differ
- * between platforms. On one platform none does. */
+ * Bits() and Uniform() use integer arithmetic, and give the same bits on every platform. Normal() and Poisson() use
+ * log, exp and sqrt, whose last digit depends on the C library. About one in 1e12 numbers that are rounded to integer
+ * DN can differ between platforms. On one platform all numbers are always the same. */
 class CounterSeededRandom
 {
 public:

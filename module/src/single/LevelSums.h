@@ -136,7 +136,7 @@ private:
   TileOfPositions    m_Tile;
   std::size_t        m_Columns{ 0 };      ///< coefficients of the approximation along a row
   std::size_t        m_Half{ 0 };         ///< even, or odd, pixels of a row
-  std::vector<float> m_Rows;              ///< the last 6 rows of pixels: the even ones, then the odd ones
+  std::vector<float> m_Rows;              ///< the last 6 rows of pixels: the even pixels, then the odd pixels of each
   std::vector<float> m_Mixed;             ///< sums of these rows, with the weights of approximation and details
   std::vector<float> m_Approximation;     ///< approximation of the tile and its surroundings
   std::vector<float> m_SquaredDeviations; ///< squared deviations of the approximation from its local mean

@@ -35,7 +35,7 @@ NormalTail(double z)
 ClippedMoments
 MomentsOfClipped(double meanDn, double sdDn, const ClipLevels & levels)
 {
-  // Beyond it the densities are 0, and an infinite level must not be multiplied with that.
+  // Beyond this distance the densities are 0, and an infinite level must not be multiplied by 0.
   constexpr double farthest = 40.0;
   const double     low = std::clamp((levels.lowDn - meanDn) / sdDn, -farthest, farthest);
   const double     high = std::clamp((levels.highDn - meanDn) / sdDn, -farthest, farthest);
@@ -48,7 +48,7 @@ MomentsOfClipped(double meanDn, double sdDn, const ClipLevels & levels)
   const double inside = 1.0 - below - above;
   const double densityLow = NormalDensity(low);
   const double densityHigh = NormalDensity(high);
-  // In standard deviations from the mean before clipping.
+  // The moments are in standard deviations from the mean before clipping.
   const double first = densityLow - densityHigh + low * below + high * above;
   const double second = inside + low * densityLow - high * densityHigh + low * low * below + high * high * above;
   return { meanDn + sdDn * first, sdDn * sdDn * std::max(0.0, second - first * first), std::max(0.0, inside) };

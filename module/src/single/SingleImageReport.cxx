@@ -160,7 +160,7 @@ DescribeFrames(Report & report, const SingleImageFindings & found, const AllFram
   }
 }
 
-/** Returns the evidence of texture as text; empty: there is none. */
+/** Returns the evidence of texture as text; empty: there is no evidence. */
 std::string
 SignsOfTexture(const SingleImageRecord & record, const NoiseLine & line, const DetailCorrelation::Lag & correlation)
 {
@@ -231,7 +231,7 @@ FillParameters(Report & report, const SingleImageFindings & found, const NoiseLi
               "identifiable. Record a burst under changing illumination, or dark frames, and use --method refined");
 }
 
-/** The level sets of the first frame that has some: of many frames they would be thousands. */
+/** Fills in the level sets of the first frame that has some. The level sets of all frames could be thousands. */
 void
 FillLevelSets(Report & report, const std::vector<std::optional<ImageNoise>> & frames)
 {
@@ -280,7 +280,7 @@ ReasonOfFewDetails(const SingleImageFindings & found)
          "from dark to bright, or use --method refined with a burst";
 }
 
-/** Returns why there is no line, or why its numbers are not valid; "": they are valid. */
+/** Returns the reason why there is no line, or why its numbers are not valid; "": they are valid. */
 std::string
 ReasonAgainst(Report & report, const SingleImageFindings & found, const AllFrames & all, const NoiseLine & line)
 {
@@ -322,7 +322,7 @@ FitAllFrames(const std::vector<std::optional<ImageNoise>> & frames, const LevelL
     none.isFitted.resize(all.diagonal.size());
     return none;
   }
-  constexpr double least = 1e-300; // above 0: every frame's own fit has kept its variances above their rounding
+  constexpr double least = 1e-300; // above 0; the fit of each frame has kept the variances above their rounding
   const double     leastDn2 = std::max(limits.stepDn * limits.stepDn / 12.0, least);
   return FitNoiseLine(all.diagonal, limits.clip, leastDn2, (*first)->line.line);
 }

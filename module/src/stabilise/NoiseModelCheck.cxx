@@ -122,7 +122,7 @@ constexpr double Tolerance = 0.02;
 // Deviation in standard errors that is accepted. With three, one of a dozen bands of a correct model would fail by
 // chance in every 30th check, and the model has errors, too.
 constexpr double StandardErrors = 4.0;
-/** Error of a ratio from which on the ratio does not count as measured [1]. */
+/** Standard error of a ratio below which the ratio counts as measured [1]. */
 constexpr double LargestError = 0.05;
 /** Number of electrons above which the variance after the transform is 1 within 0.016 for any read noise [e-]. */
 constexpr double EnoughElectrons = 10.0;

@@ -21,7 +21,7 @@ namespace sensornoise
 
 namespace
 {
-/** A setting and how its gain deviates from the line. */
+/** A setting, and the deviation of its gain from the line. */
 struct LineDeviation
 {
   double                setting{ 0.0 };

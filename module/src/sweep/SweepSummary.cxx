@@ -74,7 +74,8 @@ RowOf(double setting, const CameraNoise & noise, const ChannelNoise & channel)
 
 using NumberOfChannel = std::function<std::optional<NumberWithError>(const ChannelNoise &)>;
 
-/** The channel that has a number at the most settings, and all others that have it at these settings. */
+/** Returns the channel that has a number at the most settings, and all other channels that have the number at these
+ * settings. */
 std::set<std::string>
 CommonChannels(const MeasuredRange & range, const NumberOfChannel & of)
 {
@@ -151,7 +152,8 @@ FindCommonGains(SweepSummary & summary)
   }
 }
 
-/** Returns the noise of all ISO speeds in a format; none, with the \a reason, if it cannot be written. */
+/** Returns the noise of all ISO speeds in a format. If the format cannot hold the noise, returns none and sets
+ * \a reason. */
 std::optional<NoiseExport>
 ExportOf(const MeasuredRange & range, const char * format, std::string & reason)
 {

@@ -41,7 +41,8 @@ struct SweepConstants
   double leastReadNoiseDrop{ 0.1 };
   /** Settings that are needed on each side of a switch. A single setting that deviates is no switch. */
   std::size_t leastSettingsOfSide{ 2 };
-  /** Settings with a read noise that its model of three parameters needs: two more. */
+  /** Number of settings with a read noise that the model of the read noise needs: two more than its three parameters.
+   */
   std::size_t leastReadNoises{ 5 };
 };
 
@@ -61,8 +62,8 @@ struct GainLevel
   double logRatio{ 0.0 };
   double standardError{ 0.0 };
   double loss{ 0.0 }; ///< sum of squared deviations over their errors, each at most Significance.severalTests squared
-  double chi2{ 0.0 }; ///< chi-square of the settings on the level alone
-  std::size_t settings{ 0 }; ///< settings on the level
+  double chi2{ 0.0 }; ///< chi-square of only the settings on the level [1]
+  std::size_t settings{ 0 }; ///< number of settings on the level
 };
 
 /** Returns the ratios of all settings with a gain. */
@@ -107,17 +108,17 @@ FindGainSwitch(const std::vector<SettingNoise> & settings);
 /** The lines gain = scale x setting of a sweep. */
 struct GainLine
 {
-  /** One line: settings from the lowest to the highest one. */
+  /** One line, with the range of its settings. */
   struct Part
   {
     NumberWithError scale;          ///< gain over setting [DN/e-]
     double          lowest{ 0.0 };  ///< lowest setting of the part
     double          highest{ 0.0 }; ///< highest setting of the part
-    std::size_t     settings{ 0 };  ///< settings on the line
+    std::size_t     settings{ 0 };  ///< number of settings on the line
     /** Reduced chi-square of the settings on the line, with SweepConstants::gainRounding [1]. */
     double reducedChi2{ 0.0 };
   };
-  std::vector<Part> parts; ///< one; two if the switch changes gain / setting; none: no line
+  std::vector<Part> parts; ///< one line, or two if the switch changes gain / setting; empty: no line
   /** Deviation of the gain of each setting from its line, relative to it [1]; none: no gain, or no line. */
   std::vector<std::optional<double>> deviation;
   std::vector<bool> isBeside; ///< whether the setting leaves the line, for instance an extended ISO speed
@@ -138,8 +139,8 @@ struct CommonGain
   std::size_t     settings{ 0 };      ///< settings with a gain and its error
   double          reducedChi2{ 0.0 }; ///< scatter of the gains over their errors, squared [1]
   bool            isSame{ true };     ///< whether no setting differs from the others
-  double          setting{ 0.0 };     ///< setting that deviates most in standard errors, if possible one that differs
-  NumberWithError deviation;          ///< its gain over the weighted mean of the others, less 1 [1]
+  double          setting{ 0.0 }; ///< setting that deviates most in standard errors, if possible a setting that differs
+  NumberWithError deviation;      ///< gain of this setting over the weighted mean of the other gains, less 1 [1]
 };
 
 /** Tests whether the gains of settings are equal, and pools them as their mean, weighted by 1 / error squared.
@@ -193,8 +194,8 @@ struct SweepSummary
 };
 
 /** Returns gain and read noise of each setting. For a mosaic they are the geometric means over the same channels at
- * every setting: over the channel that has the number at the most settings, and the others that have it there. Channels
- * have different gains where the camera scales them, by the same factors at every setting. */
+ * every setting: over the channel that has the number at the most settings, and the other channels that have it at
+ * these settings. Channels have different gains where the camera scales them, by the same factors at every setting. */
 SensorNoise_EXPORT std::vector<SettingNoise>
 MeanOverChannels(const MeasuredRange & range);
 
