@@ -25,7 +25,8 @@ namespace sensornoise::browser
 {
 namespace
 {
-/** Returns what is known of the digital numbers, from the options or from the files. */
+/** Returns the settings of the digital numbers. The bit depth of the options takes precedence over the bit depth of the
+ * files, and the white level of the files is the upper clip level. The single-image method uses the options alone. */
 DnSettings
 DnSettingsOf(const Burst & burst, const BurstOptions & options)
 {
@@ -66,7 +67,7 @@ FindMosaic(const Burst & burst, const BurstOptions & options)
   return pattern ? std::optional<Mosaic>(Mosaic{ *pattern, BayerSource::Levels }) : std::nullopt;
 }
 
-/** Returns the offset of each plane, or of the frames alone; null: not known. */
+/** Returns the offset of each plane of a mosaic, or one offset of other frames; null: not known. */
 template <typename TPixel>
 std::vector<std::optional<KnownOffset>>
 FindOffsets(const Burst &                 burst,
@@ -216,7 +217,7 @@ Estimate(const Burst & burst, const Burst * dark, const BurstOptions & options, 
   return RunMethod<TPixel, RefinedMethod<TPixel>>(burst, mosaic, settingsOf, progress);
 }
 
-/** Throws std::invalid_argument unless the method has the name of one and can use the offset. */
+/** Throws std::invalid_argument unless the options name a method that can use the given offset or dark frames. */
 void
 RequireMethod(const BurstOptions & options, bool hasDark)
 {

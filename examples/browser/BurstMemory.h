@@ -10,7 +10,8 @@
 namespace sensornoise::browser
 {
 
-/** Memory that a page can use [bytes]: the addresses of WebAssembly have 32 bits, and its signed sizes half of them. */
+/** Memory that a page can use [bytes]. The addresses of WebAssembly have 32 bits, and signed sizes reach half of this
+ * range. */
 inline constexpr double PageMemoryBytes = 2e9;
 
 /** Returns the number of frames that are read at a time. */

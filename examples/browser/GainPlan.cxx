@@ -65,8 +65,8 @@ IsOffsetKnown(const PlannedBurst & burst)
   return VarianceOfTwoFrames(burst).offsetDn2 <= GoalDn * GoalDn * (burst.frames - 1.0);
 }
 
-/** Returns the least value of a member between two limits, above 0, with which \a isEnough(burst) is true, by bisection
- * of its logarithm; infinity: none. */
+/** Returns the least value of a member between two limits, both above 0, for which \a isEnough(burst) is true. Bisects
+ * the logarithm of the value. Returns infinity if \a isEnough(burst) is false at the upper limit. */
 template <typename TFunction>
 double
 LeastOf(PlannedBurst burst, double PlannedBurst::* member, double low, double high, const TFunction & isEnough)

@@ -21,23 +21,24 @@ struct PlannedBurst
   double readNoiseDn{ 3.0 };       ///< read noise [DN], 0 or more
 };
 
-/** Smallest errors that an unbiased estimate of the planned burst can have, and what reaches the goals: a standard
- * error of 1 % of the gain, and of 1 DN of the offset. Each value that reaches a goal holds for the other values as
- * planned. */
+/** Smallest errors that an unbiased estimate of the planned burst can have, and the values of the plan that reach the
+ * goals: a standard error of 1 % of the gain, and of 1 DN of the offset. Each of these values holds for the other
+ * values as planned. */
 struct GainPlan
 {
   double gainPercent;       ///< standard error of the gain, relative to the gain [%]
   double offsetDn;          ///< standard error of the dark offset [DN]; infinity: it is not identifiable
-  double framesForGain;     ///< least frames for the gain
-  double framesForOffset;   ///< least frames for the offset; infinity: none
-  double contrastForGain;   ///< least contrast for the gain [1]; infinity: none up to MostContrast
-  double contrastForOffset; ///< least contrast for the offset [1]; infinity: none up to MostContrast
-  double flickerForOffset;  ///< least flicker for the offset [1]; infinity: none up to MostFlickerSd
+  double framesForGain;     ///< smallest number of frames for the goal of the gain
+  double framesForOffset;   ///< smallest number of frames for the goal of the offset; infinity: no number is enough
+  double contrastForGain;   ///< smallest contrast for the goal of the gain [1]; infinity: above MostContrast
+  double contrastForOffset; ///< smallest contrast for the goal of the offset [1]; infinity: above MostContrast
+  double flickerForOffset;  ///< smallest flicker for the goal of the offset [1]; infinity: above MostFlickerSd
 };
 
-/** Computes the plan from ComputePrecisionLimit(), the Cramér-Rao bound in closed form, in which the variances of gain
- * and offset fall with the number of frames less one and with the number of pixels. Least contrast and least flicker
- * are found by bisection. Throws std::invalid_argument for values out of their range. */
+/** Computes the plan from ComputePrecisionLimit(), the Cramér-Rao bound in closed form. In it, the variances of gain
+ * and offset are inversely proportional to the number of frames less one, and to the number of pixels. The smallest
+ * contrast and the smallest flicker are found by bisection. Throws std::invalid_argument for values out of their range.
+ */
 GainPlan
 PlanBurst(const PlannedBurst & burst);
 

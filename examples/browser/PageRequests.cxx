@@ -123,8 +123,8 @@ TitleIn(const json & request)
   return { request.value("title", std::string()), request.value("date", std::string()) };
 }
 
-/** Returns what the files say of the camera, for example "Maker Model 5, GBRG, 14 bits, black level 100 DN"; "":
- * nothing. */
+/** Returns the camera settings that the files record, for example "Maker Model 5, GBRG, 14 bits, black level 100 DN";
+ * "": the files record none. */
 std::string
 DescribeCamera(const CameraSettings & camera)
 {
@@ -310,7 +310,7 @@ AnswerTo(const json & request)
 }
 } // namespace
 
-/** Returns the answer to a request of the page as a JSON record; {"error": sentence} if there is none. The text is
+/** Returns the answer to a request of the page as a JSON record; {"error": sentence} if the request fails. The text is
  * valid until the next call. */
 extern "C" const char *
 AnswerPage(const char * request)

@@ -94,7 +94,7 @@ def simulate(rng: np.random.Generator, side: int, illuminant: tuple, level: floa
 
 
 def export(cli: str, folder: Path, grey_values: np.ndarray, method: str) -> np.ndarray:
-    """Returns what darktable makes of a mosaic, on [0, 1]."""
+    """Returns the image that darktable makes of a mosaic, on [0, 1]."""
     raw, xmp, pfm = (folder / name for name in ("flat.dng", "flat.xmp", "flat.pfm"))
     pfm.unlink(missing_ok=True)
     write_dng(raw, grey_values, BLACK, WHITE, neutral=[1, 1, 1, 1, 1, 1])

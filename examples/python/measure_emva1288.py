@@ -7,9 +7,9 @@
 
 Each camera has a random gain, read noise, photo-response non-uniformity (PRNU) and dark-signal non-uniformity (DSNU).
 It records a flat field at 50 exposures from 0 to 110 % of the range of 12 bits, with two frames each, and 30 frames
-more in the dark and at 50 %. The illumination varies by 0.02 % from frame to frame. Printed are the root mean square
-(rms) of the relative errors, with the largest that is allowed, and how many of the 95 % intervals hold the truth. The
-exit code is 1 if an rms is too large. 200 cameras take some ten minutes. Needs Python alone.
+more in the dark and at 50 %. The illumination varies by 0.02 % from frame to frame. The program prints the root mean
+square (rms) of the relative errors, with the largest rms that is allowed, and how many of the 95 % intervals hold the
+truth. The exit code is 1 if an rms is too large. 200 cameras take some ten minutes. Needs Python alone.
 """
 
 import argparse

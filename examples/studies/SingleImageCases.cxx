@@ -23,7 +23,7 @@ namespace
 {
 constexpr std::size_t PaperSize = 512; // [pixels]
 constexpr std::size_t PaperFrames = 100;
-constexpr std::size_t SceneSize = 384; // [pixels], of the scenes that are not of the paper
+constexpr std::size_t SceneSize = 384; // [pixels], for the scenes that are not from the paper
 // Levels of the sensor that clips, in fractions of the signal of the brightest pixel: about a third of the range is
 // lost.
 constexpr double ClipLow = 1.0 / 60.0;

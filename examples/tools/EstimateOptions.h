@@ -33,7 +33,7 @@ struct EstimateOptions
 {
   std::vector<std::string>                 files;
   std::string                              raw;    ///< layout of files without a header; empty: none
-  FrameChoice                              choice; ///< channels or planes that are read from files with several
+  FrameChoice                              choice; ///< channels or planes that are read from files that hold several
   std::string                              bayer{ "auto" };
   std::string                              method{ "refined" };
   unsigned int                             bitDepth{ 0 }; ///< 0: estimated

@@ -23,7 +23,7 @@ JsonOrNull(const std::optional<T> & value)
   return value ? Json(*value) : Json();
 }
 
-/** Returns the text without bytes that are no Unicode, which names of files may have. */
+/** Returns the text with U+FFFD in place of bytes that are not valid UTF-8. Names of files may have any bytes. */
 std::string
 AsUtf8(const std::string & text)
 {

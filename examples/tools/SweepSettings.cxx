@@ -30,7 +30,7 @@ RecordExposures(const std::vector<FoundBurst> & bursts)
   return exposures.size() > 1 && exposures.size() == bursts.size();
 }
 
-/** Returns what the settings are. Throws std::invalid_argument if they are of several kinds. */
+/** Returns the kind of the settings. Throws std::invalid_argument if they are of several kinds. */
 SettingKind
 KindOfSettings(const std::vector<FoundBurst> & bursts)
 {
