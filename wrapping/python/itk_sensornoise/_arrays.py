@@ -35,7 +35,7 @@ def as_array(values: object, name: str) -> np.ndarray:
         try:
             return np.asarray(values)
         except (ValueError, TypeError, RuntimeError) as error:
-            # NumPy's of lists of unequal length or of no numbers; tensors' that are elsewhere, or want a gradient.
+            # NumPy raises for lists of unequal length or without numbers, tensors for another device or a gradient.
             raise ValueError(f"{name} cannot be made an array ({error}); expected numbers") from error
     raise InvalidTypeError(f"{name} is of type {type(values).__name__}; expected an array")
 

@@ -314,7 +314,7 @@ def _open_burst(frames: Frames, span: tuple[int, int] | None) -> Stack:
 
 
 def _set_hashes(estimator: ItkObject, frames: Stack, dark: Stack | None) -> list[FramesHash]:
-    """Hashes what is going to be measured."""
+    """Hashes the frames that are going to be measured."""
     hashes = [FramesHash(frames)]
     hashes[0].set(estimator.SetFramesHash)
     if dark is not None:

@@ -74,7 +74,7 @@ def picture_like(picture: Any, image: Any, name: str) -> Any:
 
 
 def _labelled(like: Any, array: np.ndarray, name: str, axes: slice) -> Any:
-    """Returns an array of xarray with the axes and coordinates of another one."""
+    """Returns an array of xarray with the axes and coordinates of another array."""
     import xarray
 
     dims: Sequence[Any] = like.dims[axes]

@@ -56,7 +56,7 @@ class StabiliseDenoise(Panel):
         self.layers_changed()
 
     def _show_options(self, *_: Any) -> None:
-        """Enables what the action needs."""
+        """Enables the settings that the action needs."""
         is_denoising = self.action.currentText() == "denoise"
         self.denoiser.setEnabled(is_denoising)
         self.strength.setEnabled(is_denoising)

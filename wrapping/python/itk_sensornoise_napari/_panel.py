@@ -91,7 +91,7 @@ class Panel(QWidget):
         self.destroyed.connect(lambda: (self._stop.set(), [event.disconnect(callback) for event in events]))
 
     def run(self) -> None:
-        """Starts what the button says."""
+        """Starts the action of the button."""
         raise NotImplementedError
 
     def layer_list(self, label: str, none: str | None = None) -> QComboBox:

@@ -46,12 +46,12 @@ def find_steps(values: ArrayLike, standard_errors: ArrayLike, false_alarms: floa
     Returns
     -------
     list of Step
-        In order of time; `at` counts the measurements that were left out, too.
+        The steps in order of time; `at` counts the measurements that were left out, too.
 
     Raises
     ------
     ValueError
-        A wrong value; says what was found and what was expected.
+        A value is wrong. The message has the value that was found, and the values that were expected.
 
     The rate holds if the errors are right and the reports are independent. A slow drift is taken for one step or more.
     """
