@@ -116,7 +116,8 @@ def dng_below_preview(bench: Bench) -> tuple[str, float]:
 
 
 def anscombe_transform(bench: Bench) -> tuple[str, float]:
-    """The slope of its lookup is 1 over the standard deviation, of gain (x - zero_level) + 3/8 gain^2."""
+    """Reads the variance gain (x - zero_level) + 3/8 gain^2 from the lookup, whose slope is 1 over the standard
+    deviation."""
     from anscombe_transform.codec import make_anscombe_lookup
 
     model = json.loads(bench.export("anscombe-transform").read_text())
@@ -128,10 +129,11 @@ def anscombe_transform(bench: Bench) -> tuple[str, float]:
 
 
 def ndsafir(bench: Bench) -> tuple[str, float]:
-    """Its denoiser of Poisson-Gaussian noise, in single precision: the variance that it takes for the numbers.
+    """Finds the variance that the denoiser of Poisson-Gaussian noise of ndsafir takes for the numbers, in single
+    precision.
 
-    It is its denoiser of Gaussian noise between the Anscombe transform of the variance and the inverse. The line of the
-    variance is fitted so that both results are the same. The fit begins at a gain that is 5 % too large.
+    This denoiser is the denoiser of Gaussian noise between the Anscombe transform of the variance and the inverse. The
+    line of the variance is fitted so that both results are the same. The fit begins at a gain that is 5 % too large.
     """
     import ndsafir as package
 
@@ -169,7 +171,7 @@ def ndsafir(bench: Bench) -> tuple[str, float]:
 
 
 def ndsafir_calibration(bench: Bench) -> tuple[str, float]:
-    """Its own calibration of a frame finds variances that are 8 % too large.
+    """Calibrates a frame by ndsafir, which finds variances that are 8 % too large.
 
     It squares 1.4826 times the median absolute deviation of the residuals in windows of 7 x 6 pixels. The mean of this
     square is above the variance: the median of few pixels scatters, and neighbouring residuals are correlated.
@@ -192,7 +194,7 @@ def noisy_frame(gain: float, offset: float, levels: np.ndarray) -> np.ndarray:
 
 
 def ccdproc(bench: Bench) -> tuple[str, float]:
-    """create_deviation() of frames without the offset."""
+    """Runs create_deviation() on frames without the offset."""
     import astropy.units as u
     import ccdproc as package
     from astropy.nddata import CCDData
@@ -216,7 +218,7 @@ def fits(bench: Bench) -> tuple[str, float]:
 
 
 def emva1288(bench: Bench) -> tuple[str, float]:
-    """The package reads its own form of results."""
+    """Reads the results by the package emva1288."""
     from emva1288.process.routines import xml_to_dict
 
     section = xml_to_dict(str(bench.export("emva1288")))["sensitivity"]
@@ -316,7 +318,7 @@ def run_on_numpy(file: pathlib.Path) -> dict[str, object]:
 
 
 def careamics(bench: Bench, folder: pathlib.Path) -> tuple[str, float]:
-    """Its own file of the model, on NumPy."""
+    """Runs CAREamics' file of the model on NumPy."""
     names = run_on_numpy(folder / "careamics/models/lvae/noise_models.py")
     config = types.SimpleNamespace(path=bench.export("careamics"))
     _, deviation, weight = names["GaussianMixtureNoiseModel"](config).get_gaussian_parameters(tensor_of(LEVELS))
@@ -325,7 +327,7 @@ def careamics(bench: Bench, folder: pathlib.Path) -> tuple[str, float]:
 
 
 def deepinv(bench: Bench, folder: pathlib.Path) -> tuple[str, float]:
-    """Its own file of the noise, on NumPy, with the variance of the random numbers."""
+    """Runs deepinv's file of the noise on NumPy, with the variance of the random numbers."""
     model = json.loads(bench.export("deepinv").read_text())
     physics = mock.MagicMock(
         gain=np.asarray(model["gain"]), sigma=np.asarray(model["sigma"]), clip_positive=False, min_gain=1e-12
@@ -349,7 +351,7 @@ def functions_of(file: pathlib.Path, names: tuple[str, ...], globals_: dict[str,
 
 
 def picasso(bench: Bench, folder: pathlib.Path) -> tuple[str, float]:
-    """Its own conversion to photons, which have the variance of their number; the read noise is not in its record."""
+    """Runs picasso's conversion to photons. The variance of photons is their number; the record has no read noise."""
     import yaml
 
     (camera,) = yaml.safe_load(bench.export("picasso").read_text())["Cameras"].values()
@@ -359,7 +361,7 @@ def picasso(bench: Bench, folder: pathlib.Path) -> tuple[str, float]:
 
 
 def pyme(bench: Bench, folder: pathlib.Path) -> tuple[str, float]:
-    """Its own standard deviation of a pixel, whose variance has one electron more than the sensor's."""
+    """Runs PYME's standard deviation of a pixel, whose variance has one electron more than the sensor's."""
     import yaml
 
     (camera,) = yaml.safe_load(bench.export("pyme").read_text()).values()

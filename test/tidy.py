@@ -33,7 +33,7 @@ OTHER_COMPILER = "error: Unsupported compiler [clang-diagnostic-error]"
 
 
 def read_groups(commands, root):
-    """The sources by folder and target, and the flags of each group."""
+    """Returns the sources by folder and target, with the flags of each group."""
     groups = {}
     for entry in json.loads(commands.read_text()):
         source = pathlib.Path(entry["file"])
@@ -59,7 +59,7 @@ def fingerprint(configuration, flags, source, root):
 
 
 def check(name, group, arguments, configuration):
-    """Whether clang-tidy finds nothing, and what it writes."""
+    """Returns whether clang-tidy finds nothing, and its output."""
     flags, sources = group
     together = arguments.work / f"{name}.cxx"
     together.write_text("".join(f'#include "{source}"\n' for source in sorted(sources)))

@@ -64,7 +64,7 @@ namespace
 constexpr std::size_t Pixels = 37;
 constexpr std::size_t Frames = 5;
 
-/** Any sums, of \a pixels pixels. */
+/** Returns any sums, of \a pixels pixels. */
 template <typename TSums>
 TSums
 Make(std::size_t pixels);

@@ -22,8 +22,8 @@ ExpectRelative(double found, double expected, double tolerance, double parameter
   EXPECT_NEAR(found, expected, tolerance * std::abs(expected)) << "at " << parameter;
 }
 
-/** Upper tail of chi-square with an even number of degrees of freedom: the Poisson probability, mean x/2, of fewer than
- * dof/2 events. */
+/** Returns the upper tail of chi-square with an even number of degrees of freedom: the Poisson probability, mean x/2,
+ * of fewer than dof/2 events. */
 double
 PoissonSum(double x, int dof)
 {

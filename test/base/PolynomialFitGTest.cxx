@@ -57,7 +57,7 @@ WithSamplingNoise(Scatter scatter)
   return scatter;
 }
 
-/** Sd of the mean of (v - V)^2 / Var(v): the kurtosis of chi-square(d) is 3 + 12/d. */
+/** Returns the standard deviation of the mean of (v - V)^2 / Var(v): the kurtosis of chi-square(d) is 3 + 12/d. */
 double
 SdOfReducedChi2(std::size_t pixels)
 {

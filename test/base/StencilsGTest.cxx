@@ -17,7 +17,7 @@ constexpr int Width = 7;
 constexpr int CentreX = 3;
 constexpr int CentreY = 4;
 
-/** x^m y^n about the centre pixel, on 7 x 9 pixels. */
+/** Returns x^m y^n about the centre pixel, on 7 x 9 pixels. */
 std::vector<double>
 Monomial(int m, int n)
 {

@@ -13,7 +13,7 @@ namespace sensornoise::benchmarks
 {
 namespace
 {
-/** The sum of all samples; each is read as a \a TSample. */
+/** Returns the sum of all samples; each is read as a \a TSample. */
 template <typename TSample>
 std::uint64_t
 SumOfSamples(const StackType * stack, unsigned int threads)

@@ -30,7 +30,7 @@ inline constexpr std::size_t  Frames = 100;
 StackType::Pointer
 SimulateStack(double rollingShutterPeriodRows = 0.0, const char * bayer = "none");
 
-/** The sum of all samples, which are read one after the other, whatever the compiler. */
+/** Returns the sum of all samples, which are read one after the other, whatever the compiler. */
 std::uint64_t
 ReadPass(const StackType * stack, unsigned int threads = Threads);
 /** The fastest sum that the compiler makes: it waits for the memory. */
@@ -85,7 +85,7 @@ SecondsTo(const std::string & what, StackType * stack, unsigned int threads = Th
                               : SecondsToEstimate(stack, what, "none", threads);
 }
 
-/** The median under the name itself, the ends as NAME_min and NAME_max. */
+/** Stores the median under the name itself, and the ends as NAME_min and NAME_max. */
 void
 SetRatios(benchmark::State & state, const std::string & name, const std::vector<double> & ratios);
 

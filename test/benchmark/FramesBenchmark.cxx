@@ -61,7 +61,7 @@ MakeLongStack(std::size_t width, std::size_t height, std::size_t frames)
   return stack;
 }
 
-/** The first frames of a stack, which has to stay. */
+/** Returns the first frames of a stack, which has to stay. */
 StackType::Pointer
 FirstFrames(StackType * stack, std::size_t frames)
 {

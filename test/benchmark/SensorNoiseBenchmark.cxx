@@ -40,7 +40,7 @@ TemporalStatistics(benchmark::State & state)
   CompareWithReadPass(state, stack, [&] { return SecondsToTemporalStatistics(stack); });
 }
 
-/** A whole estimate; the argument is the period of a rolling shutter's bands in rows, 0 for none. */
+/** Measures a whole estimate. The argument is the period of the bands of a rolling shutter in rows, 0 for none. */
 void
 Estimate(benchmark::State & state, const char * method)
 {
@@ -48,7 +48,7 @@ Estimate(benchmark::State & state, const char * method)
   CompareWithReadPass(state, stack, [&] { return SecondsToEstimate(stack, method); });
 }
 
-/** ITK's own filters for mean and standard deviation over time. */
+/** Measures ITK's own filters for mean and standard deviation over time. */
 void
 Projections(benchmark::State & state)
 {
@@ -88,7 +88,7 @@ TwoThreads(benchmark::State & state, const char * what)
   SetRatios(state, "of_read_pass", ofReadPass);
 }
 
-/** The four channels of a mosaic, each time after the estimate of a monochrome stack of the same size. */
+/** Measures the four channels of a mosaic, each time after the estimate of a monochrome stack of the same size. */
 void
 Mosaic(benchmark::State & state, const char * method)
 {
@@ -123,7 +123,7 @@ SecondsToFilter(const TImage * input)
   return SecondsOf([&] { filter->Update(); });
 }
 
-/** A filter pixel by pixel, each time after a cast between the same types. */
+/** Measures a filter pixel by pixel, each time after a cast between the same types. */
 template <typename TFilter>
 void
 PixelByPixel(benchmark::State & state)

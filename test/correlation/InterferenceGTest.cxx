@@ -101,7 +101,7 @@ VarianceOf(const NoiseResiduals & residuals)
   return sum / residuals.GetDof() / pixels;
 }
 
-/** Error of the variance of white noise of 1 DN [DN^2]. */
+/** Returns the error of the variance of white noise of 1 DN [DN^2]. */
 double
 ErrorOfVariance(const NoiseResiduals & residuals)
 {

@@ -11,7 +11,7 @@
 class CareamicsExport : public ExportTest
 {
 protected:
-  /** The numbers of an array of the archive, which are those behind the line of its header. */
+  /** Returns the numbers of an array of the archive, which stand behind the line of its header. */
   static std::vector<double>
   ArrayOf(const std::string & archive, const std::string & name, const std::string & shape, std::size_t count)
   {

@@ -20,7 +20,7 @@ protected:
     m_Report.numbers["/camera/iso_speed"] = 200.0;
     m_Report.texts["/camera/name"] = "Maker Camera 5";
   }
-  /** The variance [DN^2] of the mosaic by the numbers of one channel. */
+  /** Returns the variance [DN^2] of the mosaic by the numbers of one channel. */
   static double
   VarianceOf(const std::string & text, std::size_t channel, const DarktableFactor & factor, double level)
   {
@@ -38,7 +38,8 @@ protected:
     }
     return std::strtod(text.c_str() + at, nullptr);
   }
-  /** The values of presets of ISO 100 and 400 with the noise of the report at their middle on a line, ISO 200. */
+  /** Returns the values of presets of ISO 100 and 400 with the noise of the report at their middle on a line, ISO 200.
+   */
   static StoredReport
   PresetsAround(double factor)
   {

@@ -123,7 +123,7 @@ struct TestTiff
 
 const std::vector<std::pair<double, double>> threePlanes{ { 1e-4, 2e-7 }, { 1.5e-4, 0.0 }, { 3e-4, 1e-8 } };
 
-/** The pairs that --check-profile reads in a file. */
+/** Returns the pairs that --check-profile reads in a file. */
 std::vector<std::pair<double, double>>
 PairsIn(const std::string & file)
 {

@@ -16,8 +16,8 @@ using namespace sensornoise;
 class FittedExports : public ExportTest
 {
 protected:
-  /** The relative error of libcamera's standard deviation by its own formula [%], between the black and the white
-   * level, at even distances of the root of the signal. */
+  /** Returns the relative error of libcamera's standard deviation by its own formula [%], between the black and the
+   * white level, at even distances of the root of the signal. */
   std::vector<double>
   LibcameraErrors(const std::string & text, double analogueGain) const
   {
@@ -79,7 +79,7 @@ class AndroidExport : public ExportTest
 protected:
   static constexpr double maxAnalogueIso = 400.0;
 
-  /** A report at an ISO speed of a camera that has Android's model: S = A iso + B, O = C iso^2 + D d^2. */
+  /** Returns a report at an ISO speed of a camera that has Android's model: S = A iso + B, O = C iso^2 + D d^2. */
   CameraNoise
   ReportAt(double iso)
   {

@@ -23,8 +23,8 @@ protected:
     }
     return numbers;
   }
-  /** The variance [DN^2] by a pair of NoiseProfile: standard deviation sqrt(S x + O), x from 0 at black to 1 at white.
-   */
+  /** Returns the variance [DN^2] by a pair of NoiseProfile: standard deviation sqrt(S x + O), x from 0 at black to 1 at
+   * white. */
   static double
   ProfileVariance(double scale, double profileOffset, double level)
   {

@@ -40,7 +40,7 @@ protected:
       }
     }
   }
-  /** A TIFF file without a tag, of little endian. */
+  /** Returns a TIFF file without a tag, of little endian. */
   static std::string
   EmptyTiff()
   {

@@ -20,8 +20,8 @@ using namespace sensornoise::test;
 
 constexpr std::size_t Width = 64;
 
-/** A ramp of 8 DN per pixel, with noise of a standard deviation of \a noiseDn about \a levelDn, the lowest byte first.
- */
+/** Returns a ramp of 8 DN per pixel, with noise of a standard deviation of \a noiseDn about \a levelDn, the lowest byte
+ * first. */
 std::string
 FrameOf(double levelDn, double noiseDn, double slopeDn)
 {

@@ -27,7 +27,7 @@ FilledUp(std::string text, char with)
   return text;
 }
 
-/** A unit of the file: its cards, then END, then its data. */
+/** Returns a unit of the file: its cards, then END, then its data. */
 std::string
 UnitOf(const Cards & cards, const std::string & data)
 {
@@ -44,7 +44,7 @@ UnitOf(const Cards & cards, const std::string & data)
   return FilledUp(text, ' ') + FilledUp(data, '\0');
 }
 
-/** The cards of an image of 4 x 2 pixels, two frames, with some more. */
+/** Returns the cards of an image of 4 x 2 pixels, two frames, with some more. */
 Cards
 CardsOf(int bits, const Cards & more = {})
 {

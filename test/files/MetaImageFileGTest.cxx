@@ -16,7 +16,7 @@ using namespace sensornoise::test;
 constexpr std::size_t FrameBytes = 70;
 constexpr std::size_t StackBytes = 280;
 
-/** A header as ITK writes it, with more lines before the last. */
+/** Returns a header as ITK writes it, with more lines before the last line. */
 std::string
 MetaImageHeaderOf(const std::string & dataFile, const std::string & more = "")
 {

@@ -16,7 +16,7 @@ using namespace sensornoise::test;
 constexpr std::size_t FrameBytes = 70;
 constexpr std::size_t StackBytes = 280;
 
-/** A header as ITK writes it, with more lines before the empty one. */
+/** Returns a header as ITK writes it, with more lines before the empty line. */
 std::string
 NrrdHeaderOf(const std::string & encoding, const std::string & more = "")
 {

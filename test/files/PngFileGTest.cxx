@@ -158,7 +158,7 @@ TEST_F(PngFile, TheSizeOfAPixelIsItsSpacing)
             (std::array<double, 3>{ 1.0, 1.0, 1.0 }));
 }
 
-/** The bytes of a row, filtered as the PNG specification, 9.2, says. */
+/** Returns the bytes of a row, filtered by the PNG specification, 9.2. */
 std::string
 Filtered(const std::string & row, const std::string & above, std::size_t pixelBytes, unsigned filter)
 {

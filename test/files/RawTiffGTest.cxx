@@ -17,7 +17,7 @@ using namespace sensornoise::test;
 class RawTiff : public FrameFileTest
 {
 protected:
-  /** The error that the check ends with; "" without one. */
+  /** Returns the error that the check ends with; "" without one. */
   std::string
   ErrorOf(const std::string & contents, std::uint64_t width, std::uint64_t height) const
   {

@@ -18,7 +18,8 @@ using namespace sensornoise::test;
 class TiffDescription : public FrameFileTest
 {
 protected:
-  /** A TIFF of so many pages, whose first pixels are 100 + 3 times their number. The first page has the description. */
+  /** Returns a TIFF of so many pages, whose first pixels are 100 + 3 times their number. The first page has the
+   * description. */
   static std::string
   Pages(std::size_t pages, const std::string & description)
   {
@@ -28,7 +29,7 @@ protected:
     return tiff.Bytes();
   }
 
-  /** A TIFF of one page, whose ImageJ description says that images follow. */
+  /** Returns a TIFF of one page, whose ImageJ description says that images follow. */
   static std::string
   Described(std::size_t images, const std::string & rest, bool isBigEndian = true)
   {
@@ -59,7 +60,7 @@ protected:
     }
   }
 
-  /** The numbers of the pages that are chosen, by their first pixels. */
+  /** Returns the numbers of the pages that are chosen, by their first pixels. */
   std::vector<int>
   PagesOf(const std::string & bytes, const FrameChoice & choice) const
   {

@@ -42,7 +42,7 @@ protected:
     return tiff;
   }
 
-  /** The file is accepted, and each pixel has the value that the helper gave it. */
+  /** Expects that the file is accepted, and that each pixel has the value that the helper gave it. */
   template <typename TPixel>
   void
   IsRead(const TiffOf & tiff, FramePixel pixel) const

@@ -24,7 +24,7 @@ using ImageTypes = ::testing::Types<itk::Image<unsigned char, 2>,
                                     itk::Image<double, 3>>;
 TYPED_TEST_SUITE(BayerPlaneImageFilterOf, ImageTypes, );
 
-/** A mosaic whose pixels say where they are: x + 7 y + 3 t. Its region does not begin at 0. */
+/** Returns a mosaic whose pixels have the values x + 7 y + 3 t, by their positions. Its region does not begin at 0. */
 template <typename TImage>
 typename TImage::Pointer
 MakeMosaic()

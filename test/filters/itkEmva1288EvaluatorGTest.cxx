@@ -40,7 +40,7 @@ FramesOf(std::size_t level, std::size_t frames)
   return pixels;
 }
 
-/** An image of these frames, the first one at index (-2, 5, 7). */
+/** Returns an image of these frames, the first one at index (-2, 5, 7). */
 StackType::Pointer
 StackOf(const std::vector<unsigned short> & pixels)
 {

@@ -18,7 +18,7 @@ using namespace sensornoisetest::flicker;
 using RollingShutter = sensornoise::RollingShutter;
 constexpr double Offset = 90.0;
 
-/** gamma_t of a noise-free stack: no whole period, but mean 0. */
+/** Returns gamma_t of a noise-free stack: no whole period, but mean 0. */
 double
 GammaOf(itk::IndexValueType t)
 {
@@ -26,7 +26,7 @@ GammaOf(itk::IndexValueType t)
                                                            : 0.1 * static_cast<double>(((t % 2) * 2 - 1) * (1 + t / 2));
 }
 
-/** mu + (1 + gamma_t)(level - mu) without noise, at the level that levelOf(index) says. */
+/** Returns mu + (1 + gamma_t)(level - mu) without noise, at the level levelOf(index). */
 template <typename TFunction>
 DoubleStackType::Pointer
 NoiseFreeStack(const TFunction & levelOf)

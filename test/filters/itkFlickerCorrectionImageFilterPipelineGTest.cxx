@@ -20,7 +20,7 @@ using namespace sensornoisetest;
 using namespace sensornoisetest::flicker;
 using RollingShutter = sensornoise::RollingShutter;
 
-/** The corrected stack, pulled in \a chunks chunks. */
+/** Returns the corrected stack, pulled in \a chunks chunks. */
 template <typename TFilter>
 std::vector<double>
 CorrectedInChunks(const TFilter & filter, unsigned int chunks)

@@ -54,7 +54,8 @@ ReportOf(double slope, double intercept)
   return report;
 }
 
-/** There and back again in the dimension and types of the images, from another start index. */
+/** Transforms an image and inverts the transform, in the dimension and types of the images, from another start index.
+ */
 template <typename TImage, typename TReal>
 void
 LeadsThereAndBack()

@@ -70,7 +70,7 @@ TEST(NoiseCorrelationEstimatorPipeline, ReadsTheStackOnceIfMeanAndMaskAreGiven)
         estimator->SetMask(statistics->GetValidMask());
       }
       estimator->Update();
-      // One chunk is read once: it is still there in the next pass.
+      // A single chunk is read once, because it is still in memory in the next pass.
       const unsigned int parts = std::min(chunks, Frames);
       EXPECT_TRUE(monitor->VerifyAllInputCanStream(static_cast<int>(parts == 1 || isGiven ? parts : 2 * parts)))
         << isGiven << chunks;
@@ -120,7 +120,7 @@ TEST(NoiseCorrelationEstimatorPipeline, SecondUpdateDoesNoWorkAndEveryParameterD
   EXPECT_FALSE(hasRun());
   estimator->AddSeries(std::vector<double>(Frames, 1.0));
   EXPECT_TRUE(hasRun());
-  EXPECT_EQ(JsonOf(estimator), json); // the constant is taken out anyway
+  EXPECT_EQ(JsonOf(estimator), json); // the constant is subtracted anyway
   estimator->ClearSeries();
   EXPECT_TRUE(hasRun());
   estimator->RemoveFrameMeansOff();

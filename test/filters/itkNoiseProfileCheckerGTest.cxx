@@ -40,7 +40,7 @@ protected:
       checker->SetText(pointer, text);
     }
   }
-  /** A checker with the report of the frames. */
+  /** Returns a checker with the report of the frames. */
   itk::NoiseProfileChecker::Pointer
   Checker() const
   {

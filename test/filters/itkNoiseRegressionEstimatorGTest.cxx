@@ -30,7 +30,7 @@ RandomMean()
   return ImageOf<FrameType>(Size, [&](const auto &) { return uniform(random); });
 }
 
-/** The variance g ubar + sigma^2 - g mu of every pixel of a mean. */
+/** Returns the variance g ubar + sigma^2 - g mu of every pixel of a mean. */
 template <typename TNoise>
 FrameType::Pointer
 VarianceOf(const FrameType * mean, const TNoise & noise)

@@ -21,7 +21,7 @@ namespace
 using namespace sensornoisetest;
 using namespace sensornoisetest::estimator;
 
-/** The stack of the tests, with metadata. */
+/** Returns the stack of the tests, with metadata. */
 StackType::Pointer
 StackOf(const sensornoise::CameraSettings & camera)
 {

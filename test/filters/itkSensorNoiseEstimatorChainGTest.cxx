@@ -29,7 +29,7 @@ using DoubleStackType = itk::Image<double, 3>;
 using RollingShutter = sensornoise::RollingShutter;
 using sensornoise::EstimateStatus;
 
-/** A rolling shutter over bars: each row holds every level, and its own flicker. */
+/** Returns a stack of bars under a rolling shutter: each row holds every level, and its own flicker. */
 StackType::Pointer
 RollingShutterStack()
 {

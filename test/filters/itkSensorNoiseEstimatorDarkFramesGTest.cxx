@@ -16,7 +16,7 @@ namespace
 using namespace sensornoisetest;
 using namespace sensornoisetest::estimator;
 
-/** Dark frames of the same camera. */
+/** Returns dark frames of the same camera. */
 template <typename TStack>
 typename TStack::Pointer
 DarkStack(unsigned int frames, unsigned int width = Width)

@@ -66,7 +66,7 @@ protected:
     return WriteText(name, ser.Bytes());
   }
 
-  /** 8 columns, as pairs are packed. */
+  /** Writes frames of 8 columns, because pairs of pixels are packed. */
   std::string
   WriteMraw(const std::string & name) const
   {
@@ -74,7 +74,7 @@ protected:
     return WriteText(name + ".cihx", CihxOf{}.Bytes());
   }
 
-  /** As ITK's TIFFImageIO reads it: whole. */
+  /** Returns the stack as ITK's TIFFImageIO reads it: whole. */
   static StackType::Pointer
   ReadByItk(const std::string & file)
   {
@@ -193,7 +193,7 @@ TEST_F(SensorNoiseImageIO, APixelOfATiffIsAsStored)
   }
 }
 
-/** The bytes of a stack, as this source and as ITK's TIFFImageIO read it. */
+/** Expects the same bytes of a stack from this source and from ITK's TIFFImageIO. */
 template <typename TPixel>
 void
 IsReadAsByItk(const std::string & file)

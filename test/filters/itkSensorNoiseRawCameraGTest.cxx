@@ -52,7 +52,7 @@ protected:
     }
   }
 
-  /** As they were. */
+  /** Restores the object factories. */
   void
   TearDown() override
   {

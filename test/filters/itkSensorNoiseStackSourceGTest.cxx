@@ -23,7 +23,7 @@ constexpr unsigned int Width = 32;
 constexpr unsigned int Height = 20;
 constexpr unsigned int Frames = 9;
 
-/** Sixteen bars, with a geometry that is not the default one. */
+/** Returns sixteen bars, with a geometry that is not the default. */
 ReferenceType::Pointer
 MakeReference()
 {
@@ -97,7 +97,7 @@ ErrorOf(SourceType * source)
   return "no error";
 }
 
-/** The stack is what the simulator draws, row by row. */
+/** Expects the stack that the simulator draws, row by row. */
 template <typename TPixel>
 void
 CheckAgainstSimulator()

@@ -20,7 +20,7 @@ namespace
 template <typename TStack>
 using Sums = itk::SensorNoiseSums<TStack>;
 
-/** The size of a stack, without pixels. */
+/** Returns the size of a stack, without pixels. */
 template <typename TStack>
 typename TStack::Pointer
 SizeOf(const TStack * stack)
@@ -63,7 +63,7 @@ struct Process
   }
 };
 
-/** Two processes that read frames in turn, three at a time, the second backwards. */
+/** Runs two processes that read frames in turn, three at a time, the second backwards. */
 template <typename TStack>
 void
 RunTwo(Process<TStack> & one, Process<TStack> & two, const TStack * stack)

@@ -32,7 +32,7 @@ Simulated()
   return stack;
 }
 
-/** The frames, the first one at index (-2, 5, 7). */
+/** Returns the frames, the first one at index (-2, 5, 7). */
 StackType::Pointer
 StackOf(const test::Stack<unsigned short> & frames)
 {

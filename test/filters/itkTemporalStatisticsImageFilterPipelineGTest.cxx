@@ -21,7 +21,7 @@ namespace
 using namespace sensornoisetest;
 using namespace sensornoisetest::statistics;
 
-/** Every way to read \a image, in 1, 3 and T chunks, gives the same bits as the image itself. */
+/** Expects that every way to read \a image, in 1, 3 and T chunks, gives the same bits as the image itself. */
 template <typename TMakeReader>
 void
 ExpectTheSameForAnyChunks(const StackType * stack, bool streams, const TMakeReader & makeReader)

@@ -31,7 +31,7 @@ TextureMean()
   });
 }
 
-/** The variance that (2.20) gives to a mean: 36 + 0.8 ubar, flicker and vibration. */
+/** Returns the variance that (2.20) gives to a mean: 36 + 0.8 ubar, flicker and vibration. */
 FrameType::Pointer
 VarianceOf(const FrameType * mean)
 {

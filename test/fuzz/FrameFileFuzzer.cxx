@@ -63,7 +63,8 @@ Report(const std::string & finding)
   std::abort();
 }
 
-/** Name of the file in front of the first mark. Formats without a mark of their own are found by it. */
+/** Returns the name of the file in front of the first mark. Formats without a mark of their own are found by this name.
+ */
 std::string
 DefaultName()
 {
@@ -74,7 +75,7 @@ DefaultName()
   return found == names.end() ? "s" : found->second;
 }
 
-/** A name inside of the folder. */
+/** Returns a name inside of the folder. */
 std::string
 SafeName(std::string name)
 {

@@ -65,7 +65,7 @@ def varied(cases: list[frame_parts.Case]) -> list[frame_parts.Case]:
 
 
 def inputs_of(case: frame_parts.Case) -> list[bytes]:
-    """The files of a case as one input, or, of frames in files of their own, each file as one."""
+    """Returns the files of a case as one input, or each file as one input if the frames have separate files."""
 
     def part(file: frame_parts.File) -> bytes:
         return b"%%FILE%%" + file.name.encode() + b"\n" + file.data
@@ -79,7 +79,7 @@ def main() -> None:
     folder = pathlib.Path(sys.argv[1])
     random = Random(1)
     pixels = frame_parts.WIDTH * frame_parts.HEIGHT
-    # Eleven bits: below what 12 bits hold, as the packed formats need.
+    # Values of eleven bits, because the packed formats hold at most 12.
     frames = [b"".join(random.randrange(2048).to_bytes(2, "little") for _ in range(pixels)) for _ in range(FRAMES)]
     sound = frame_files.all_cases(frames)
     cases = sound + varied(sound) + [case for _, case in known_cases(frames)]

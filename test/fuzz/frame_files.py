@@ -131,7 +131,7 @@ def sers(frames: list[bytes]) -> list[Case]:
 
 
 def _fits_unit(cards: list[tuple[str, str]], data: bytes) -> list[tuple[str, bytes]]:
-    """The parts of a unit, both filled up to whole blocks."""
+    """Returns header and data of a unit, both filled up to whole blocks."""
     text = "".join(f"{key:8}= {value:>20}".ljust(80) for key, value in cards) + "END"
     filled = bytes(-len(data) % 2880)
     return [("header", text.ljust(-(-len(text) // 2880) * 2880).encode()), ("raw", data), ("header", filled)]
@@ -222,7 +222,7 @@ def others(frames: list[bytes]) -> list[Case]:
 
 
 def all_cases(frames: list[bytes]) -> list[Case]:
-    """Every format, of the same frames: bytes of little-endian unsigned 16-bit pixels."""
+    """Makes files of every format from the same frames: bytes of little-endian unsigned 16-bit pixels."""
     made: list[Case] = []
     for make in (meta_images, nrrds, tiffs, pngs, sers, fitses, npys, pgms, mraws, raws, dngs, others):
         made += make(frames)

@@ -35,7 +35,7 @@ def whole(name: str, data: bytes) -> File:
 
 
 def parts_of(name: str, *parts: tuple[str, bytes]) -> File:
-    """A file of parts, each "header", "raw" or "checked"."""
+    """Makes a file of parts, each "header", "raw" or "checked"."""
     made = File(name, b"")
     for kind, data in parts:
         if kind != "header":

@@ -76,7 +76,8 @@ def write(case: Case, folder: str) -> None:
 
 
 def damage(case: Case, folder: str, random: Random) -> tuple[str, str]:
-    """Damages a file of the case; returns how, and which of its bytes changed: "header", "raw", "checked" or "size"."""
+    """Damages a file of the case. Returns the damage, and the kind of the bytes that changed: "header", "raw",
+    "checked" or "size"."""
     file = random.choice(case.files)
     path = os.path.join(folder, file.name)
     if random.random() < 0.04:
@@ -98,7 +99,7 @@ def damage(case: Case, folder: str, random: Random) -> tuple[str, str]:
 
 
 def verdict_of(answer: Answer, expected: str, touched: str) -> str:
-    """The class of an answer; those in capitals are findings."""
+    """Returns the class of an answer. Classes in capitals are findings."""
     if answer.hung:
         return "HANG"
     if answer.crashed:
@@ -127,7 +128,7 @@ class Fuzzer:
         self.expected: dict[tuple[str, str], str] = {}
 
     def prepare(self, folder: str, pool: concurrent.futures.Executor) -> None:
-        """Answers to the undamaged files. A format that is refused whole has none."""
+        """Stores the answers to the undamaged files. A format that is refused whole has an empty answer."""
         for case in self.cases:
             write(case, os.path.join(folder, case.name))
 
@@ -139,7 +140,7 @@ class Fuzzer:
         list(pool.map(expect, itertools.product(self.cases, sorted(set(ROLES)))))
 
     def run(self, number: int, folder: str, good: str) -> tuple[str, str, str, str]:
-        """Class, format, description and error text of input `number`."""
+        """Returns class, format, description and error text of input `number`."""
         random = Random(f"{self.seed}:{number}")
         case = random.choice(self.cases)
         role = random.choice(ROLES)

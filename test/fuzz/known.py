@@ -22,7 +22,7 @@ def _replace(old: bytes, new: bytes) -> Change:
 
 
 def _entry(data: bytes, tag: int, page: int = 0) -> int:
-    """Where the entry of a tag is in a little-endian TIFF."""
+    """Returns the position of the entry of a tag in a little-endian TIFF."""
     (at,) = struct.unpack_from("<I", data, 4)
     for _ in range(page):
         (count,) = struct.unpack_from("<H", data, at)
@@ -43,7 +43,7 @@ def _tag(tag: int, value: int, page: int = 0) -> Change:
 
 
 def _same_strip(data: bytes) -> bytes:
-    """The second page shows the pixels of the first."""
+    """Makes the second page show the pixels of the first page."""
     (offset,) = struct.unpack_from("<I", data, _entry(data, 273) + 8)
     return _tag(273, offset, page=1)(data)
 
@@ -57,7 +57,7 @@ def _rename_tag(tag: int, name: int) -> Change:
 
 
 def _loop(data: bytes) -> bytes:
-    """The first page follows the last."""
+    """Makes the first page follow the last page."""
     return data[:-4] + data[4:8]
 
 
@@ -160,7 +160,7 @@ FOUND: list[tuple[str, str, Change]] = [
 
 
 def known_cases(frames: list[bytes]) -> list[tuple[str, Case]]:
-    """Description of the damage, and the files."""
+    """Returns descriptions of the damages, each with its files."""
     formats = {case.name: case for case in all_cases(frames)}
     made = []
     for name, what, change in FOUND:

@@ -29,7 +29,8 @@ def set_bytes(data: bytearray, random: Random) -> None:
 
 
 def set_field(data: bytearray, random: Random) -> None:
-    """Header fields are where the numbers are: the directory of a TIFF, for one, often stands at the end."""
+    """Changes a number, often near the beginning or the end, where header fields are. The directory of a TIFF often is
+    at the end."""
     form = random.choice("<>") + random.choice("HIIQ")
     size = struct.calcsize(form)
     if len(data) < size:
@@ -92,7 +93,7 @@ def change_line(data: bytearray, random: Random) -> None:
 
 
 def change_chunk(data: bytearray, random: Random) -> None:
-    """A chunk of a PNG, with the checksum put right: the checksum does not reveal the damage."""
+    """Changes a chunk of a PNG and corrects its checksum, so that the checksum does not reveal the damage."""
     chunks = []
     at = 8
     while at + 12 <= len(data):
@@ -120,7 +121,7 @@ TEXT = [change_number, change_number, change_word, change_line]
 
 
 def mutate(data: bytes, random: Random) -> tuple[str, bytes]:
-    """The name of a change, and the changed bytes."""
+    """Returns the name of a change, and the changed bytes."""
     changes = list(BYTES)
     if data[:8].isascii():
         changes += 2 * TEXT

@@ -14,7 +14,7 @@ def gzip_stream(data: bytes) -> bytes:
 
 
 def lzw(data: bytes) -> bytes:
-    """Without a dictionary: a code that clears it comes before codes would need a tenth bit."""
+    """Returns LZW without a dictionary: a code that clears it comes before codes would need a tenth bit."""
     bits = []
     for start in range(0, len(data), 250):
         bits += [256, *data[start : start + 250]]
@@ -27,7 +27,7 @@ def lzw(data: bytes) -> bytes:
 
 
 def pack_bits(data: bytes) -> bytes:
-    """A run of bytes as they are for each row: none may go beyond its row."""
+    """Returns a literal run of bytes for each row, because no run may go beyond its row."""
     rows = (data[k : k + 2 * frame_parts.WIDTH] for k in range(0, len(data), 2 * frame_parts.WIDTH))
     return b"".join(bytes([len(row) - 1]) + row for row in rows)
 
@@ -38,13 +38,13 @@ def swapped(frame: bytes) -> bytes:
 
 
 def grey_values_of(frames: list[bytes], bits: int) -> list[int]:
-    """The pixels, of so many bits: higher ones are cut off."""
+    """Returns the pixels with `bits` bits. Higher bits are cut off."""
     pixels = b"".join(frames)
     return [grey_value & (1 << bits) - 1 for grey_value in struct.unpack(f"<{len(pixels) // 2}H", pixels)]
 
 
 def highest_first(grey_values: list[int], bits: int) -> bytes:
-    """A stream of bits, in pieces of eight grey values."""
+    """Returns a stream of bits, the highest first, in pieces of eight grey values."""
     made = b""
     for start in range(0, len(grey_values), 8):
         number = 0
@@ -63,7 +63,8 @@ def lowest_first(grey_values: list[int], bits: int) -> bytes:
 
 
 def lossless_jpeg(grey_values: list[int], bits: int) -> bytes:
-    """ITU-T T.81, Annex H: each grey value by its left neighbour, lengths of differences as codes of 5 bits."""
+    """Returns JPEG without loss (ITU-T T.81, Annex H): each grey value by its left neighbour, lengths of differences as
+    codes of 5 bits."""
 
     def segment(marker: int, content: bytes) -> bytes:
         return struct.pack(">BBH", 0xFF, marker, len(content) + 2) + content

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Who is asked about files: the command-line tools, or Python."""
+"""The programs that read the damaged files: the command-line tools, or Python."""
 
 import json
 import os
@@ -12,13 +12,13 @@ from dataclasses import dataclass
 
 from frame_parts import Case
 
-SECONDS = 5.0  # that an answer may take
-MEMORY = 4 << 30  # bytes that a tool may ask for: what a header makes up is to be refused
+SECONDS = 5.0  # longest time of an answer [s]
+MEMORY = 4 << 30  # largest memory of a tool [bytes]: sizes that a damaged header gives must be refused
 
 
 @dataclass
 class Answer:
-    """An exit code, the report's JSON, what was said, and how many samples the report is about."""
+    """An exit code, the JSON of the report, and the messages. `samples` is the number of samples of the report."""
 
     code: int = 0
     text: str = ""
@@ -41,7 +41,7 @@ def _no_core() -> None:
 
 def _limit() -> None:
     _no_core()
-    if "ASAN_OPTIONS" not in os.environ:  # AddressSanitizer asks for terabytes, of addresses
+    if "ASAN_OPTIONS" not in os.environ:  # AddressSanitizer reserves terabytes of addresses
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
 
 
@@ -52,7 +52,7 @@ class ToolTarget:
     def ask(self, folder: str, case: Case, role: str, good: str) -> Answer:
         files = [os.path.join(folder, name) for name in case.frames]
         tool = os.path.join(self.tools, "estimate-sensor-noise")
-        # what is read is looked at, not channels: a mosaic's file, too, gives one report
+        # the test is about the reading, not about channels: the file of a mosaic gives one report, too
         command = [tool, "--quiet", "--threads", "1", "--json", "-", "--bayer", "none"]
         stack = os.path.join(good, "s.mha")
         if role == "frames":
@@ -88,7 +88,7 @@ class ToolTarget:
 
 
 class PythonTarget:
-    """A few interpreters that live on from file to file; one that dies or hangs is replaced."""
+    """A few interpreters, each for many files. An interpreter that crashes or hangs is replaced."""
 
     def __init__(self, python: str, jobs: int) -> None:
         self.command = [python, os.path.join(os.path.dirname(os.path.abspath(__file__)), "python_worker.py")]

@@ -39,8 +39,8 @@ def tiff(
     big: bool = False,
     columns: int = 0,
 ) -> File:
-    """Pages with their pixels before their directory; strips of `rows` rows, or tiles of `columns` columns and `rows`
-    rows."""
+    """Makes a TIFF file. Each page has its pixels before its directory, in strips of `rows` rows, or in tiles of
+    `columns` columns and `rows` rows."""
     code, pack, kind = COMPRESSIONS[compression]
     offset, count = ("Q", "Q") if big else ("I", "H")
     made = File(name, b"")
@@ -91,8 +91,8 @@ def tiff(
 
 
 def described(frames: list[bytes], axes: str = "") -> File:
-    """ImageJ's stack above 4 GiB: one page, behind which the images lie that its description counts. `axes`: other
-    lines of that description than the number of slices."""
+    """Makes a stack as ImageJ writes it above 4 GiB: one page, followed by the images that its description counts.
+    `axes` replaces the number of slices in the description."""
     text = f"ImageJ=1.53t\nimages={len(frames)}\n{axes or f'slices={len(frames)}'}\n\0".encode()
     step = 2 * frame_parts.WIDTH * frame_parts.HEIGHT
     entries = [(256, 4, 1, frame_parts.WIDTH), (257, 4, 1, frame_parts.HEIGHT), (258, 3, 1, 16), (262, 3, 1, 1)]
@@ -133,7 +133,7 @@ def tiffs(frames: list[bytes]) -> list[Case]:
 
 
 def dng(name: str, frame: bytes, bits: int, jpeg: bool = False) -> File:
-    """One strip before the directory, of a monochrome sensor, which has one report."""
+    """Makes a DNG file of a monochrome sensor, which has one report. Its only strip lies before the directory."""
     grey_values = grey_values_of([frame], bits)
     if jpeg:
         pixels = lossless_jpeg(grey_values, bits)
@@ -160,7 +160,7 @@ def dng(name: str, frame: bytes, bits: int, jpeg: bool = False) -> File:
 
 
 def dngs(frames: list[bytes]) -> list[Case]:
-    """Raw files of a camera: 16 bits, packed, JPEG without loss."""
+    """Returns raw files of a camera: 16 bits, packed, JPEG without loss."""
     names = [f"f{t}.dng" for t in range(len(frames))]
     return [
         Case(

@@ -29,7 +29,7 @@ BytesOfGreyValues(const GreyValues & greyValues, std::size_t bytes, bool isBigEn
   return text;
 }
 
-/** A stream of bits, of each grey value and of each byte the highest first, or the lowest. */
+/** Returns a stream of bits, of each grey value and of each byte the highest first, or the lowest. */
 inline std::string
 BitStream(const GreyValues & greyValues, unsigned bits, bool isHighestFirst)
 {
@@ -48,7 +48,7 @@ BitStream(const GreyValues & greyValues, unsigned bits, bool isHighestFirst)
   return text;
 }
 
-/** GigE Vision's Mono10Packed and Mono12Packed. */
+/** Returns the grey values as Mono10Packed or Mono12Packed of GigE Vision. */
 inline std::string
 GigEPacked(const GreyValues & greyValues, unsigned bits)
 {
@@ -63,7 +63,7 @@ GigEPacked(const GreyValues & greyValues, unsigned bits)
   return text;
 }
 
-/** MIPI CSI-2's RAW10 (4 in 5 bytes), RAW12 (2 in 3) and RAW14 (4 in 7). */
+/** Returns the grey values as RAW10 (4 in 5 bytes), RAW12 (2 in 3) or RAW14 (4 in 7) of MIPI CSI-2. */
 inline std::string
 MipiPacked(const GreyValues & greyValues, unsigned bits)
 {

@@ -53,7 +53,7 @@ Adler32(const std::string & bytes)
   return (b << 16) | a;
 }
 
-/** One block of fixed Huffman codes, each of a single byte. */
+/** Returns one block of fixed Huffman codes, each of a single byte. */
 inline std::string
 Deflated(const std::string & bytes)
 {

@@ -66,7 +66,7 @@ ComputeResiduals(const FrameGeometry &       geometry,
   return { SampleOf(geometry, frames, frameOf), series, { signal, all, 0.0 }, SerialFor };
 }
 
-/** ofTile(i) of every tile. */
+/** Returns ofTile(i) of every tile. */
 template <typename TOfTile>
 auto
 OfTiles(const NoiseResiduals & residuals, const ParallelFor & parallelFor, TOfTile ofTile)
@@ -76,7 +76,7 @@ OfTiles(const NoiseResiduals & residuals, const ParallelFor & parallelFor, TOfTi
   return sums;
 }
 
-/** White normal noise, 1 DN. */
+/** Returns white normal noise, 1 DN. */
 inline FrameOf
 WhiteNoise(const FrameGeometry & geometry, std::uint64_t seed)
 {

@@ -31,7 +31,7 @@ struct DarkSensor
   std::vector<double> readNoiseDn;
 };
 
-/** Pixels about 100.3 DN with offsets of the given scatter, and the noise that \a noiseOf draws [DN]. */
+/** Makes pixels about 100.3 DN with offsets of the given scatter, and the noise that \a noiseOf draws [DN]. */
 inline DarkSensor
 MakeDarkSensor(std::size_t                                          pixels,
                double                                               offsetSdDn,
@@ -48,7 +48,8 @@ MakeDarkSensor(std::size_t                                          pixels,
   return sensor;
 }
 
-/** Log-normal noise of median 3 DN; of \a tail of the pixels the logarithm is higher by |N(0, 1)|. */
+/** Returns log-normal noise of median 3 DN. The logarithm is higher by |N(0, 1)| for the fraction \a tail of the
+ * pixels. */
 inline std::function<double(CounterSeededRandom &)>
 LogNormalNoise(double spread, double tail = 0.0)
 {
@@ -59,7 +60,7 @@ LogNormalNoise(double spread, double tail = 0.0)
   };
 }
 
-/** Frames in a row; integers are rounded. \a driftDn is added to all pixels of a frame. */
+/** Returns frames one after the other; integers are rounded. \a driftDn is added to all pixels of a frame. */
 template <typename TPixel>
 Stack<TPixel>
 DarkStackOf(const DarkSensor &          sensor,
@@ -99,7 +100,7 @@ MeasureDarkStack(const Stack<TPixel> &             stack,
   return sums.Measure({}, parallelFor).front();
 }
 
-/** The middle value. */
+/** Returns the middle value. */
 inline double
 MedianOfPixels(std::vector<double> values)
 {

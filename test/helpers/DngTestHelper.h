@@ -54,8 +54,8 @@ private:
   unsigned    m_Count{ 0 };
 };
 
-/** JPEG without loss (ITU-T T.81, Annex H): each grey value by its left neighbour of the same component, with one
- * Huffman table in which the 17 lengths of a difference have codes of 5 bits. \a frame: the marker of its frame. */
+/** Returns JPEG without loss (ITU-T T.81, Annex H): each grey value by its left neighbour of the same component, with
+ * one Huffman table in which the 17 lengths of a difference have codes of 5 bits. \a frame: the marker of its frame. */
 inline std::string
 LosslessJpeg(const GreyValues & greyValues,
              unsigned           width,
@@ -120,7 +120,7 @@ struct DngOf
   int        jpegFrame{ 0xC3 }; // the marker
   unsigned   iso{ 400 };
 
-  /** A noisy ramp. */
+  /** Returns a noisy ramp. */
   static DngOf
   Sound(unsigned bits = 16)
   {

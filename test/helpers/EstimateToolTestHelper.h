@@ -34,7 +34,7 @@ protected:
     return m_Folder / "work" / name;
   }
 
-  /** Exit code of a command in the folder; what it says goes to m_Output and m_Message. */
+  /** Runs a command in the folder. Returns its exit code, and sets m_Output and m_Message. */
   int
   RunCommand(const std::string & command);
   int
@@ -52,7 +52,7 @@ protected:
     return (m_Output + m_Message).find(part) != std::string::npos;
   }
 
-  /** The JSON text of a run that must end with \a exitCode. */
+  /** Returns the JSON text of a run that must end with \a exitCode. */
   std::string
   JsonTextOf(const std::string & arguments, int exitCode = 0);
   /** Returns the record without `settings`, which say how it was made. */
@@ -98,7 +98,7 @@ protected:
   std::string
   WriteText(const std::string & name, const std::string & text) const;
 
-  /** A box of the stack, as a stack of its own. */
+  /** Returns a box of the stack, as a stack of its own. */
   template <typename TPixel>
   static typename itk::Image<TPixel, 3>::Pointer
   Cut(const itk::Image<TPixel, 3> * stack, const itk::Index<3> & first, const itk::Size<3> & size)
@@ -146,16 +146,17 @@ protected:
   std::set<std::string>
   FilesLeft() const;
 
-  /** The first line of standard error that is no note and no warning says what is wrong, and holds \a parts. There are
-   * more only where the frames have more than one reason for which the gain is not identifiable. */
+  /** Expects that the first line of standard error that is no note and no warning names the mistake, and holds
+   * \a parts. There are more lines only if the frames have more than one reason for which the gain is not identifiable.
+   */
   void
   SaysInOneSentence(const std::vector<std::string> & parts) const;
 
-  /** Exit code 2, one sentence with these parts, nothing on standard output and no file. */
+  /** Expects exit code 2, one sentence with these parts, nothing on standard output and no file. */
   void
   IsRefused(const std::string & arguments, const std::vector<std::string> & parts);
 
-  /** Exit code 3, one sentence with these parts, and a report without a value. */
+  /** Expects exit code 3, one sentence with these parts, and a report without a value. */
   void
   GivesNoEstimate(const std::string & arguments, const std::vector<std::string> & parts);
 

@@ -62,7 +62,7 @@ protected:
     m_Report.texts[at + "/status"] = status;
   }
 
-  /** A mosaic, whose channels have slopes of 0.5, 0.6, 0.7 and 0.8 DN/e-. */
+  /** Makes a mosaic, whose channels have slopes of 0.5, 0.6, 0.7 and 0.8 DN/e-. */
   void
   MakeMosaic()
   {
@@ -88,7 +88,7 @@ protected:
   {
     return sensornoise::ExportNoise(format, { sensornoise::ReadCameraNoise(m_Report, settings) });
   }
-  /** The only file of an export. */
+  /** Returns the only file of an export. */
   std::string
   TextOf(const std::string & format, const sensornoise::ExportSettings & settings = {}) const
   {
@@ -116,7 +116,7 @@ protected:
     }
   }
 
-  /** The number behind the first \a key of a text; NaN: there is none. */
+  /** Returns the number behind the first \a key of a text; NaN: there is none. */
   static double
   NumberAfter(const std::string & text, const std::string & key)
   {

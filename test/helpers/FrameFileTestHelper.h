@@ -96,7 +96,7 @@ protected:
     }
   }
 
-  /** It is accepted, and is of this size. */
+  /** Expects that the file is accepted, and is of this size. */
   FrameFile
   IsFrames(const std::string & name,
            const std::string & bytes,
@@ -125,7 +125,7 @@ protected:
   }
 };
 
-/** The text with a part of it replaced, once. */
+/** Returns the text with a part of it replaced, once. */
 inline std::string
 Replaced(std::string text, const std::string & part, const std::string & replacement)
 {

@@ -23,7 +23,7 @@
 #include <vector>
 
 /** \file
- * Small frames and stacks on files, and what opening and reading them says. */
+ * Small frames and stacks on files, and the messages of opening and reading them. */
 
 namespace sensornoisetest::files
 {
@@ -35,7 +35,8 @@ inline constexpr std::size_t width = 7;
 inline constexpr std::size_t height = 5;
 inline constexpr std::size_t frames = 4;
 
-/** Different in every place of the stack, without symmetry, never 0, which readers fill in. */
+/** Returns a value that differs between all places of the stack, without symmetry. It is never 0, which readers fill
+ * in. */
 template <typename TPixel>
 TPixel
 ValueAt(std::size_t x, std::size_t y, std::size_t t)
@@ -124,7 +125,8 @@ CutOff(const std::string & file, std::size_t bytes)
   std::filesystem::resize_file(file, std::filesystem::file_size(file) - bytes);
 }
 
-/** A clock of a file system that is coarser than the test is fast would take two writings for one. */
+/** Makes the time of a file one second later. The clock of a file system may be too coarse to distinguish two writings
+ * in a test. */
 inline void
 MakeLater(const std::string & file)
 {
@@ -194,7 +196,7 @@ ErrorOfReading(const FrameList & list)
   return MessageOf([&] { MakeSource<TPixel>(list)->Update(); });
 }
 
-/** The part of a source's output. */
+/** Returns a part of the output of a source. */
 template <typename TPixel>
 const itk::Image<TPixel, 3> *
 ReadPart(SourceOf<TPixel> * source, std::size_t first, std::size_t count)
@@ -208,7 +210,7 @@ ReadPart(SourceOf<TPixel> * source, std::size_t first, std::size_t count)
   return source->GetOutput();
 }
 
-/** The number of pixels in the buffer that are not what was written. */
+/** Returns the number of pixels in the buffer that differ from the pixels that were written. */
 template <typename TPixel>
 std::size_t
 WrongPixels(const itk::Image<TPixel, 3> * image)

@@ -16,7 +16,7 @@
 namespace sensornoise::test
 {
 
-/** Independent Poisson numbers. */
+/** Returns independent Poisson numbers. */
 inline DoubleFrame
 PoissonFrame(std::size_t width, std::size_t height, double mean, std::uint64_t seed)
 {
@@ -26,7 +26,7 @@ PoissonFrame(std::size_t width, std::size_t height, double mean, std::uint64_t s
   return frame;
 }
 
-/** Independent normal numbers with mean 0 and variance 1. */
+/** Returns independent normal numbers with mean 0 and variance 1. */
 inline DoubleFrame
 NormalFrame(std::size_t width, std::size_t height, std::uint64_t seed)
 {

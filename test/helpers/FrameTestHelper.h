@@ -25,7 +25,7 @@
 namespace sensornoise::test
 {
 
-/** A map of waves of all directions and lengths above 5 pixels, from about 400 to 1,600. */
+/** Returns a map of waves of all directions and lengths above 5 pixels, from about 400 to 1,600. */
 inline std::vector<double>
 WavyScene(std::size_t width, std::size_t height)
 {
@@ -118,7 +118,7 @@ struct SyntheticFrames
   {
     return 1.0 / model.NoiseVariance(reference.neighbourMean[p]);
   }
-  /** The columns of the regression at a pixel: 1, mean - centre, derivatives. */
+  /** Returns the columns of the regression at a pixel: 1, mean - centre, derivatives. */
   Eigen::Matrix<double, FrameColumns, 1>
   ColumnsOf(std::size_t p) const
   {

@@ -22,7 +22,7 @@
 namespace sensornoise::test
 {
 
-/** The stack with frames that are to be left out, by their places in it. */
+/** Returns the stack with frames that are to be left out, by their places in it. */
 template <typename TPixel>
 Stack<TPixel>
 Insert(const Stack<TPixel> & stack, const std::map<std::size_t, std::vector<TPixel>> & unlike)
@@ -43,7 +43,7 @@ Insert(const Stack<TPixel> & stack, const std::map<std::size_t, std::vector<TPix
   return other;
 }
 
-/** A frame of the stack, left and right exchanged: the scene in the mirror. */
+/** Returns a frame of the stack, left and right exchanged: the scene in the mirror. */
 template <typename TPixel>
 std::vector<TPixel>
 Mirrored(const Stack<TPixel> & stack, std::size_t t)
@@ -56,7 +56,7 @@ Mirrored(const Stack<TPixel> & stack, std::size_t t)
   return frame;
 }
 
-/** A frame of the stack as a camera of \a factor times its gain, and of the same offset, would record it. */
+/** Returns a frame of the stack as a camera of \a factor times its gain, and of the same offset, would record it. */
 template <typename TPixel>
 std::vector<TPixel>
 OfAnotherGain(const Stack<TPixel> & stack, std::size_t t, double factor, double offsetDn)
@@ -69,7 +69,7 @@ OfAnotherGain(const Stack<TPixel> & stack, std::size_t t, double factor, double 
   return frame;
 }
 
-/** A stack with zeros, one level and its own mirror image among its frames: places 0, 5 and the last one. */
+/** Returns a stack with zeros, one level and its own mirror image among its frames: places 0, 5 and the last one. */
 template <typename TPixel>
 Stack<TPixel>
 WithUnlikeFrames(const Stack<TPixel> & stack)

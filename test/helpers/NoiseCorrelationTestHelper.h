@@ -37,7 +37,8 @@ struct Kernels
   std::vector<double> alongTime{ 1.0 };
 };
 
-/** A flat field of 100 DN whose noise is normal, of 3 DN before it is filtered; values are rounded for integers. */
+/** Returns a flat field of 100 DN whose noise is normal, of 3 DN before it is filtered; values are rounded for
+ * integers. */
 template <typename TStack = FloatStack>
 typename TStack::Pointer
 FlatStack(

@@ -30,7 +30,7 @@ CountOf(const std::string & text, const std::string & part)
   return count;
 }
 
-/** "" if every tag is closed in its order, else what is wrong. */
+/** Returns "" if every tag is closed in its order, else the fault. */
 inline std::string
 FaultOfTags(const std::string & text)
 {

@@ -48,7 +48,7 @@ ErrorOf(const TProcess & process)
 
 #define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
-/** An image of the given size whose pixels are what \a valueOf(index) says. */
+/** Returns an image of the given size with the pixels \a valueOf(index). */
 template <typename TImage, typename TFunction>
 typename TImage::Pointer
 ImageOf(const typename TImage::SizeType &  size,
@@ -94,7 +94,7 @@ PixelsOf(const TImage * image)
   return { buffer, buffer + image->GetBufferedRegion().GetNumberOfPixels() };
 }
 
-/** Bit by bit, so that NaN equals NaN. */
+/** Compares bit by bit, so that NaN equals NaN. */
 template <typename TPixel>
 bool
 HaveTheSameBits(const std::vector<TPixel> & a, const std::vector<TPixel> & b)
@@ -109,7 +109,8 @@ HaveTheSameBits(const TImage * a, const TImage * b)
   return HaveTheSameBits(PixelsOf(a), PixelsOf(b));
 }
 
-/** A source that simulates \a frames frames of the target scene with camera B, a flicker of 5 % and no vibration. */
+/** Returns a source that simulates \a frames frames of the target scene with camera B, a flicker of 5 % and no
+ * vibration. */
 template <typename TStack>
 typename itk::SensorNoiseStackSource<TStack>::Pointer
 TargetSource(unsigned int width, unsigned int height, unsigned int frames)
@@ -170,7 +171,7 @@ public:
   {
     this->Break(-1);
   }
-  /** How often frames, or the whole stack, were read. */
+  /** Returns how often frames, or the whole stack, were read. */
   unsigned int
   Reads() const
   {

@@ -35,7 +35,7 @@ protected:
   {
     return sensornoise::CheckNoiseProfile(profile, Frames(), sensornoise::ReadCameraNoise(m_Report, settings));
   }
-  /** Every ratio is 1 to 1e-6. */
+  /** Expects that every ratio is 1 to 1e-6. */
   void
   IsTrue(const sensornoise::NoiseProfile & profile) const
   {

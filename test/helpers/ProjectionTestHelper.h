@@ -43,7 +43,7 @@ Wave(double periods, double phase)
   return series;
 }
 
-/** Two components of the illumination and one of motion. */
+/** Returns two components of the illumination and one of motion. */
 inline const TemporalBasis &
 Basis()
 {
@@ -55,7 +55,7 @@ Basis()
   return basis;
 }
 
-/** Noise of 20 DN: time series of every pixel, one a column. */
+/** Returns noise of 20 DN: time series of every pixel, one a column. */
 inline Eigen::MatrixXd
 NormalSeries()
 {

@@ -41,14 +41,14 @@ SettingsOf(double flickerSd, std::size_t frames)
   return settings;
 }
 
-/** A small stack of the calibration target. */
+/** Returns a small stack of the calibration target. */
 inline Stack<GreyValue>
 Simulate(const SimulationSettings & settings, std::size_t width = 64, std::size_t height = 56)
 {
   return Simulate<GreyValue>(settings, width, height);
 }
 
-/** A stack for the identities: 40 frames with flicker of 5 %. */
+/** Returns a stack for the identities: 40 frames with flicker of 5 %. */
 inline const Stack<GreyValue> &
 FlickeringStack()
 {

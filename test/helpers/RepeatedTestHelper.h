@@ -35,7 +35,8 @@ Show(const Stack<TPixel> & stack, const Shown & shown)
   return other;
 }
 
-/** Each of \a distinct frames twice, each third one twice, and the first once more at the end. */
+/** Returns three ways: each of \a distinct frames twice, each third frame twice, and the first frame once more at the
+ * end. */
 inline std::vector<std::pair<std::string, Shown>>
 WaysToRepeat(std::size_t distinct)
 {

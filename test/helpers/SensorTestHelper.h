@@ -25,7 +25,7 @@ namespace sensornoise::test::sensor
 
 using GreyValue = unsigned short;
 
-/** A camera that holds still, with flicker of 2 %. */
+/** Returns a camera without vibration, with flicker of 2 %. */
 inline SimulationSettings
 StaticCamera(std::size_t frames, std::uint64_t seed = 21)
 {
@@ -36,8 +36,8 @@ StaticCamera(std::size_t frames, std::uint64_t seed = 21)
   return settings;
 }
 
-/** A scene of one level, with a shading of \a shading towards the corners; one dark pixel spans the range, which the
- * simulator spreads to its electrons. */
+/** Returns a scene of one level, with a shading of \a shading towards the corners; one dark pixel spans the range,
+ * which the simulator spreads to its electrons. */
 inline std::vector<double>
 FlatScene(std::size_t size, double shading = 0.0)
 {
@@ -69,7 +69,7 @@ WithDarkFrames(const Stack<GreyValue> & dark)
   return settings;
 }
 
-/** The interval of a quantity holds the truth. */
+/** Expects that the interval of a quantity holds the truth. */
 inline void
 ExpectHolds(const Quantity & quantity, double truth)
 {
@@ -79,7 +79,7 @@ ExpectHolds(const Quantity & quantity, double truth)
   EXPECT_GE(*quantity.interval95->high, truth);
 }
 
-/** Mean of the local gain over the frame [DN/e-]. */
+/** Returns the mean of the local gain over the frame [DN/e-]. */
 inline double
 MeanLocalGain(const StackSimulator & simulator)
 {

@@ -18,7 +18,7 @@ namespace sensornoise::test
 /** Words that a sentence of a message has at most: longer ones have to be read twice. */
 inline constexpr std::size_t MostWords = 40;
 
-/** Number of words, numbers and signs of the longest sentence of \a text. */
+/** Returns the number of words, numbers and signs of the longest sentence of \a text. */
 inline std::size_t
 WordsOfLongestSentence(const std::string & text)
 {

@@ -19,7 +19,7 @@
 namespace sensornoise::test::single
 {
 
-/** Camera "A", "B" or "C" under condition 3 of the paper. */
+/** Returns camera "A", "B" or "C" under condition 3 of the paper. */
 inline SimulationSettings
 PaperSettings(char camera, std::size_t frames = 1, std::uint64_t seed = 1)
 {
@@ -46,7 +46,7 @@ MeasureAll(const Stack<TPixel> &             stack,
   return method.GetReports();
 }
 
-/** The report of a monochrome stack. */
+/** Returns the report of a monochrome stack. */
 template <typename TPixel>
 Report
 Measure(const Stack<TPixel> & stack, const SingleImageSettings & settings = {})

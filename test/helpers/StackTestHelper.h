@@ -46,7 +46,7 @@ struct Stack
   }
 };
 
-/** Camera B of the paper, with flicker and vibration that a small stack shows well. */
+/** Returns camera B of the paper, with flicker and vibration that a small stack shows well. */
 inline SimulationSettings
 FlickeringSettings(std::size_t frames)
 {
@@ -73,7 +73,7 @@ Simulate(const SimulationSettings &  settings,
   return stack;
 }
 
-/** A ParallelFor of \a count threads, which take the pieces in turn and backwards. */
+/** Returns a ParallelFor of \a count threads, which take the pieces in turn and backwards. */
 inline ParallelFor
 Threads(std::size_t count)
 {

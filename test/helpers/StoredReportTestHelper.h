@@ -16,7 +16,7 @@
 namespace sensornoise::test
 {
 
-/** Every 16th element of an array; null stays null. */
+/** Returns every 16th element of an array; null stays null. */
 inline nlohmann::json
 Thinned(const nlohmann::json & values)
 {
@@ -28,7 +28,7 @@ Thinned(const nlohmann::json & values)
   return thinned;
 }
 
-/** The part of a report that is stored. */
+/** Returns the part of a report that is stored. */
 inline nlohmann::json
 StoredPartOf(const std::string & text)
 {
@@ -45,7 +45,7 @@ StoredPartOf(const std::string & text)
   return report;
 }
 
-/** A message without its numbers. */
+/** Returns a message without its numbers. */
 inline std::string
 WordsOf(const std::string & message)
 {
@@ -79,7 +79,7 @@ AreAlike(const std::string & path, const nlohmann::json & stored, const nlohmann
   return stored == found;
 }
 
-/** Where the reports differ, and how; nothing if they agree. */
+/** Returns where the reports differ, and how; nothing if they agree. */
 inline std::string
 DifferencesOf(const nlohmann::json & stored, const nlohmann::json & found, const std::string & path = "")
 {

@@ -37,7 +37,7 @@ struct TiffOf
   unsigned              bits{ 16 };
   unsigned              compression{ 1 };
   unsigned              predictor{ 1 };                   // predictor of the pixels; its tag is one of `pages`
-  std::vector<TiffTags> pages = std::vector<TiffTags>(3); // what each says beyond that or otherwise
+  std::vector<TiffTags> pages = std::vector<TiffTags>(3); // tags of each page that are added, or differ
   std::string           strip{};                          // instead of the first strip or tile
   std::size_t           fillUp{ 0 };                      // rows added to the last strip
   std::int64_t          moveStrip{ 0 };                   // the first strip or tile of the second page [bytes]
@@ -51,8 +51,8 @@ struct TiffOf
     return text;
   }
 
-  /** The differences that a predictor leaves of a row: of its samples (2), or of the bytes of all samples, the highest
-   * of each first (3). */
+  /** Returns the differences that a predictor stores for a row: of its samples (2), or of the bytes of all samples, the
+   * highest bytes first (3). */
   std::string
   Predicted(const std::vector<std::uint64_t> & samples) const
   {
@@ -80,7 +80,7 @@ struct TiffOf
     return row;
   }
 
-  /** The value of a pixel, also of one beyond the image, where a tile is filled up. */
+  /** Returns the value of a pixel. Pixels beyond the image, which fill a tile up, have values, too. */
   static std::uint64_t
   Sample(std::size_t page, std::size_t x, std::size_t y)
   {
@@ -93,7 +93,7 @@ struct TiffOf
     return PixelsOf(page, 0, firstRow, width, rows);
   }
 
-  /** The bytes of a strip or tile. */
+  /** Returns the bytes of a strip or tile. */
   std::string
   PixelsOf(std::size_t page, std::size_t firstColumn, std::size_t firstRow, std::size_t columns, std::size_t rows) const
   {
@@ -158,7 +158,7 @@ struct TiffOf
     std::size_t rows{ 0 };
   };
 
-  /** The strips or tiles of a page. */
+  /** Returns the strips or tiles of a page. */
   std::vector<Piece>
   Pieces() const
   {
@@ -226,7 +226,7 @@ struct TiffOf
   }
 };
 
-/** With the same tags on all three pages. */
+/** Returns a file with the same tags on all three pages. */
 inline TiffOf
 TiffWith(const TiffTags & tags)
 {

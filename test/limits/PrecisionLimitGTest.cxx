@@ -58,7 +58,7 @@ SmoothPlan()
   return plan;
 }
 
-/** Equality but for the rounding of sums of 1200 terms. */
+/** Expects equality but for the rounding of sums of 1200 terms. */
 void
 ExpectSame(double a, double b)
 {

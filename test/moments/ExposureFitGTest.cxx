@@ -25,7 +25,7 @@ DnRangeOf12Bits()
   return dnRange;
 }
 
-/** Signal of a quadratic response, as ResponseShape::Quadratic [DN]. */
+/** Returns the signal of a quadratic response, as ResponseShape::Quadratic [DN]. */
 double
 Signal(double exposure, double nonlinearity)
 {

@@ -140,10 +140,10 @@ TYPED_TEST(MosaicMethodOf, PlanesThatAreReadInPlaceAreThoseAlone)
   Stack<Pixel>      stack = SimulateMosaic(BayerPattern::GRBG, 96, 90);
   const std::size_t pixels = stack.width * stack.height;
   const auto frame = [&](std::size_t t) { return stack.pixels.begin() + static_cast<std::ptrdiff_t>(t * pixels); };
-  std::copy_n(frame(3), pixels, frame(5)); // two that are equal,
+  std::copy_n(frame(3), pixels, frame(5)); // frames 3 and 5 are equal
   for (std::size_t p = 0; p < pixels; ++p)
   {
-    if (p / stack.width % 2 == 0) // and two that are in the red rows alone
+    if (p / stack.width % 2 == 0) // frames 8 and 9 are equal in the red rows alone
     {
       stack.pixels[9 * pixels + p] = stack.pixels[8 * pixels + p];
     }
@@ -241,8 +241,8 @@ TEST(MosaicMethod, PlanesCountTheirOwnFrames)
   EXPECT_THROW(method.AddFrames(frames.data(), 9), std::logic_error);
 }
 
-/** The public class hands on: a memory limit of all planes is shared out, and the settings of each plane are its own.
- */
+/** The public class gives its settings to the planes: it divides a memory limit of all planes among them, and each
+ * plane has separate settings. */
 TYPED_TEST(MosaicMethodOf, IsThePassesOfItsPlanes)
 {
   using Method =

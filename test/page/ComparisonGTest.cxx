@@ -46,7 +46,7 @@ QuantityOf(const Comparison & comparison, const std::string & path)
                        [&path](const ComparedQuantity & quantity) { return quantity.entry->path == path; });
 }
 
-/** The second report's gain against the first's. */
+/** Returns the change of the gain from the first report to the second. */
 Change
 ChangeOfGain(const Quantity & first, const Quantity & second)
 {

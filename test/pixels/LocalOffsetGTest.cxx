@@ -58,7 +58,7 @@ struct Scene
   }
 };
 
-/** Illumination that is uniform, and illumination that decreases slightly from the left. */
+/** Returns illumination that is uniform, and illumination that decreases slightly from the left. */
 Eigen::Vector2d
 TwoSources(std::size_t p, double mean)
 {
@@ -66,7 +66,7 @@ TwoSources(std::size_t p, double mean)
   return (mean - OffsetDn) * Eigen::Vector2d(0.3, 0.4 + 0.02 * x);
 }
 
-/** Illumination that is uniform, and a level that drifts. */
+/** Returns illumination that is uniform, and a level that drifts. */
 Eigen::Vector2d
 OneSourceAndADrift(std::size_t, double mean)
 {

@@ -25,7 +25,7 @@ constexpr double OffsetDn = 100.0;
 
 constexpr std::uint8_t Unknown = 99;
 
-/** Noise whose variance is a line in the mean. The noise of every 97th pixel is ten times as large. */
+/** Returns noise whose variance is a line in the mean. The noise of every 97th pixel is ten times as large. */
 Eigen::MatrixXd
 Series()
 {

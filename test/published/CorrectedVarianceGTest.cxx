@@ -38,7 +38,7 @@ GeometryOf(FlickerOf part)
   return { Width, Height, part == FlickerOf::Columns ? 0U : 1U };
 }
 
-/** Random flicker whose mean over time is not 0; the class centres it. */
+/** Returns random flicker whose mean over time is not 0; the class centres it. */
 FlickerEstimate
 RandomFlicker(FlickerOf part)
 {

@@ -41,7 +41,7 @@ struct Truth
   double covariance{ -0.003 };
 };
 
-/** Smooth scene whose variance follows (2.20) exactly, with centred differences that are computed here. */
+/** Returns a smooth scene whose variance follows (2.20) exactly, with centred differences that are computed here. */
 Scene
 SceneOf(const Truth & truth)
 {

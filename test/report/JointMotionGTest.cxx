@@ -21,8 +21,9 @@ namespace
 {
 constexpr std::size_t Frames = 200;
 
-/** Motion of (0.05, 0.02) pixels, in each plane with \a ofSquare times its square, the sign by the plane's columns
- * along x and by its rows along y, and with noise of \a noiseSd pixels. */
+/** Returns reports with an rms motion of \a scale times (0.05, 0.02) pixels and noise of \a noiseSd pixels. In each
+ * plane \a ofSquare times the squared motion is added, with a sign by the plane's columns along x and by its rows along
+ * y. */
 std::array<Report, 4>
 PlanesOf(double scale, double ofSquare, double noiseSd)
 {

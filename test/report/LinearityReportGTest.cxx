@@ -11,7 +11,7 @@ using namespace sensornoise;
 
 namespace
 {
-/** A linearity error of 0.5 % +- 0.02 %, offset 100 +- 0.5 DN. */
+/** Returns a linearity error of 0.5 % +- 0.02 %, offset 100 +- 0.5 DN. */
 ExposureFit
 Fit()
 {

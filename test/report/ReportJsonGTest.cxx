@@ -170,7 +170,7 @@ private:
   std::size_t         m_At{ 0 };
 };
 
-/** The JSON text that follows the first occurrence of "name": in the record. */
+/** Returns the JSON text that follows the first occurrence of "name": in the record. */
 std::string
 TextAfter(const std::string & json, const std::string & name)
 {

@@ -12,7 +12,7 @@ using namespace sensornoise;
 
 namespace
 {
-/** The line of the table that begins with these words. */
+/** Returns the line of the table that begins with these words. */
 std::string
 LineOf(const Report & report, const std::string & words)
 {

@@ -45,7 +45,7 @@ ReportsOf(const Stack<GreyValue> & stack)
            ReportBy<PublishedMethod<GreyValue>, PublishedSettings>(stack) };
 }
 
-/** It is the first of the warnings, and no other error names another cause. */
+/** Expects the change of the scene as the first warning, and no other error that names another cause. */
 void
 ExpectScenesChange(const Stack<GreyValue> & stack)
 {
@@ -77,7 +77,7 @@ ExpectOneScene(const Stack<GreyValue> & stack)
   }
 }
 
-/** The pixels (t, y, x) as (y, x, t), or as (y, t, x). */
+/** Returns the pixels (t, y, x) as (y, x, t), or as (y, t, x). */
 Stack<GreyValue>
 WithTimeElsewhere(const Stack<GreyValue> & stack, bool isLast)
 {

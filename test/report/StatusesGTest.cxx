@@ -13,7 +13,7 @@ using namespace sensornoise::test;
 
 namespace
 {
-/** A report whose numbers agree. */
+/** Returns a report whose numbers agree. */
 Report
 Consistent()
 {

@@ -27,7 +27,7 @@ constexpr double      Dof = 39.0;
  * the size of the frame. */
 using Excess = std::function<double(double x, double y, double meanDn)>;
 
-/** Frame with noise, flicker and motion, and with the scatter of 40 frames. */
+/** Returns a frame with noise, flicker and motion, and with the scatter of 40 frames. */
 ReferenceFrame
 FrameWith(const Excess & excess, std::size_t size = Size)
 {

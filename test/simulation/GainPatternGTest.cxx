@@ -18,7 +18,7 @@ constexpr std::size_t   Width = 300;
 constexpr std::size_t   Height = 200;
 constexpr std::uint64_t Seed = 9;
 
-/** 5 standard errors of the standard deviation of so many normal numbers. */
+/** Returns 5 standard errors of the standard deviation of so many normal numbers. */
 double
 FiveErrors(double sd, std::size_t count)
 {

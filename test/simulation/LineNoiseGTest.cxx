@@ -28,7 +28,7 @@ FrameOf(const LineNoise & noise, std::size_t frame)
   return values;
 }
 
-/** One number a row (step 1) or a column (step Width) of every frame. */
+/** Returns one number a row (step 1) or a column (step Width) of every frame. */
 std::vector<double>
 Collect(const LineNoise & noise, std::size_t frames, std::size_t step, std::size_t count)
 {

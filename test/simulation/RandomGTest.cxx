@@ -12,7 +12,7 @@ namespace
 {
 using sensornoise::CounterSeededRandom;
 
-/** Probability of k for a Poisson law. */
+/** Returns the probability of k for a Poisson law. */
 double
 PoissonProbability(double mean, int k)
 {

@@ -22,7 +22,7 @@ FrameOf(const std::vector<TPixel> & pixels)
   return { pixels.data(), PixelLayout::OfFrames({ Width, Height, 1 }), Height, nullptr, 0.0, 1.0 };
 }
 
-/** All positions of a frame whose pixels are function(x, y). */
+/** Returns all positions of a frame whose pixels are function(x, y). */
 template <typename TFunction>
 BandTile
 TileOf(TFunction function)

@@ -20,7 +20,8 @@ using namespace sensornoise::test::single;
 
 namespace
 {
-/** Slope and intercept are within 4 of their errors of a simulated camera, which must be useful ones. */
+/** Expects slope and intercept within 4 of their errors of the simulated camera, and a relative error of the gain below
+ * \a largestRelativeError [1]. */
 void
 ExpectCamera(const Report & report, const SimulationSettings & settings, double largestRelativeError)
 {

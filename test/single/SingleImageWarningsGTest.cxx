@@ -15,7 +15,7 @@ using namespace sensornoise::test::single;
 
 namespace
 {
-/** A gain that is off by more than a tenth has a warning beside it. */
+/** Expects a warning beside a gain that is off by more than a tenth. */
 void
 ExpectWarned(const Report & report, double gain)
 {
@@ -30,8 +30,8 @@ ExpectWarned(const Report & report, double gain)
   }
 }
 
-/** A ramp from left to right under a weave whose threads repeat after \a period pixels along x, and 0.8 more along y.
- * Its amplitude is relative to the ramp. */
+/** Returns a ramp from left to right under a weave whose threads repeat after \a period pixels along x, and 0.8 more
+ * along y. Its amplitude is relative to the ramp. */
 std::vector<double>
 MakeWovenWaves(std::size_t size, double period, double amplitude)
 {

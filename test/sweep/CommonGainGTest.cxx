@@ -29,7 +29,7 @@ GainsOf(const std::vector<double> & gains, double error)
   return settings;
 }
 
-/** A camera at 4 exposures. */
+/** Returns a camera at 4 exposures. */
 MeasuredRange
 ExposureRange(const std::vector<double> & gains)
 {

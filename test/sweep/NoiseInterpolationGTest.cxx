@@ -13,7 +13,7 @@ namespace sensornoise
 {
 namespace
 {
-/** A camera of g = 0.002 ISO, an offset of 100 + 0.001 ISO, and 3 electrons of read noise. */
+/** Returns a camera of g = 0.002 ISO, an offset of 100 + 0.001 ISO, and 3 electrons of read noise. */
 CameraNoise
 CameraAt(double iso)
 {

@@ -30,7 +30,8 @@ ChannelOf(const std::string & name, double gain, double electrons)
   return channel;
 }
 
-/** A mosaic at 8 ISO speeds, whose red is scaled by 2, and whose conversion gain switches between 400 and 800. */
+/** Returns a mosaic at 8 ISO speeds, whose red is scaled by 2, and whose conversion gain switches between 400 and 800.
+ */
 MeasuredRange
 MosaicRange()
 {

@@ -48,7 +48,7 @@ protected:
              "mipi" + raw + "RAW12" };
   }
 
-  /** The report but for what the file says of the camera. */
+  /** Returns the report without the camera settings of the file. */
   std::string
   MeasuredOf(const std::string & arguments)
   {

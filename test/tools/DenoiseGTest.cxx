@@ -38,7 +38,7 @@ protected:
     return RunCommand("\"" + ToolFolder() + "/denoise-with-noise-model\" " + arguments);
   }
 
-  /** Exit code, one sentence with these parts, nothing on standard output, and no file made or changed. */
+  /** Expects the exit code, one sentence with these parts, nothing on standard output, and no file made or changed. */
   void
   IsRefusedBy(const std::string & arguments, const std::vector<std::string> & parts, int exitCode = 2)
   {

@@ -27,7 +27,7 @@ TextOfFile(const std::filesystem::path & name)
   return { std::istreambuf_iterator<char>(file), {} };
 }
 
-/** First cells, in backquotes, of the rows of the table of \a document whose head begins with \a head. */
+/** Returns the first cells, in backquotes, of the rows of the table of \a document whose head begins with \a head. */
 std::set<std::string>
 FirstCells(const std::string & document, const std::string & head)
 {

@@ -16,7 +16,7 @@ class EstimateBadInputTool : public EstimateToolTest
 protected:
   using FrameType = itk::Image<unsigned short, 2>;
 
-  /** Eight small frames, in which nothing is wrong but what the test does. */
+  /** Writes eight small frames, in which nothing is wrong but the change of the test. */
   std::vector<std::string>
   WriteSmallList(const std::string & extension) const
   {

@@ -10,7 +10,7 @@ namespace
 class EstimateCheckTool : public EstimateToolTest
 {
 protected:
-  /** A burst of the same camera, or of one with other options. */
+  /** Simulates a burst of the same camera, or of a camera with other options. */
   std::string
   Burst(const std::string & name,
         int                 seed,

@@ -11,7 +11,7 @@ namespace
 class EstimateCompareTool : public EstimateToolTest
 {
 protected:
-  /** A stored report; \a edit changes its record. */
+  /** Writes a stored report, whose record \a edit changes. */
   template <typename TEdit>
   std::string
   WriteReport(const std::string & name, const std::string & arguments, TEdit edit)

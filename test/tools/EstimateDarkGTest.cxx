@@ -26,7 +26,7 @@ protected:
     return Read<StackType>(m_Folder / "dark.mha");
   }
 
-  /** Identified, and within 4 standard errors of the truth. */
+  /** Expects an identified quantity within 4 standard errors of the truth. */
   static void
   IsNear(const nlohmann::json & quantity, double truth)
   {

@@ -12,7 +12,7 @@ namespace
 class EstimateMistakes : public EstimateToolTest
 {
 protected:
-  /** Exit code 2 and a sentence with these parts. */
+  /** Expects exit code 2 and a sentence with these parts. */
   void
   IsAnswered(const std::string & arguments, const std::vector<std::string> & parts)
   {
@@ -21,7 +21,7 @@ protected:
     SaysInOneSentence(parts);
   }
 
-  /** The pixels of a stack, the lowest byte first. */
+  /** Returns the pixels of a stack, the lowest byte first. */
   static std::string
   BytesOf(const StackType * stack)
   {

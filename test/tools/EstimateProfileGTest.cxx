@@ -12,7 +12,7 @@ namespace
 class EstimateProfileTool : public EstimateToolTest
 {
 protected:
-  /** A burst of a camera of 0.3 DN/e-, and its report with dark frames, report.json. */
+  /** Simulates a burst of a camera of 0.3 DN/e-, and measures it with dark frames: report.json. */
   std::string
   Burst()
   {
@@ -30,7 +30,7 @@ protected:
       << m_Message;
     return format + ".profile";
   }
-  /** The exported file with its number behind \a key changed. */
+  /** Writes the exported file with another number behind \a key. */
   std::string
   Changed(const std::string & format, const std::string & key, double number)
   {

@@ -42,7 +42,7 @@ protected:
   {
     return nlohmann::json::parse(ReadText(Path(name)), nullptr, false);
   }
-  /** Exit code 2, one sentence with these parts, and no file more. */
+  /** Expects exit code 2, one sentence with these parts, and no further file. */
   void
   IsRefusedSweep(const std::string & arguments, const std::vector<std::string> & parts)
   {
@@ -53,7 +53,7 @@ protected:
     EXPECT_EQ(m_Output, "");
     EXPECT_EQ(FilesLeft(), before);
   }
-  /** How often the last run measured a burst. */
+  /** Returns how often the last run measured a burst. */
   int
   Measured() const
   {

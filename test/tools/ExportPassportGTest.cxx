@@ -10,7 +10,8 @@ namespace
 class ExportPassportTool : public EstimateToolTest
 {};
 
-/** A passport of three ISO speeds, as the tool writes it: a = 0.005 ISO, an offset of 64 DN, a read noise of 3 e-. */
+/** Returns a passport of three ISO speeds, as the tool writes it: a = 0.005 ISO, an offset of 64 DN, a read noise of 3
+ * e-. */
 nlohmann::json
 MakePassport()
 {

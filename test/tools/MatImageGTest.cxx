@@ -29,7 +29,7 @@ SharesMemory()
   EXPECT_EQ(back.size(), mat.size());
 }
 
-/** Value 100 t + 10 y + x. */
+/** Fills the frames with the values 100 t + 10 y + x. */
 void
 Fill(std::vector<cv::Mat> & frames)
 {

@@ -43,7 +43,7 @@ protected:
     Write("s.mha", MakeBurst().GetPointer());
     m_Stack = ReadText(Path("s.mha"));
   }
-  /** A command without the rights of root; empty if there is no way to drop them here. */
+  /** Returns a command without the rights of root; empty if there is no way to drop them here. */
   std::string
   Unprivileged()
   {

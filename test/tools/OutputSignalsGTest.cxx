@@ -52,7 +52,7 @@ protected:
     }
     return child;
   }
-  /** Whether, within ten seconds, a file of an unfinished output is there. */
+  /** Returns whether, within ten seconds, a file of an unfinished output is there. */
   bool
   HasBegun() const
   {

@@ -48,7 +48,7 @@ protected:
     }
   }
 
-  /** A report, whether or not anything was estimated. */
+  /** Returns a report, whether or not anything was estimated. */
   nlohmann::json
   ReportOfBurst(const std::string & options)
   {
@@ -72,7 +72,7 @@ WarningsOf(const nlohmann::json & report)
   return codes;
 }
 
-/** Constant and slope of the least-squares line. */
+/** Returns the constant and the slope of the least-squares line. */
 std::array<double, 2>
 LineThrough(const std::vector<double> & x, const std::vector<double> & y)
 {

@@ -41,7 +41,7 @@ protected:
   {
     fs::remove_all(m_Folder);
   }
-  /** Exit code; what the program says goes to m_Message. */
+  /** Runs the program. Returns its exit code, and sets m_Message and m_Output. */
   int
   Run(const std::string & arguments)
   {
@@ -86,7 +86,7 @@ protected:
     }
     return names;
   }
-  /** Exit code 2, one sentence with these words, and no file. */
+  /** Expects exit code 2, one sentence with these words, and no file. */
   void
   ExpectError(const std::string & arguments, const std::string & words)
   {

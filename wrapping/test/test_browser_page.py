@@ -392,7 +392,8 @@ def test_every_format_is_read_as_by_the_tool(page, tool, tmp_path):
 
 @pytest.mark.parametrize("cfa", [(0, 1, 1, 2), (1, 2, 0, 1)])
 def test_settings_of_a_raw_file_reach_the_estimate(page, tool, tmp_path, cfa):
-    """A mosaic as DNG: pattern, black and white level, ISO speed and exposure are those that the tool reads."""
+    """The page reads the same pattern, black and white level, ISO speed and exposure from a mosaic as DNG as the tool
+    does."""
     flags = "--size 192x128 --frames 20 --bayer RGGB"
     tool("simulate-sensor-noise", "--output", tmp_path / "b.mha", *flags.split())
     frames, _ = read_frames(tmp_path / "b.mha")

@@ -91,7 +91,8 @@ def test_mean_and_mask_of_the_statistics(white):
 
 
 def test_series_are_taken_out(white):
-    """A spatial pattern with a temporal component of mean 0 correlates neighbouring pixels until it is taken out."""
+    """A spatial pattern with a temporal component of mean 0 correlates neighbouring pixels until it is projected
+    out."""
     series = np.where(np.arange(30) % 3 == 0, 2.0, -1.0)
     pattern = 3 * np.random.default_rng(8).normal(size=(32, 40)).repeat(4, axis=0).repeat(4, axis=1)
     stack = white + series[:, None, None] * pattern

@@ -197,7 +197,7 @@ def test_bad_images_and_denoisers(scene):
 
 
 def test_denoiser_of_a_package_that_is_not_installed_is_named(burst, monkeypatch):
-    getattr(itk, "BilateralImageFilter", None)  # loads ITK's module, whose attribute then is an ordinary one
+    getattr(itk, "BilateralImageFilter", None)  # loads the module of ITK: the class then is an ordinary attribute
     monkeypatch.delattr(itk, "BilateralImageFilter", raising=False)
     with pytest.raises(ImportError, match=r"itk-filtering.*pip install itk-sensornoise\[itk\]"):
         itk.denoise_with_noise_model(burst[0], denoiser="itk", variance_slope=1.0, total_intercept=-36.0)

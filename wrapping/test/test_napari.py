@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Tests the plugin of napari without a screen: what its widgets do to layers, and what they say."""
+"""Tests the plugin of napari without a screen: the effects of its widgets on layers, and their messages."""
 
 import json
 import os
@@ -70,7 +70,7 @@ def finish(panel) -> None:
 
 
 def run(panel) -> str:
-    """Presses the button of a widget, waits, and returns what it says."""
+    """Presses the button of a widget, waits, and returns its message."""
     panel.run_button.click()
     finish(panel)
     return panel.status.text()

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Tests a camera over its settings: the passport, its exports, and how it goes on."""
+"""Tests a camera over its settings: the passport, its exports, and the continuation of a sweep."""
 
 import json
 import pickle
@@ -266,7 +266,7 @@ def test_wrong_use_is_refused(sources, options, said, tmp_path, monkeypatch):
 
 @pytest.fixture
 def recorded(tmp_path):
-    """Writes DNG files that record their ISO speed and exposure, with names that do not say them."""
+    """Writes DNG files that record their ISO speed and exposure. The names of the files do not contain them."""
     pytest.importorskip("rawpy")
 
     def write(frames, iso, exposure, name="frames"):

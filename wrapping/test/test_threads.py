@@ -72,7 +72,7 @@ class Lazy:
 
 
 def test_frames_that_python_reads_are_measured_beside_a_busy_thread(burst, dark):
-    """The lock must be kept where ITK calls functions of Python without taking it: of frames and of dark frames."""
+    """The lock must be kept where ITK calls functions of Python without taking it: for frames and for dark frames."""
     expected = itk.estimate_sensor_noise(burst, dark=dark)
     for frames, of_dark in ((Lazy(burst), dark), (burst, Lazy(dark)), (list(burst), list(dark))):
         found = []
