@@ -151,8 +151,8 @@ inline constexpr std::array<WarningKind, 53> WarningTable{ {
     "clip-level-found",
     Severity::Note,
     "The sensor saturates inside the range of its digital numbers, or the frames are floating-point. Pixels that reach "
-    "the level are left out, because clipping reduces their variance. Check the level, and give the right one (--clip) "
-    "if it is wrong." },
+    "the level are left out, because clipping reduces their variance. Check the level, and give the correct "
+    "level (--clip) if it is wrong." },
   { WarningCode::NotFinitePixels,
     "not-finite-pixels",
     Severity::Note,
@@ -161,7 +161,8 @@ inline constexpr std::array<WarningKind, 53> WarningTable{ {
   { WarningCode::NearClipLevel,
     "near-clip-level",
     Severity::Note,
-    "More than 1 % of the pixels reach a clip level, or noise and flicker could carry them there. They are left out, "
+    "More than 1 % of the pixels reach a clip level, or could reach it by noise and flicker. These pixels are left "
+    "out, "
     "because clipping reduces their variance. Change the exposure to keep them." },
   { WarningCode::NotStatic,
     "not-static",
@@ -193,7 +194,9 @@ inline constexpr std::array<WarningKind, 53> WarningTable{ {
   { WarningCode::OffsetDrift,
     "offset-drift",
     Severity::Note,
-    "The dark offset of all pixels drifts over the burst. Let the camera warm up before the recording." },
+    "The dark offset of all pixels drifts over the burst, which gain and intercept allow for, at larger errors. Let "
+    "the "
+    "camera warm up before the recording." },
   { WarningCode::StrongVibration,
     "strong-vibration",
     Severity::Warning,
@@ -244,7 +247,8 @@ inline constexpr std::array<WarningKind, 53> WarningTable{ {
   { WarningCode::SteadyLight,
     "steady-light",
     Severity::Warning,
-    "The level that does not flicker is not the given offset: steady illumination, dark current, or another offset. "
+    "The level that does not flicker differs from the given offset: steady illumination, dark current, or an offset of "
+    "another setting. "
     "Switch steady light sources off, or give an offset of the same exposure and temperature." },
   { WarningCode::OffsetOutOfRange,
     "offset-out-of-range",
@@ -280,18 +284,20 @@ inline constexpr std::array<WarningKind, 53> WarningTable{ {
   { WarningCode::CorrectedVarianceCurved,
     "corrected-variance-curved",
     Severity::Warning,
-    "The corrected variance is a curve of the mean: vibrations, several light sources, or a non-linear response "
-    "(published method). Use --method refined." },
+    "The corrected variance is a curve of the mean, so that the gain depends on the range of levels: vibrations, "
+    "several "
+    "light sources, or a non-linear response (published method). Use --method refined." },
   { WarningCode::BrightSetWidened,
     "bright-set-widened",
     Severity::Note,
-    "Too few pixels have the bright intensity, and a less bright one or a wider range of levels was taken, which "
+    "Too few pixels have the bright intensity. The method takes a less bright intensity or a wider range of levels, "
+    "which "
     "determines flicker and offset less well (published method). Include larger areas of one brightness in the "
     "scene." },
   { WarningCode::DarkSetWidened,
     "dark-set-widened",
     Severity::Note,
-    "Too few pixels have the dark intensity, and a less dark one or a wider range of levels was taken, which "
+    "Too few pixels have the dark intensity. The method takes a less dark intensity or a wider range of levels, which "
     "determines the offset less well (published method). Include larger areas of one brightness in the scene." },
   { WarningCode::SceneChanges,
     "scene-changes",
@@ -322,7 +328,8 @@ inline constexpr std::array<WarningKind, 53> WarningTable{ {
   { WarningCode::NoiseNotLinear,
     "noise-not-linear",
     Severity::Error,
-    "The noise is not as a linear filter leaves it: the camera corrects defects, takes medians or compresses, parts of "
+    "The noise does not fit sensor noise after a linear filter: the camera corrects defects, takes medians or "
+    "compresses, parts of "
     "the scene move by themselves, or the illumination changes in fine patterns. Set the camera to raw frames, or "
     "choose a smooth and evenly lit part of the scene (--roi)." },
   { WarningCode::FramesEnlarged,

@@ -164,12 +164,12 @@ FillParameters(Report & report, const PublishedFindings & found, const Published
   report.fit.offsetLinePhi = found.flicker.offsetLinePhi;
   if (estimate.curvedFraction)
   {
-    report.Warn(
-      WarningCode::CorrectedVarianceCurved,
-      "the corrected variance deviates from its line by " +
-        PercentApart(*estimate.curvedFraction, LargestCurvedFraction) +
-        " of itself (expected less than 3 %): vibrations, several light sources, or a non-linear response. Use "
-        "--method refined");
+    report.Warn(WarningCode::CorrectedVarianceCurved,
+                "the corrected variance deviates from its line by " +
+                  PercentApart(*estimate.curvedFraction, LargestCurvedFraction) +
+                  " (expected less than 3 %), so that the gain depends on the range of levels: vibrations, several "
+                  "light sources, or "
+                  "a non-linear response. Use --method refined");
   }
 }
 } // namespace

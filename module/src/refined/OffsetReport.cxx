@@ -87,13 +87,14 @@ WarnOfDarkCharge(Report & report, const RefinedResults & found, const RefinedEst
   if (chargeDn2 > InCommon.leastDarkDifference * darkDn2 &&
       charge.slope.value > Significance.severalTests * charge.slope.standardError)
   {
-    report.Warn(WarningCode::DarkSignalVaries,
-                "the level of the dark frames is " + Rounded(charge.spreadDn) +
-                  " DN above its darkest places in the mean, and their variance grows with it by " +
-                  Measured(charge.slope.value, charge.slope.standardError) +
-                  " DN per DN, as of charge: " + Percent(chargeDn2 / darkDn2) +
-                  " of the dark variance. The errors of offset and read noise contain it. Cover the sensor and record "
-                  "the dark frames again, or cool it");
+    report.Warn(
+      WarningCode::DarkSignalVaries,
+      "the level of the dark frames is " + Rounded(charge.spreadDn) +
+        " DN above its darkest places in the mean, and their variance grows with it by " +
+        Measured(charge.slope.value, charge.slope.standardError) +
+        " DN per DN, as charge does: " + Percent(chargeDn2 / darkDn2) +
+        " of the dark variance. The errors of offset and read noise contain this charge. Cover the sensor and "
+        "record the dark frames again, or cool the sensor");
   }
 }
 
@@ -128,13 +129,13 @@ WarnOfKnownOffset(Report & report, const RefinedEstimate & estimate)
         RoundedApart(limits.highestDn, known.valueDn) + " DN: " +
         (isDark
            ? "check whether frames and dark frames are exchanged, or record dark frames with the setting of the frames"
-           : "leave it out, or measure it with dark frames (--dark)"));
+           : "leave the offset out, or measure it with dark frames (--dark)"));
   }
   else if (isAboveFlicker && !known.variance)
   {
     report.Warn(WarningCode::OffsetOutOfRange,
                 "the given offset is " + TextOfExcess(known, flicker) +
-                  ": leave it out, or measure it with dark frames (--dark)");
+                  ": leave the offset out, or measure it with dark frames (--dark)");
   }
 }
 
@@ -147,7 +148,8 @@ TextOfUnknownFlicker(const SeriesOfFlicker & flicker)
     "in the scene";
   if (flicker.failure == FlickerFailure::UnknownOffset)
   {
-    return "the illumination change is not known, and neither is the flicker" + giveOffset;
+    return "signal and offset are not distinguished, so that the illumination change and the flicker are not known" +
+           giveOffset;
   }
   if (flicker.failure == FlickerFailure::UncertainOffset)
   {

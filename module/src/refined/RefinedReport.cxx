@@ -61,8 +61,10 @@ WarnOfIllumination(Report & report, const RefinedResults & found)
   {
     if (found.reestimated.isOffsetDrift)
     {
-      report.Warn(WarningCode::OffsetDrift,
-                  "the dark offset of all pixels drifts over the burst. Let the camera warm up before the recording");
+      report.Warn(
+        WarningCode::OffsetDrift,
+        "the dark offset of all pixels drifts over the burst, which gain and intercept allow for, at larger errors. "
+        "Let the camera warm up before the recording");
     }
     else if (found.IsMotionLocal())
     {
@@ -118,8 +120,8 @@ WarnOfScene(Report & report, const RefinedResults & found)
   {
     report.Warn(WarningCode::NearClipLevel,
                 percent(clipped) +
-                  " of the pixels reach a clip level or could have, and are left out, because clipping reduces their "
-                  "variance" +
+                  " of the pixels reach a clip level, or could reach it by noise and flicker. They are left out, "
+                  "because clipping reduces their variance" +
                   (wells ? ". The noise vanishes at " + Rounded(wells->levelDn) +
                              " DN: there the full wells of the pixels end, which differ by " +
                              Percent(wells->spreadDn / wells->levelDn) + " rms"

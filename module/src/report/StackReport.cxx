@@ -85,7 +85,7 @@ WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary)
                 "the sensor attains only the levels " + TextOfLevels(dnRange) + " DN (" +
                   DescribeClipSource(dnRange.clipSource) +
                   "). Pixels that reach an end are left out, because clipping reduces their variance. Check these "
-                  "levels, and give the right ones (--clip) if they are wrong");
+                  "levels, and give the correct levels (--clip) if they are wrong");
   }
   if (dnRange.steps.IsCompanded())
   {
