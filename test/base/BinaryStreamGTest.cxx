@@ -127,7 +127,7 @@ Make(std::size_t pixels)
   {
     const double x = std::sqrt(static_cast<double>(t + pixels));
     products.OfClass(t, t % GradientClasses).setLinSpaced(x, 7.0);
-    products.OfInstruments(t) = { -x, 1.0 / 3.0 };
+    products.OfInstruments(t, t % FrameProducts::Blocks) = { -x, 1.0 / 3.0 };
     products.OfCell(t, t % 2) = { x / 7.0, 1e-300 };
   }
   return products;

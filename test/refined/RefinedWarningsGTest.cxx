@@ -142,6 +142,27 @@ TEST(SensorNoiseRefinedWarnings, StrongVibration)
   ExpectWarns(Simulate<GreyValue>(settings, Size, Size), WarningCode::StrongVibration);
 }
 
+TEST(SensorNoiseRefinedWarnings, MotionNotUniform)
+{
+  // A bright board of squares is reflected into half of the frame, and stays where it is while the scene moves.
+  SimulationSettings settings = StaticCamera(Frames);
+  settings.conditions.vibrationSdXPixels = settings.conditions.vibrationSdYPixels = 0.1;
+  std::mt19937                    random(3);
+  std::poisson_distribution<long> electrons(3000.0);
+  const auto                      withBoard = [&](auto, std::size_t x, std::size_t y, double u) {
+    const bool isBright = x > Size / 2 && (x / 12 + y / 12) % 2 == 0;
+    return u + (isBright ? static_cast<double>(electrons(random)) : 0.0); // gain 1 DN/e-
+  };
+  const Stack<GreyValue> stack = Changed(withBoard, settings);
+  ExpectWarns(stack, WarningCode::MotionNotUniform);
+  const Report report = Measure(stack, {}).GetReport();
+  EXPECT_FALSE(report.vibrationSdX.value && report.vibrationSdY.value);
+  EXPECT_FALSE(report.vibrationCovariance.value);
+  const Report plain = Measure(Simulate<GreyValue>(settings, Size, Size), {}).GetReport();
+  EXPECT_FALSE(HasWarning(plain, WarningCode::MotionNotUniform));
+  EXPECT_TRUE(plain.vibrationSdX.value && plain.vibrationSdY.value);
+}
+
 TEST(SensorNoiseRefinedWarnings, FlickerNotIdentifiable)
 {
   const Report report =

@@ -154,7 +154,7 @@ TEST(SensorNoiseMotionSeries, ThirdDifferencesBeyondADerivativeAreNotSubtracted)
 {
   const Fit             fit(0.0, ChangesWithThird(-0.5));
   const auto            shifts = SolveShifts(fit.sums, fit.equations, fit.motion, {}, Flicker(), fit.offset);
-  const auto &          gram = fit.sums.GetInstrumentGram();
+  const auto            gram = fit.sums.GetInstrumentGram();
   const Eigen::Matrix2d first = gram.middleCols<2>(2 + StencilX);
   const Eigen::Matrix2d third = gram.middleCols<2>(2 + StencilXXX);
   ASSERT_TRUE(shifts);
@@ -215,7 +215,7 @@ TEST(SensorNoiseMotionSeries, CommonNoiseOfInstrumentsAndRegressorsIsSubtracted)
   const auto shifts = SolveShifts(fit.sums, fit.equations, fit.motion, noise, Flicker(), fit.offset);
   const auto plain = SolveShifts(fit.sums, fit.equations, fit.motion, {}, Flicker(), fit.offset);
   ASSERT_TRUE(shifts && plain);
-  const auto &           gram = fit.sums.GetInstrumentGram();
+  const auto             gram = fit.sums.GetInstrumentGram();
   Eigen::Matrix2d        gradient = gram.middleCols<2>(2 + StencilX) + third * gram.middleCols<2>(2 + StencilXXX);
   const auto             rest = plain->coefficients * gradient.transpose();
   const Eigen::MatrixX2d expected = rest;
@@ -260,6 +260,46 @@ TEST(SensorNoiseMotionSeries, AlongOneAxisTheInstrumentsFindTheShiftsAlone)
   EXPECT_EQ(shifts->covariance(1, 1), 0.0);
   // Each gradient class has the same shifts.
   EXPECT_NEAR(ScaleErrorsOf(fit.sums, {}, motion, Flicker(), fit.offset)(0), 0.0, 1e-8);
+}
+
+TEST(SensorNoiseMotionSeries, BlocksThatDoNotMoveDeviate)
+{
+  std::vector<FrameChange> changes = Changes();
+  for (FrameChange & change : changes)
+  {
+    std::fill(change.motion.begin() + 1, change.motion.end(), 0.0);
+  }
+  Fit fit(1e-3, changes);
+  EXPECT_LT(SolveShifts(fit.sums, fit.equations, fit.motion, {}, Flicker(), fit.offset)->ofBlocks[0].rms, 1e-3);
+
+  // The right half does not move. Cells, and so blocks, end at the middle.
+  for (std::size_t i = 0; i < fit.frames.pixels.size(); ++i)
+  {
+    const std::size_t p = i % fit.frames.Pixels();
+    if (p % Width >= Width / 2 && fit.frames.take[p] != 0)
+    {
+      fit.frames.pixels[i] -= changes[i / fit.frames.Pixels()].motion[StencilX] * fit.frames.Derivative(StencilX, p);
+    }
+  }
+  const FrameSums      sums = fit.frames.Sums();
+  const FrameEquations equations = AlongX(MakeFrameEquations(sums, {}, GradientClasses - 1));
+  const MotionSeries   motion = SolveMotion(equations, Flicker(), fit.offset);
+  const auto           shifts = SolveShifts(sums, equations, motion, {}, Flicker(), fit.offset);
+  ASSERT_TRUE(shifts);
+  // With the fraction c of the derivatives in the left half, the common shift is c times the shift of this half.
+  double      ofLeft = 0.0;
+  std::size_t blocks = 0;
+  for (std::size_t block = 0; block < FrameProducts::Blocks; ++block)
+  {
+    const double own = sums.GetInstrumentGram(block)(0, 2 + StencilX);
+    ofLeft += block % FrameProducts::BlocksPerAxis < FrameProducts::BlocksPerAxis / 2 ? own : 0.0;
+    blocks += own != 0.0 ? 1 : 0;
+  }
+  EXPECT_EQ(blocks, 8U); // two cells side by side
+  const double c = ofLeft / sums.GetInstrumentGram()(0, 2 + StencilX);
+  EXPECT_NEAR(shifts->ofBlocks[0].rms, std::sqrt(c * std::pow(1.0 / c - 1.0, 2) + 1.0 - c), 0.01);
+  EXPECT_NEAR(shifts->coefficients(3, 0), c * changes[3].motion[StencilX], 0.02 * changes[3].motion[StencilX]);
+  EXPECT_EQ(shifts->ofBlocks[1].rms, 0.0); // no shift along y
 }
 
 TEST(SensorNoiseMotionSeries, WithoutDerivativesNoShiftsAreFound)

@@ -33,6 +33,7 @@ enum class WarningCode : std::uint8_t
   LinesWithoutFlicker,
   OffsetDrift,
   StrongVibration,
+  MotionNotUniform,
   PeriodicInterference,
   NoiseCorrelated,
   ResponseNotStraight,
@@ -94,7 +95,7 @@ struct WarningKind
 
 /** All warnings that a report can have, in the order of WarningCode. documentation/reference/warnings.md and the Python
  * package show this table. The message of a warning has the numbers. */
-inline constexpr std::array<WarningKind, 53> WarningTable{ {
+inline constexpr std::array<WarningKind, 54> WarningTable{ {
   { WarningCode::FewFrames,
     "few-frames",
     Severity::Warning,
@@ -202,6 +203,13 @@ inline constexpr std::array<WarningKind, 53> WarningTable{ {
     Severity::Warning,
     "The scene may move by more than 0.4 pixels rms, so that rough areas are left out. Choose a smooth part "
     "of the scene (--roi), or keep camera and scene still." },
+  { WarningCode::MotionNotUniform,
+    "motion-not-uniform",
+    Severity::Note,
+    "Blocks of the frame do not share the shifts of the scene, so that there is no common vibration: a part of the "
+    "frame "
+    "does not move with the scene, or changes of the illumination resemble motion. Gain and intercept allow for both. "
+    "Choose a part of the frame that moves as a whole (--roi)." },
   { WarningCode::PeriodicInterference,
     "periodic-interference",
     Severity::Note,

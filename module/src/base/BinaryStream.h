@@ -26,7 +26,7 @@ namespace sensornoise
 {
 
 /** Version of the data after the header; a big-endian machine reads another number. */
-inline constexpr std::uint32_t SumsVersion = 5;
+inline constexpr std::uint32_t SumsVersion = 6;
 
 /** Writes \a count numbers. Throws std::runtime_error if the stream does not accept them. */
 template <typename TNumber>

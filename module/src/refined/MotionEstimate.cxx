@@ -3,6 +3,7 @@
 #include "refined/RefinedEstimate.h"
 
 #include "base/ChiSquare.h"
+#include "base/Constants.h"
 #include "base/Stencils.h"
 #include "moments/Constants.h"
 #include "refined/Constants.h"
@@ -14,6 +15,7 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -29,6 +31,10 @@ struct AxisMotion
   std::vector<double> leastSquares; ///< shift of every frame by least squares [pixel]
   Eigen::Index        place{ 0 };   ///< index of its derivative among the derivatives of the motion
   Quantity            sd{ Quantity::Without(EstimateStatus::NotIdentifiable) };
+
+  /** Upper end of the interval of the standard deviation, also if the blocks do not share it [pixel]. */
+  std::optional<double> highestSd;
+  double                deviationOfBlocks{ 0.0 }; ///< see DeviationOfBlocks::rms; 0 without motion [1]
 };
 
 /** Weights of the frames' shifts, whose variance is proportional to 1 / (1 + gamma_t)^2. They differ only under strong
@@ -226,6 +232,13 @@ ScaleErrors(const ReestimatedComponents & reestimated, bool isSharp)
   return (reestimated.shifts->scaleErrors.cwiseAbs2() + (ofEdges * reestimated.scaleErrors).cwiseAbs2()).cwiseSqrt();
 }
 
+/** Returns the deviation of the blocks' shifts along an axis; 0 without instruments. */
+DeviationOfBlocks
+OfBlocks(const ReestimatedComponents & reestimated, Eigen::Index axis)
+{
+  return reestimated.shifts ? reestimated.shifts->ofBlocks[static_cast<std::size_t>(axis)] : DeviationOfBlocks();
+}
+
 /** Returns the motion along \a axis, whose derivative is \a stencil: by instruments where they are available, else by
  * least squares. \a scaleErrors are the relative systematic errors, see ScaleErrors(). With instruments a part of the
  * difference between both methods is added. */
@@ -258,7 +271,17 @@ MotionAlong(Eigen::Index                  axis,
   }
   if (!(std::abs(reestimated.motion.ofOtherAxis) > InRefined.largestFractionOfOtherAxis))
   {
-    result.sd = RootOf(spread.square, std::hypot(std::sqrt(errorSquare), systematic));
+    const double square = std::hypot(std::sqrt(errorSquare), systematic);
+    // Without motion, the shifts are noise, which differs by blocks.
+    const bool              moves = RootOf(spread.square, square).status == EstimateStatus::Identified;
+    const DeviationOfBlocks ofBlocks = moves ? OfBlocks(reestimated, axis) : DeviationOfBlocks();
+    const Quantity          sd = RootOf(spread.square, std::hypot(square, 2.0 * spread.square * ofBlocks.error));
+    result.highestSd = sd.interval95 ? sd.interval95->high : std::nullopt;
+    result.deviationOfBlocks = ofBlocks.rms;
+    if (!(ofBlocks.rms > InCommon.largestRelativeError))
+    {
+      result.sd = sd;
+    }
   }
   result.series = std::move(spread.series);
   return result;
@@ -331,11 +354,13 @@ EstimateMotion(const RefinedResults & found, const std::vector<double> & gamma, 
     illumination.inUse.offset = offsetFromCentre;
     illumination.inUse.UseOffset(offsetFromCentre);
   }
-  const Eigen::Vector2d scaleErrors = ScaleErrors(reestimated, found.scene.model.isSharp);
-  const AxisMotion      x = MotionAlong(0, StencilX, reestimated, scaleErrors, illumination, weights);
-  const AxisMotion      y = MotionAlong(1, StencilY, reestimated, scaleErrors, illumination, weights);
+  Eigen::Vector2d  scaleErrors = ScaleErrors(reestimated, found.scene.model.isSharp);
+  const AxisMotion x = MotionAlong(0, StencilX, reestimated, scaleErrors, illumination, weights);
+  const AxisMotion y = MotionAlong(1, StencilY, reestimated, scaleErrors, illumination, weights);
   motion.sdX = x.sd;
   motion.sdY = y.sd;
+  motion.highestSds = { x.highestSd, y.highestSd };
+  motion.deviationOfBlocks = std::max(x.deviationOfBlocks, y.deviationOfBlocks);
   if (x.series.empty() || y.series.empty())
   {
     return motion;
@@ -345,6 +370,14 @@ EstimateMotion(const RefinedResults & found, const std::vector<double> & gamma, 
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN(); // motion of a dark frame
     const bool       isKnown = weights.ofFrames[t] > 0.0;
     motion.shifts.push_back({ isKnown ? x.series[t] : unknown, isKnown ? y.series[t] : unknown });
+  }
+  if (motion.deviationOfBlocks > InCommon.largestRelativeError)
+  {
+    return motion;
+  }
+  for (const Eigen::Index axis : { 0, 1 })
+  {
+    scaleErrors(axis) = std::hypot(scaleErrors(axis), OfBlocks(reestimated, axis).error);
   }
   const Quantity covariance = CovarianceOf(x, y, reestimated, scaleErrors, weights);
   if (std::isfinite(covariance.value.value_or(0.0))) // NaN: the illumination is not known

@@ -114,12 +114,11 @@ SettingsOfSensor(const RefinedResults & found, double quantisationDn2)
 std::optional<double>
 FindStrongVibration(const RefinedResults & found, const SeriesOfMotion & motion)
 {
-  const auto alongAxis = [](const Quantity & sd, double initial) {
-    return sd.interval95 && sd.interval95->high ? std::min(*sd.interval95->high, std::sqrt(initial))
-                                                : std::sqrt(initial);
+  const auto alongAxis = [](const std::optional<double> & highest, double initial) {
+    return highest ? std::min(*highest, std::sqrt(initial)) : std::sqrt(initial);
   };
-  const double vibration = std::max(alongAxis(motion.sdX, found.scene.model.vibrationXPixels2),
-                                    alongAxis(motion.sdY, found.scene.model.vibrationYPixels2));
+  const double vibration = std::max(alongAxis(motion.highestSds[0], found.scene.model.vibrationXPixels2),
+                                    alongAxis(motion.highestSds[1], found.scene.model.vibrationYPixels2));
   return vibration > InRefined.strongVibration && !found.IsFlatUnderChange() ? std::optional(vibration) : std::nullopt;
 }
 

@@ -124,6 +124,9 @@ struct SeriesOfMotion
   Quantity                           sdX;    ///< [pixel]
   Quantity                           sdY;    ///< [pixel]
   Quantity                           covariance; ///< [pixel^2]
+  /** Upper ends of the intervals of sdX and sdY, also if the blocks of the frame do not share the motion [pixel]. */
+  std::array<std::optional<double>, 2> highestSds;
+  double deviationOfBlocks{ 0.0 }; ///< the larger rms deviation of x and y, see DeviationOfBlocks [1]
 };
 
 /** Estimates the motion beside the flicker \a gamma of the frames, at the same offset. An error of the offset turns a

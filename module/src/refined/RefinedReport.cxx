@@ -3,6 +3,7 @@
 #include "refined/RefinedReport.h"
 
 #include "sensornoise/Settings.h"
+#include "base/Constants.h"
 #include "base/Quantiles.h"
 #include "base/Text.h"
 #include "correlation/NoiseCorrelation.h"
@@ -277,6 +278,16 @@ WarnOfEstimate(Report & report, const RefinedResults & found, const RefinedEstim
                   " pixels rms (expected at most " + Rounded(InRefined.strongVibration) +
                   "), so that rough areas are left out. Choose a smooth part of the scene (--roi), or keep camera and "
                   "scene still");
+  }
+  if (estimate.motion.deviationOfBlocks > InCommon.largestRelativeError)
+  {
+    report.Warn(
+      WarningCode::MotionNotUniform,
+      "the shifts of blocks of the frame deviate from the common shifts by " +
+        PercentApart(estimate.motion.deviationOfBlocks, InCommon.largestRelativeError) + " rms (expected at most " +
+        Percent(InCommon.largestRelativeError) +
+        "): a part of the frame does not move with the scene, or changes of the illumination resemble motion. "
+        "Gain and intercept allow for both. Choose a part of the frame that moves as a whole (--roi)");
   }
   WarnOfGain(report, found, estimate.ofSensor, estimate.effectOfLines);
   if (estimate.ofSensor.IsIdentified())

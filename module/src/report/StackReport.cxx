@@ -334,11 +334,12 @@ bool
 MayFollow(WarningCode code)
 {
   return KindOf(code).severity == Severity::Error || code == WarningCode::NearClipLevel ||
-         code == WarningCode::StrongVibration || code == WarningCode::LocalLight || code == WarningCode::NotStatic ||
-         code == WarningCode::OffsetLineMisfit || code == WarningCode::OffsetAboveDarkest ||
-         code == WarningCode::OffsetNotIdentifiable || code == WarningCode::FlickerNotIdentifiable ||
-         code == WarningCode::CorrectedVarianceCurved || code == WarningCode::PoorFit ||
-         code == WarningCode::RollingShutter || code == WarningCode::LinesWithoutFlicker;
+         code == WarningCode::StrongVibration || code == WarningCode::MotionNotUniform ||
+         code == WarningCode::LocalLight || code == WarningCode::NotStatic || code == WarningCode::OffsetLineMisfit ||
+         code == WarningCode::OffsetAboveDarkest || code == WarningCode::OffsetNotIdentifiable ||
+         code == WarningCode::FlickerNotIdentifiable || code == WarningCode::CorrectedVarianceCurved ||
+         code == WarningCode::PoorFit || code == WarningCode::RollingShutter ||
+         code == WarningCode::LinesWithoutFlicker;
 }
 } // namespace
 

@@ -23,6 +23,21 @@ namespace detail
 using WeightedColumns = FrameRegressors::WeightedColumns;
 using ClassColumns = std::array<WeightedColumns, GradientClasses>;
 
+/** Sums over a row of cells for one frame: with the weighted columns by gradient class, and with the instruments for
+ * the blocks side by side. */
+struct RowSums
+{
+  ClassColumns                                                    ofClasses{};
+  std::array<std::array<double, 2>, FrameProducts::BlocksPerAxis> ofInstruments{};
+};
+
+/** Sums over one group of pixels: with the instruments, and with 1 and the mean in the weights of cells. */
+struct GroupColumns
+{
+  const double * ofInstruments;
+  const double * ofCell;
+};
+
 inline constexpr std::size_t BandPixels = 4096; // size of a band: its columns stay in the second-level cache
 
 /** Calls function() after \a band was moved to each band of a row of cells, in order. */
@@ -43,14 +58,14 @@ ForBands(const FrameGeometry & geometry,
   }
 }
 
-/** Adds the sums of \a count series over a band to the sums over the classes. Calls function(cell of the band, series,
- * sum of w, sum of w I) for the cells, group by group. */
-template <typename TFunction>
+/** Adds the sums of \a count series over a band to the sums over the classes, classesOf(series). Calls function(cell of
+ * the band, series, GroupColumns) group by group. */
+template <typename TClasses, typename TFunction>
 void
 AddToClasses(const RegressorBand &                    band,
              const std::vector<RegressorBand::Sums> & sums,
              std::size_t                              count,
-             ClassColumns *                           parts,
+             TClasses                                 classesOf,
              TFunction                                function)
 {
   for (std::size_t g = 0; g < sums.size(); ++g)
@@ -59,10 +74,9 @@ AddToClasses(const RegressorBand &                    band,
     for (std::size_t k = 0; k < count; ++k)
     {
       const double * const sum = sums[g][k].data();
-      WeightedColumns &    columns = parts[k][group.gradientClass];
+      WeightedColumns &    columns = classesOf(k)[group.gradientClass];
       std::transform(columns.begin(), columns.end(), sum, columns.begin(), std::plus<double>());
-      function(
-        group.cell, k, sum[FrameColumns + FrameSums::Instruments], sum[FrameColumns + FrameSums::Instruments + 1]);
+      function(group.cell, k, GroupColumns{ sum + FrameColumns, sum + FrameColumns + FrameSums::Instruments });
     }
   }
 }
@@ -72,12 +86,12 @@ AddToClasses(const RegressorBand &                    band,
 template <typename TPixel>
 struct FrameSums::Batch
 {
-  FrameSums *                                    sums{ nullptr };
-  const TPixel *                                 frames{ nullptr };
-  std::size_t                                    first{ 0 };
-  std::size_t                                    count{ 0 };
-  std::vector<std::vector<detail::ClassColumns>> parts;     // columns of each row of cells and each frame
-  std::vector<ColumnSums>                        ofColumns; // sums of each row of cells; empty: they are known
+  FrameSums *                               sums{ nullptr };
+  const TPixel *                            frames{ nullptr };
+  std::size_t                               first{ 0 };
+  std::size_t                               count{ 0 };
+  std::vector<std::vector<detail::RowSums>> parts;     // sums of each row of cells and each frame
+  std::vector<ColumnSums>                   ofColumns; // sums of each row of cells; empty: they are known
 
   /** Adds the sums over a row of cells. Different rows may be added at the same time. */
   void
@@ -112,12 +126,15 @@ struct FrameSums::Batch
           band,
           band.Multiply([&, next = t + together](std::size_t group) { this->AskFor(band, group, next); }),
           together,
-          &parts[cellRow][t],
-          [&](std::size_t cell, std::size_t k, double w, double wI) {
+          [&](std::size_t k) -> detail::ClassColumns & { return parts[cellRow][t + k].ofClasses; },
+          [&](std::size_t cell, std::size_t k, const detail::GroupColumns & sum) {
             std::array<double, 2> & ofCell =
               sums->m_Products.OfCell(first + t + k, cellRow * sums->m_CellsPerRow + cell);
-            ofCell[0] += w;
-            ofCell[1] += wI;
+            ofCell[0] += sum.ofCell[0];
+            ofCell[1] += sum.ofCell[1];
+            std::array<double, 2> & ofInstruments = parts[cellRow][t + k].ofInstruments[sums->BlockOfCell(cell)];
+            ofInstruments[0] += sum.ofInstruments[0];
+            ofInstruments[1] += sum.ofInstruments[1];
           });
       }
     });
@@ -144,16 +161,21 @@ struct FrameSums::Batch
     {
       sums->TakeColumns(ofColumns);
     }
-    for (const std::vector<detail::ClassColumns> & part : parts)
+    for (std::size_t cellRow = 0; cellRow < parts.size(); ++cellRow)
     {
+      const std::size_t block = sums->BlockOfRow(cellRow) * FrameProducts::BlocksPerAxis;
       for (std::size_t t = 0; t < count; ++t)
       {
+        const detail::RowSums & row = parts[cellRow][t];
         for (std::size_t c = 0; c < GradientClasses; ++c)
         {
-          const detail::WeightedColumns & columns = part[t][c];
-          sums->m_Products.OfClass(first + t, c) += Eigen::Map<const ColumnVector>(columns.data());
-          sums->m_Products.OfInstruments(first + t)[0] += columns[FrameColumns];
-          sums->m_Products.OfInstruments(first + t)[1] += columns[FrameColumns + 1];
+          sums->m_Products.OfClass(first + t, c) += Eigen::Map<const ColumnVector>(row.ofClasses[c].data());
+        }
+        for (std::size_t b = 0; b < FrameProducts::BlocksPerAxis; ++b)
+        {
+          std::array<double, 2> & ofBlock = sums->m_Products.OfInstruments(first + t, block + b);
+          ofBlock[0] += row.ofInstruments[b][0];
+          ofBlock[1] += row.ofInstruments[b][1];
         }
       }
     }

@@ -28,7 +28,7 @@ FrameProducts::FrameProducts(std::size_t pixels, std::size_t frames, std::size_t
   , m_Frames(frames)
   , m_Cells(cells)
   , m_ClassSums(frames * GradientClasses, ColumnVector::Zero())
-  , m_InstrumentSums(frames, { 0.0, 0.0 })
+  , m_InstrumentSums(frames * Blocks, { 0.0, 0.0 })
   , m_CellSums(frames * cells, { 0.0, 0.0 })
 {}
 
@@ -43,10 +43,10 @@ FrameProducts::Merge(const FrameProducts & other)
   {
     m_ClassSums[i] += other.m_ClassSums[i];
   }
-  for (std::size_t t = 0; t < m_InstrumentSums.size(); ++t)
+  for (std::size_t i = 0; i < m_InstrumentSums.size(); ++i)
   {
-    m_InstrumentSums[t][0] += other.m_InstrumentSums[t][0];
-    m_InstrumentSums[t][1] += other.m_InstrumentSums[t][1];
+    m_InstrumentSums[i][0] += other.m_InstrumentSums[i][0];
+    m_InstrumentSums[i][1] += other.m_InstrumentSums[i][1];
   }
   for (std::size_t i = 0; i < m_CellSums.size(); ++i)
   {
@@ -173,7 +173,7 @@ FrameSums::FrameSums(FrameRegressors regressors, const ParallelFor & parallelFor
   , m_CellsPerRow(std::clamp<std::size_t>(this->GetFrame().geometry.width / 32, 1, 16))
   , m_Products(this->GetFrame().mean.size(), this->GetFrame().frames, m_CellRows * m_CellsPerRow)
   , m_ClassGram(GradientClasses, ClassMatrix::Zero())
-  , m_InstrumentGram(Eigen::Matrix<double, Instruments, FrameColumns>::Zero())
+  , m_InstrumentGrams(FrameProducts::Blocks, InstrumentGram::Zero())
 {
   this->SumInstruments(parallelFor);
 }
@@ -203,8 +203,7 @@ FrameSums::AddFrames(const std::vector<Plane> & planes,
                      const ParallelFor &        parallelFor)
 {
   const std::size_t cellRows = planes.front().sums->m_CellRows;
-  const std::size_t together =
-    std::max(RegressorBand::Together, BytesOfBatch / (cellRows * sizeof(detail::ClassColumns)));
+  const std::size_t together = std::max(RegressorBand::Together, BytesOfBatch / (cellRows * sizeof(detail::RowSums)));
   for (std::size_t begin = 0; begin < count; begin += together)
   {
     std::vector<Batch<TPixel>> batches;
@@ -215,7 +214,7 @@ FrameSums::AddFrames(const std::vector<Plane> & planes,
                           frames + begin * sums.m_Layout.frame,
                           plane.first + begin,
                           std::min(together, count - begin),
-                          std::vector<std::vector<detail::ClassColumns>>(cellRows),
+                          std::vector<std::vector<detail::RowSums>>(cellRows),
                           sums.StartColumns() });
     }
     parallelFor(cellRows, [&](std::size_t cellRow) {
@@ -254,33 +253,78 @@ FrameSums::AddColumns(RegressorBand & band, std::size_t cellRow, ColumnSums & co
   }
   for (std::size_t first = 0; first < FrameColumns; first += RegressorBand::Together)
   {
-    detail::AddToClasses(band,
-                         band.MultiplyByValues(first),
-                         std::min(RegressorBand::Together, FrameColumns - first),
-                         &columns[first],
-                         [&](std::size_t cell, std::size_t k, double w, double wI) {
-                           cells[cell].sum[first + k] += w;
-                           cells[cell].sumI[first + k] += wI;
-                         });
+    detail::AddToClasses(
+      band,
+      band.MultiplyByValues(first),
+      std::min(RegressorBand::Together, FrameColumns - first),
+      [&](std::size_t k) -> detail::ClassColumns & { return columns.ofClasses[first + k]; },
+      [&](std::size_t cell, std::size_t k, const detail::GroupColumns & sum) {
+        cells[cell].sum[first + k] += sum.ofCell[0];
+        cells[cell].sumI[first + k] += sum.ofCell[1];
+        columns.ofInstruments[this->BlockOfCell(cell)].col(static_cast<Eigen::Index>(first + k)) +=
+          Eigen::Vector2d(sum.ofInstruments[0], sum.ofInstruments[1]);
+      });
   }
 }
 
 void
 FrameSums::TakeColumns(const std::vector<ColumnSums> & ofCellRows)
 {
-  for (const ColumnSums & columns : ofCellRows)
+  for (std::size_t cellRow = 0; cellRow < ofCellRows.size(); ++cellRow)
   {
+    const ColumnSums & columns = ofCellRows[cellRow];
     for (std::size_t k = 0; k < FrameColumns; ++k)
     {
-      const auto column = static_cast<Eigen::Index>(k);
       for (std::size_t c = 0; c < GradientClasses; ++c)
       {
-        m_ClassGram[c].col(column) += Eigen::Map<const ColumnVector>(columns[k][c].data());
-        m_InstrumentGram.col(column) += Eigen::Map<const Eigen::Vector2d>(columns[k][c].data() + FrameColumns);
+        m_ClassGram[c].col(static_cast<Eigen::Index>(k)) +=
+          Eigen::Map<const ColumnVector>(columns.ofClasses[k][c].data());
       }
+    }
+    for (std::size_t block = 0; block < FrameProducts::BlocksPerAxis; ++block)
+    {
+      m_InstrumentGrams[this->BlockOfRow(cellRow) * FrameProducts::BlocksPerAxis + block] +=
+        columns.ofInstruments[block];
     }
   }
   m_HasColumns = true;
+}
+
+Eigen::Vector2d
+FrameSums::GetInstrumentSums(std::size_t t) const
+{
+  Eigen::Vector2d sums = Eigen::Vector2d::Zero();
+  for (std::size_t block = 0; block < FrameProducts::Blocks; ++block)
+  {
+    sums += this->GetInstrumentSums(t, block);
+  }
+  return sums;
+}
+
+FrameSums::InstrumentGram
+FrameSums::GetInstrumentGram() const
+{
+  InstrumentGram gram = InstrumentGram::Zero();
+  for (const InstrumentGram & ofBlock : m_InstrumentGrams)
+  {
+    gram += ofBlock;
+  }
+  return gram;
+}
+
+double
+FrameSums::FractionOfBlock(std::size_t block) const
+{
+  double all = 0.0;
+  double own = 0.0;
+  for (std::size_t c = 0; c < m_Cells.size(); ++c)
+  {
+    const auto        pixels = static_cast<double>(m_Cells[c].pixels);
+    const std::size_t row = this->BlockOfRow(c / m_CellsPerRow);
+    all += pixels;
+    own += row * FrameProducts::BlocksPerAxis + this->BlockOfCell(c % m_CellsPerRow) == block ? pixels : 0.0;
+  }
+  return all > 0.0 ? own / all : 0.0;
 }
 
 /** Computes the noise of the instruments. The variance is a linear function of the level: the sums with 1 and with the

@@ -30,6 +30,10 @@ class SensorNoise_EXPORT FrameProducts
 public:
   using ColumnVector = Eigen::Matrix<double, FrameColumns, 1>;
 
+  /** The frame is divided into this many blocks along each axis, see SolveShifts(). */
+  static constexpr std::size_t BlocksPerAxis = 4;
+  static constexpr std::size_t Blocks = BlocksPerAxis * BlocksPerAxis;
+
   /** Constructs products of frames of \a pixels pixels, divided into \a cells cells; all products are 0. */
   FrameProducts(std::size_t pixels, std::size_t frames, std::size_t cells);
 
@@ -45,16 +49,16 @@ public:
   {
     return m_ClassSums[t * GradientClasses + gradientClass];
   }
-  /** Products of frame \a t with the two instruments, over all pixels: see SolveShifts(). */
+  /** Products of frame \a t with the two instruments, over the pixels of a block: see SolveShifts(). */
   std::array<double, 2> &
-  OfInstruments(std::size_t t)
+  OfInstruments(std::size_t t, std::size_t block)
   {
-    return m_InstrumentSums[t];
+    return m_InstrumentSums[t * Blocks + block];
   }
   const std::array<double, 2> &
-  OfInstruments(std::size_t t) const
+  OfInstruments(std::size_t t, std::size_t block) const
   {
-    return m_InstrumentSums[t];
+    return m_InstrumentSums[t * Blocks + block];
   }
   /** Products of frame \a t with 1 and the mean minus the centre over cell \a c: see LocalIllumination. */
   std::array<double, 2> &
@@ -113,9 +117,9 @@ struct InstrumentNoise
  *
  *     R[t][class][k] = sum_x w X_k(x) d_t(x),   X = (1, mean - centre, derivatives of the mean),   w = 1 / variance,
  *
- * Over all pixels, two sums with smoothed derivatives are added for the shifts (see SolveShifts()). Over each of up to
- * 1024 rectangular cells, the sums of w d_t and w (mean - centre) d_t are added for local changes of the illumination
- * (see LocalIllumination). Estimator.md, 3.3.
+ * Over each of 16 blocks, two sums with smoothed derivatives are added for the shifts (see SolveShifts()). Over each of
+ * up to 1024 rectangular cells, the sums of w d_t and w (mean - centre) d_t are added for local changes of the
+ * illumination (see LocalIllumination). Estimator.md, 3.3.
  *
  * The sums of a frame are computed row by row in bands of a fixed height: they do not depend on the number of threads
  * or of frames per call. Sums of different frames are separate numbers, so that merged parts of a stack have the same
@@ -128,6 +132,7 @@ public:
 
   using ClassMatrix = Eigen::Matrix<double, FrameColumns, FrameColumns>;
   using ColumnVector = FrameProducts::ColumnVector;
+  using InstrumentGram = Eigen::Matrix<double, Instruments, FrameColumns>;
 
   /** Sums over one cell that need no frame: of w X_k and of w I X_k, I the mean minus the centre. */
   struct Cell
@@ -224,11 +229,16 @@ public:
   {
     return m_Products.OfClass(t, gradientClass);
   }
-  const std::array<double, 2> &
-  GetInstrumentSums(std::size_t t) const
+  /** Returns the sums of a frame with the two instruments over a block, see FrameProducts::BlocksPerAxis. */
+  Eigen::Vector2d
+  GetInstrumentSums(std::size_t t, std::size_t block) const
   {
-    return m_Products.OfInstruments(t);
+    const std::array<double, 2> & sums = m_Products.OfInstruments(t, block);
+    return { sums[0], sums[1] };
   }
+  /** Returns these sums over the frame. */
+  Eigen::Vector2d
+  GetInstrumentSums(std::size_t t) const;
   /** Sums of w d_t and w I d_t over cell \a c. */
   const std::array<double, 2> &
   GetCellSums(std::size_t t, std::size_t c) const
@@ -245,15 +255,41 @@ public:
   {
     return m_ClassGram[gradientClass];
   }
-  const Eigen::Matrix<double, Instruments, FrameColumns> &
-  GetInstrumentGram() const
+  /** Products of the instruments with the columns over a block of the frame. */
+  const InstrumentGram &
+  GetInstrumentGram(std::size_t block) const
   {
-    return m_InstrumentGram;
+    return m_InstrumentGrams[block];
   }
+  /** Returns these products over the frame. */
+  InstrumentGram
+  GetInstrumentGram() const;
+  /** Returns the used pixels of a block as a fraction of the used pixels of the frame [1]. */
+  double
+  FractionOfBlock(std::size_t block) const;
 
 private:
-  /** Sums over a row of cells: the weighted values of every column times the values of each column. */
-  using ColumnSums = std::array<std::array<FrameRegressors::WeightedColumns, GradientClasses>, FrameColumns>;
+  /** Sums over a row of cells: the weighted values of every column times the values of each column by gradient class,
+   * and the products of the instruments with the columns, for the blocks side by side. */
+  struct ColumnSums
+  {
+    std::array<std::array<FrameRegressors::WeightedColumns, GradientClasses>, FrameColumns> ofClasses{};
+    std::array<InstrumentGram, FrameProducts::BlocksPerAxis>                                ofInstruments;
+
+    ColumnSums() { ofInstruments.fill(InstrumentGram::Zero()); }
+  };
+
+  /** Returns the block along y of a row of cells, and the block along x of a cell in a row. */
+  std::size_t
+  BlockOfRow(std::size_t cellRow) const
+  {
+    return cellRow * FrameProducts::BlocksPerAxis / m_CellRows;
+  }
+  std::size_t
+  BlockOfCell(std::size_t cell) const
+  {
+    return cell * FrameProducts::BlocksPerAxis / m_CellsPerRow;
+  }
 
   std::vector<ColumnSums>
   StartColumns();
@@ -272,13 +308,13 @@ private:
   std::size_t     m_CellRows;
   std::size_t     m_CellsPerRow;
 
-  FrameProducts                                    m_Products;
-  bool                                             m_HasColumns{ false }; // whether the next three members are set
-  std::vector<ClassMatrix>                         m_ClassGram;
-  Eigen::Matrix<double, Instruments, FrameColumns> m_InstrumentGram;
-  std::vector<Cell>                                m_Cells;
-  InstrumentNoise                                  m_OfOne;   // noise at the variance 1
-  InstrumentNoise                                  m_OfLevel; // noise at a variance equal to the mean of the neighbours
+  FrameProducts               m_Products;
+  bool                        m_HasColumns{ false }; // whether the next three members are set
+  std::vector<ClassMatrix>    m_ClassGram;
+  std::vector<InstrumentGram> m_InstrumentGrams; // for each block
+  std::vector<Cell>           m_Cells;
+  InstrumentNoise             m_OfOne;   // noise at the variance 1
+  InstrumentNoise             m_OfLevel; // noise at a variance equal to the mean of the neighbours
 };
 
 } // namespace sensornoise

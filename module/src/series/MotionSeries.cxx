@@ -2,38 +2,43 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "series/MotionSeries.h"
 
+#include "base/Constants.h"
 #include "base/Stencils.h"
 #include "series/Constants.h"
 #include "series/FrameSums.h"
 #include "series/FrameRegressors.h"
+#include "series/LocalIllumination.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <vector>
 
 namespace sensornoise
 {
 
 namespace
 {
-using InstrumentGram = Eigen::Matrix<double, FrameSums::Instruments, FrameColumns>;
+using InstrumentGram = FrameSums::InstrumentGram;
 
 /** Largest part of the third central difference D by which a first difference d deviates from the derivative. A
  * band-limited scene has p' = d - D / 6 + ..., because a wave has k = sin k + k^3 / 6 - ... */
 constexpr double LargestThirdDifference = 1.0 / 6.0;
 
-/** Returns the products of the instruments with the columns, without their common noise. */
+/** Returns \a gram, the products of the instruments with the columns, without their common noise. \a variance is the
+ * sum of w V over the same pixels, see InstrumentNoise, and \a frames the number of frames. */
 InstrumentGram
-GramWithoutNoise(const FrameSums & sums, const InstrumentNoise & noise)
+GramWithoutNoise(InstrumentGram gram, double variance, std::size_t frames)
 {
   // The triangle of two boxes of side s has the height 1 / s, and (s - 2) / s^2 two pixels away. A central difference
   // smoothed by it and the plain one have (height - that) / 2 of the noise in common; along the other axis the factor
   // is the height. The value is the same at one pixel and at two, so that the third difference has the same covariance
   // with the other sign.
-  const double   side = 2.0 * static_cast<double>(InSeries.instrumentRadius) + 1.0;
-  const double   shared = 0.5 * (1.0 / side - (side - 2.0) / (side * side)) / side;
-  const auto     frames = sums.GetFrame().frames;
-  const double   ofMean = shared * noise.variance / static_cast<double>(frames);
-  InstrumentGram gram = sums.GetInstrumentGram();
+  const double side = 2.0 * static_cast<double>(InSeries.instrumentRadius) + 1.0;
+  const double shared = 0.5 * (1.0 / side - (side - 2.0) / (side * side)) / side;
+  const double ofMean = shared * variance / static_cast<double>(frames);
   gram(0, 2 + StencilX) -= ofMean;
   gram(1, 2 + StencilY) -= ofMean;
   gram(0, 2 + StencilXXX) += ofMean;
@@ -293,6 +298,143 @@ ShiftsOfSums(const FrameEquations &  equations,
   return inverse * solution;
 }
 
+/** Solution of the products of a frame, or of a block of it, with the instruments. */
+struct InstrumentSolution
+{
+  const MotionSeries &        motion;
+  const std::vector<double> & gamma;
+  Eigen::Vector2d             direction; // direction of the flicker in the columns 0 and 1
+  double                      thirdX;    // coefficient of the third difference over the one of the first, see Bounded
+  double                      thirdY;
+
+  /** Returns the derivatives of the instruments by shifts along x and y: instruments x axes. */
+  Eigen::Matrix2d
+  Derivatives(const InstrumentGram & gram) const
+  {
+    Eigen::Matrix2d derivatives;
+    derivatives << gram.col(2 + StencilX) + thirdX * gram.col(2 + StencilXXX),
+      gram.col(2 + StencilY) + thirdY * gram.col(2 + StencilYYY);
+    return derivatives;
+  }
+
+  /** Returns \a sums of frame \a t with the instruments without flicker and second order: the part of the shifts. */
+  Eigen::Vector2d
+  PartOfShifts(Eigen::Vector2d sums, const InstrumentGram & gram, std::size_t t) const
+  {
+    sums -= gamma[t] * gram.leftCols<2>() * direction;
+    for (std::size_t i = 0; i < motion.stencils.size(); ++i)
+    {
+      const std::size_t k = motion.stencils[i];
+      if (MotionStencils()[k].order == 2)
+      {
+        sums -= motion.coefficients(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(i)) *
+                gram.col(static_cast<Eigen::Index>(2 + k));
+      }
+    }
+    return sums;
+  }
+};
+
+/** Shifts of a block along one axis, beside the shifts of the frame. */
+struct BlockShifts
+{
+  double product{ 0.0 };  ///< product of both series
+  double scatter{ 0.0 };  ///< variance of the noise of a shift of the block [pixel^2]
+  double variance{ 0.0 }; ///< variance of product, by the noise of each frame (White 1980) [pixel^4]
+  double weight{ 0.0 };   ///< derivative of the instrument by the shift
+};
+
+/** Returns the deviation of the blocks along one axis, see DeviationOfBlocks. \a square is the sum of the squared
+ * shifts of the frame, \a dof their degrees of freedom. The noise of a block is a part of the noise of the frame, in
+ * proportion to its weight, and is subtracted from the products. */
+DeviationOfBlocks
+DeviationAlongAxis(const std::vector<BlockShifts> & blocks, double square, double dof)
+{
+  const double weights = std::accumulate(
+    blocks.begin(), blocks.end(), 0.0, [](double sum, const BlockShifts & block) { return sum + block.weight; });
+  const auto noiseOf = [&](const BlockShifts & block) { return dof * block.weight / weights * block.scatter; };
+  double     noise = 0.0;
+  for (const BlockShifts & block : blocks)
+  {
+    noise += block.weight / weights * noiseOf(block);
+  }
+  const double motion = square - noise;
+  if (!(motion > noise))
+  {
+    return {}; // the shifts are mostly noise
+  }
+  double chi2 = 0.0;
+  double squares = 0.0;
+  double squaredWeights = 0.0;
+  for (const BlockShifts & block : blocks)
+  {
+    const double deviation = (block.product - noiseOf(block)) / motion - 1.0;
+    const double variance = block.variance / (motion * motion);
+    chi2 += deviation * deviation / variance;
+    squares += block.weight * (deviation * deviation - variance);
+    squaredWeights += block.weight * block.weight;
+  }
+  const auto count = static_cast<double>(blocks.size());
+  if (!(chi2 > count + Significance.oneTest * std::sqrt(2.0 * count)))
+  {
+    return {};
+  }
+  const double rms = std::sqrt(std::max(0.0, squares / weights));
+  return { rms, rms * std::sqrt(squaredWeights) / weights };
+}
+
+/** Returns the deviations of the blocks' shifts along x and y from the \a shifts of the frame, weighted by the squared
+ * derivatives. A block with more noise than derivatives is left out, and so is the part of the shifts that follows the
+ * flicker, as an error of the offset makes it. */
+std::array<DeviationOfBlocks, 2>
+CompareBlocks(const FrameSums &          sums,
+              const InstrumentSolution & solution,
+              const InstrumentNoise &    noise,
+              const Eigen::MatrixX2d &   shifts)
+{
+  const auto            frames = static_cast<Eigen::Index>(sums.GetFrame().frames);
+  const Eigen::MatrixXd flicker = Orthonormalise(Eigen::Map<const Eigen::VectorXd>(solution.gamma.data(), frames), 1);
+  const auto            withoutFlicker = [&flicker](Eigen::MatrixXd series) {
+    series.rowwise() -= Eigen::RowVectorXd(series.colwise().mean());
+    return Eigen::MatrixXd(series - flicker * (flicker.transpose() * series));
+  };
+  const Eigen::MatrixXd common = withoutFlicker(shifts);
+  const auto            dof = static_cast<double>(frames - 1 - flicker.cols());
+
+  std::array<std::vector<BlockShifts>, 2> ofAxes;
+  for (std::size_t block = 0; block < FrameProducts::Blocks; ++block)
+  {
+    const InstrumentGram & raw = sums.GetInstrumentGram(block);
+    const InstrumentGram   gram =
+      GramWithoutNoise(raw, sums.FractionOfBlock(block) * noise.variance, sums.GetFrame().frames);
+    const Eigen::Matrix2d derivatives = solution.Derivatives(gram);
+    Eigen::MatrixX2d      parts(frames, 2);
+    for (std::size_t t = 0; t < sums.GetFrame().frames; ++t)
+    {
+      parts.row(static_cast<Eigen::Index>(t)) =
+        solution.PartOfShifts(sums.GetInstrumentSums(t, block), gram, t).transpose();
+    }
+    for (const Eigen::Index axis : { 0, 1 })
+    {
+      const double square = common.col(axis).squaredNorm();
+      const double weight = derivatives(axis, axis);
+      if (weight > InSeries.leastSignalFraction * solution.Derivatives(raw)(axis, axis) && square > 0.0 && dof > 1.0)
+      {
+        const Eigen::VectorXd own =
+          withoutFlicker(parts.col(axis) - derivatives(axis, 1 - axis) * shifts.col(1 - axis)) / weight;
+        const double          product = own.dot(common.col(axis));
+        const Eigen::VectorXd rest = own - product / square * common.col(axis);
+        const double          variance = rest.cwiseProduct(common.col(axis)).squaredNorm();
+        const double          more = static_cast<double>(frames) / (dof - 1.0); // for the fitted numbers
+        ofAxes[static_cast<std::size_t>(axis)].push_back(
+          { product, rest.squaredNorm() / (dof - 1.0), more * variance, weight });
+      }
+    }
+  }
+  return { DeviationAlongAxis(ofAxes[0], common.col(0).squaredNorm(), dof),
+           DeviationAlongAxis(ofAxes[1], common.col(1).squaredNorm(), dof) };
+}
+
 /** Returns the axes whose first derivative is active: rows of the identity, axes x 2. */
 Eigen::MatrixXd
 ActiveAxes(const FrameEquations & equations)
@@ -328,14 +470,14 @@ SolveShifts(const FrameSums &           sums,
   {
     return std::nullopt;
   }
-  const auto           frames = sums.GetFrame().frames;
-  const InstrumentGram ofBoth = GramWithoutNoise(sums, noise);
-  const Bounded        alongX = ThirdDifference(equations, gamma, offset, StencilX, StencilXXX);
-  const Bounded        alongY = ThirdDifference(equations, gamma, offset, StencilY, StencilYYY);
-  Eigen::Matrix2d      derivatives;
-  derivatives << ofBoth.col(2 + StencilX) + alongX.mean * ofBoth.col(2 + StencilXXX),
-    ofBoth.col(2 + StencilY) + alongY.mean * ofBoth.col(2 + StencilYYY);
-  const Eigen::MatrixXd gradient = axes * derivatives * axes.transpose();
+  const auto               frames = sums.GetFrame().frames;
+  const InstrumentGram     ofBoth = GramWithoutNoise(sums.GetInstrumentGram(), noise.variance, frames);
+  const Bounded            alongX = ThirdDifference(equations, gamma, offset, StencilX, StencilXXX);
+  const Bounded            alongY = ThirdDifference(equations, gamma, offset, StencilY, StencilYYY);
+  const Eigen::Vector2d    direction(-offset, 1.0); // direction of the flicker in the columns 0 and 1
+  const InstrumentSolution solution{ motion, gamma, direction, alongX.mean, alongY.mean };
+  const Eigen::Matrix2d    derivatives = solution.Derivatives(ofBoth);
+  const Eigen::MatrixXd    gradient = axes * derivatives * axes.transpose();
   if (!(gradient.diagonal().minCoeff() > 0.0 &&
         gradient.determinant() > InSeries.leastDeterminant * gradient.diagonal().prod()))
   {
@@ -343,7 +485,6 @@ SolveShifts(const FrameSums &           sums,
   }
   const Eigen::MatrixXd inverse = gradient.inverse();
   const Eigen::MatrixXd gram = axes * ofBoth;
-  const Eigen::Vector2d direction(-offset, 1.0); // direction of the flicker in the columns 0 and 1
   InstrumentShifts      shifts;
   shifts.ofIllumination = axes.transpose() * inverse * gram.leftCols<2>();
   shifts.scaleErrors << alongX.sd * std::abs(ofBoth(0, 2 + StencilXXX) / derivatives(0, 0)),
@@ -351,22 +492,13 @@ SolveShifts(const FrameSums &           sums,
   shifts.coefficients.resize(static_cast<Eigen::Index>(frames), 2);
   for (std::size_t t = 0; t < frames; ++t)
   {
-    const auto &    sum = sums.GetInstrumentSums(t);
-    Eigen::VectorXd rest = axes * Eigen::Vector2d(sum[0], sum[1]) - gamma[t] * gram.leftCols<2>() * direction;
-    for (std::size_t i = 0; i < motion.stencils.size(); ++i)
-    {
-      const std::size_t k = motion.stencils[i];
-      if (MotionStencils()[k].order == 2)
-      {
-        rest -= motion.coefficients(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(i)) *
-                gram.col(static_cast<Eigen::Index>(2 + k));
-      }
-    }
-    shifts.coefficients.row(static_cast<Eigen::Index>(t)) = (axes.transpose() * inverse * rest).transpose();
+    const Eigen::Vector2d part = solution.PartOfShifts(sums.GetInstrumentSums(t), ofBoth, t);
+    shifts.coefficients.row(static_cast<Eigen::Index>(t)) = (axes.transpose() * inverse * axes * part).transpose();
   }
   const Eigen::MatrixXd ofSums = NoiseOfSums(equations, sums.GetInstrumentGram(), noise);
-  const Eigen::MatrixXd solution = axes.transpose() * ShiftsOfSums(equations, motion, gram, inverse, direction, axes);
-  shifts.covariance = solution * ofSums * solution.transpose();
+  const Eigen::MatrixXd ofShifts = axes.transpose() * ShiftsOfSums(equations, motion, gram, inverse, direction, axes);
+  shifts.covariance = ofShifts * ofSums * ofShifts.transpose();
+  shifts.ofBlocks = CompareBlocks(sums, solution, noise, shifts.coefficients);
   return shifts;
 }
 

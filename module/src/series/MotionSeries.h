@@ -8,6 +8,7 @@
 #include "series/FrameEquations.h"
 #include "series/FrameSums.h"
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -50,6 +51,14 @@ ScaleErrorsOf(const FrameSums &           sums,
               const std::vector<double> & gamma,
               double                      offset);
 
+/** Deviation of the shifts of 16 blocks of the frame from the shifts of the frame, relative to them. It is large where
+ * a part of the frame does not move with the scene, or where a change of the illumination resembles motion. */
+struct DeviationOfBlocks
+{
+  double rms{ 0.0 };   ///< rms deviation, beyond chance and weighted by the squared derivatives; 0: not significant [1]
+  double error{ 0.0 }; ///< error of the shifts of the frame, if the deviations of the blocks are independent [1]
+};
+
 /** Shifts of every frame times (1 + gamma_t), estimated by instrumental variables. */
 struct InstrumentShifts
 {
@@ -61,7 +70,8 @@ struct InstrumentShifts
   Eigen::Matrix2d ofIllumination;
   /** Relative error common to all shifts along x, and along y, by the approximation of derivatives by differences of
    * pixels [1]. */
-  Eigen::Vector2d scaleErrors;
+  Eigen::Vector2d                  scaleErrors;
+  std::array<DeviationOfBlocks, 2> ofBlocks; ///< along x and y
 };
 
 /** Solves for the shifts with the smoothed derivatives as instruments.
