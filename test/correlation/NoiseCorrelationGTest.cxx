@@ -53,6 +53,41 @@ ComputeResiduals(const SensorFlaws & flaws, std::size_t size = Size, std::size_t
   return { sample.TakeNoise(mean), Eigen::MatrixXd(), { mean, take, settings.camera.offsetDn }, SerialFor };
 }
 
+/** Returns the residuals of a dark frame with a few spots of 3 x 3 pixels, whose illumination scatters by \a twinkle
+ * [1] from frame to frame, each spot by itself. */
+NoiseResiduals
+ResidualsOfStars(double twinkle)
+{
+  constexpr std::size_t           pixels = Size * Size;
+  std::mt19937                    random(5);
+  std::normal_distribution<>      normal;
+  std::vector<double>             mean(pixels);
+  std::vector<double>             stack(pixels * Frames);
+  const std::vector<std::uint8_t> take(pixels, 1);
+  for (std::size_t t = 0; t < Frames; ++t)
+  {
+    std::vector<double> signal(pixels, 4.0);
+    for (std::size_t star = 0; star < 40; ++star)
+    {
+      const std::size_t corner = (6 * star + 2) * Size + 37 * star % (Size - 4);
+      const double      change = 1.0 + twinkle * normal(random);
+      for (std::size_t k = 0; k < 9; ++k)
+      {
+        signal[corner + k / 3 * Size + k % 3] += 400.0 * change * (k == 4 ? 2.0 : 1.0);
+      }
+    }
+    for (std::size_t p = 0; p < pixels; ++p)
+    {
+      const double value = signal[p] + std::sqrt(9.0 + signal[p]) * normal(random); // gain 1 DN/e-
+      stack[t * pixels + p] = value;
+      mean[p] += value / static_cast<double>(Frames);
+    }
+  }
+  auto sample = FrameSample::Of<double>({ Size, Size, 1 }, Frames);
+  sample.AddFrames(stack.data(), 0, Frames, mean);
+  return { sample.TakeNoise(mean), Eigen::MatrixXd(), { mean, take, 0.0 }, SerialFor };
+}
+
 /** Number of frames with which the rings of lags are known within half a per cent, which ends the reach. */
 constexpr std::size_t ManyFrames = 100;
 
@@ -88,6 +123,19 @@ ExpectNumber(const MeasuredNumber & found, double expected, double largestError)
   EXPECT_LT(found.standardError, largestError);
 }
 } // namespace
+
+TEST(SensorNoiseNoiseCorrelation, StarsThatTwinkleAreNotSensorNoise)
+{
+  const NoiseCorrelation calm = MeasureNoiseCorrelation(ResidualsOfStars(0.0), 0.0, SerialFor);
+  EXPECT_EQ(calm.kind, NoiseKind::White);
+  EXPECT_EQ(calm.brightCovariance, 0.0);
+  // The correlation with each of four neighbours is twinkle^2 z^2 / (V + twinkle^2 z^2): 0.13 at 404 DN, 0.24 at 804
+  // DN.
+  const NoiseCorrelation twinkling = MeasureNoiseCorrelation(ResidualsOfStars(0.02), 0.0, SerialFor);
+  EXPECT_EQ(twinkling.kind, NoiseKind::NotLinear);
+  EXPECT_FALSE(twinkling.isByIllumination);
+  EXPECT_NEAR(twinkling.brightCovariance, 4.0 * 0.17, 0.25);
+}
 
 TEST(SensorNoiseNoiseCorrelation, PlainNoiseIsWhite)
 {

@@ -279,12 +279,18 @@ ConstantOf(const DistantSums & line, double illumination)
 }
 } // namespace
 
+double
+CommonNoise::OfLines(const Lag & lag) const
+{
+  const auto row = static_cast<std::size_t>(std::abs(lag.y));
+  const auto column = static_cast<std::size_t>(std::abs(lag.x));
+  return (row < rows.size() ? rows[row] : 0.0) + (column < columns.size() ? columns[column] : 0.0);
+}
+
 LagSums
 CommonNoise::Subtract(LagSums sums, const Lag & lag) const
 {
-  const auto   row = static_cast<std::size_t>(std::abs(lag.y));
-  const auto   column = static_cast<std::size_t>(std::abs(lag.x));
-  const double lines = (row < rows.size() ? rows[row] : 0.0) + (column < columns.size() ? columns[column] : 0.0);
+  const double lines = this->OfLines(lag);
   for (PairSums & bin : sums.bins)
   {
     bin.covariance -= lines * bin.constant + illumination * bin.square;

@@ -110,6 +110,11 @@ struct CorrelationConstants
   double ringsBeyondReach{ 2.0 };
   ///@}
 
+  /** Least covariance of the four nearest neighbours at the bright levels, relative to the variance, if there is none
+   * at all levels [1]: the illumination changes in fine patterns. Chosen by the size of the effect: where simulated
+   * stars twinkle, the gain is a quarter of it too large. */
+  double leastBrightCovariance{ 0.05 };
+
   /** \name Noise classes and shapes */
   ///@{
   /** Largest coefficient that coupled charge may cause [1]: sensors have a few hundredths. */

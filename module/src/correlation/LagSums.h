@@ -136,6 +136,9 @@ struct CommonNoise
   std::array<double, DistantCovariance::Lines> columns{}; ///< covariance of pixels this many columns apart, and far
                                                           ///< apart along the columns [DN^2]
 
+  /** Returns the covariance that line noise causes between pixels at the distance \a lag [DN^2]. */
+  SensorNoise_EXPORT double
+  OfLines(const Lag & lag) const;
   /** Returns \a sums, the sums of the spatial lag \a lag, without the common covariance. */
   SensorNoise_EXPORT LagSums
   Subtract(LagSums sums, const Lag & lag) const;

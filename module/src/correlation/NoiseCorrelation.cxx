@@ -303,6 +303,14 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double quantisationDn2
     SumOverSpace(sums, found);
     found.covarianceLines = FitCovarianceLines(sums, sums.Ring(1, found.reach));
   }
+  else if (!inTime)
+  {
+    const BrightCovariance bright = MeasureBrightCovariance(sums, parallelFor);
+    if (bright.value > InCorrelation.leastBrightCovariance && bright.z > Significance.severalTests)
+    {
+      found.brightCovariance = bright.value;
+    }
+  }
   if (inTime || inSpace)
   {
     FindCoefficients(sums, found); // for all lags that were added
@@ -312,7 +320,7 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double quantisationDn2
     CorrectKurtosisForTemporalCorrelation(residuals.GetBasis(), found);
     found.upperTail = {}; // common changes of the frames, as flicker, need not be normally distributed
   }
-  if (found.isBySensitivity || !IsLinear(sums, found))
+  if (found.isBySensitivity || found.brightCovariance > 0.0 || !IsLinear(sums, found))
   {
     found.kind = NoiseKind::NotLinear;
   }

@@ -322,6 +322,15 @@ NoiseResiduals::Weigh(const std::vector<std::uint8_t> & take)
     m_Weight[pixel] = typical > 0.0 ? static_cast<float>(1.0 / typical) : 0.0F;
     m_Bin[pixel] = static_cast<std::uint8_t>(rank * IntensityBins / order.size());
   }
+  double weights = 0.0;
+  double signals = 0.0;
+  for (const std::uint32_t pixel : order)
+  {
+    const double weight = double{ m_Weight[pixel] } * m_Weight[pixel];
+    weights += weight;
+    signals += weight * m_Signal[pixel];
+  }
+  m_MeanSignal = signals / std::max(smallestDivisor, weights);
 }
 
 namespace

@@ -246,6 +246,13 @@ public:
   {
     return m_Bin.data() + i * this->GetTiles().Pixels();
   }
+  /** Returns the mean signal with the squared inverse variances w^2 as weights [DN]. A pixel of the signal z
+   * contributes w^2 (z - mean)^2 to the information on the slope of the variance. */
+  double
+  GetMeanSignal() const
+  {
+    return m_MeanSignal;
+  }
   /** Returns the orthonormal basis Q, frames x (1 + series). */
   const Eigen::MatrixXd &
   GetBasis() const
@@ -312,6 +319,7 @@ private:
   std::vector<float>        m_Variance; // sums over time of the squares
   std::vector<float>        m_Weight;
   std::vector<std::uint8_t> m_Bin;
+  double                    m_MeanSignal{ 0.0 };
   std::size_t               m_Pixels{ 0 };
   double                    m_BlackDn{ 0.0 };
   bool                      m_IsBlackKnown{ true };

@@ -211,6 +211,65 @@ IsCorrelatedInSpace(const CorrelationSums & sums, const std::vector<LagCoefficie
   });
 }
 
+BrightCovariance
+MeasureBrightCovariance(const CorrelationSums & sums, const ParallelFor & parallelFor)
+{
+  struct PairCounts
+  {
+    double weights{ 0.0 };
+    double squares{ 0.0 };    // sum of the squared weights
+    double covariance{ 0.0 }; // weighted sum of the correlations of the pairs
+    double signs{ 0.0 };      // weighted sum
+  };
+  const std::vector<Lag> lags{ { 1, 0, 0 }, { 0, 1, 0 } };
+  const NoiseResiduals & residuals = sums.GetResiduals();
+  const CommonNoise      common = FindCommonNoise(sums.Total().shared);
+  const double           mean = residuals.GetMeanSignal();
+  const std::size_t      side = residuals.GetTiles().side;
+
+  std::vector<PairCounts> tiles(residuals.GetTiles().origins.size());
+  parallelFor(tiles.size(), [&](std::size_t i) {
+    const auto          products = SumProducts(residuals, i, lags);
+    const float * const weight = residuals.WeightOf(i);
+    const float * const signal = residuals.SignalOf(i);
+    const auto * const  squares = residuals.SquaresOf(i);
+    const auto          rootOfInformation = [&](std::size_t p) { return weight[p] * std::max(0.0, signal[p] - mean); };
+    for (std::size_t k = 0; k < lags.size(); ++k)
+    {
+      const auto        x = static_cast<std::size_t>(lags[k].x);
+      const auto        y = static_cast<std::size_t>(lags[k].y);
+      const std::size_t shift = y * side + x;
+      const double      lines = common.OfLines(lags[k]);
+      for (std::size_t p = 0; p + y * side < side * side; ++p)
+      {
+        const double own = p % side + x < side ? rootOfInformation(p) * rootOfInformation(p + shift) : 0.0;
+        if (own > 0.0)
+        {
+          const double square = double{ signal[p] } * signal[p + shift];
+          const double covariance = products[k][p] / residuals.GetDof() - lines - common.illumination * square;
+          tiles[i].weights += own;
+          tiles[i].squares += own * own;
+          // The variance of the pixels themselves: few bright pixels hardly count in the typical variance.
+          const double variance = std::sqrt(double{ squares[p] } * squares[p + shift]) / residuals.GetDof();
+          tiles[i].covariance += own * covariance / std::max(smallestDivisor, variance);
+          tiles[i].signs += covariance > 0.0 ? own : -own;
+        }
+      }
+    }
+  });
+  PairCounts all;
+  for (const PairCounts & tile : tiles)
+  {
+    all.weights += tile.weights;
+    all.squares += tile.squares;
+    all.covariance += tile.covariance;
+    all.signs += tile.signs;
+  }
+  // Both lags together are half of the neighbours.
+  return all.weights > 0.0 ? BrightCovariance{ 4.0 * all.covariance / all.weights, all.signs / std::sqrt(all.squares) }
+                           : BrightCovariance();
+}
+
 void
 SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
 {

@@ -129,6 +129,20 @@ IsProportionalToSquare(const JackknifeEstimate & fits);
 SensorNoise_EXPORT bool
 IsCorrelatedInSpace(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients);
 
+/** Covariance of the nearest neighbours at the bright levels. */
+struct BrightCovariance
+{
+  double value{ 0.0 }; ///< sum over the four neighbours, relative to the variance [1]
+  double z{ 0.0 };     ///< weighted surplus of pairs with a positive covariance [standard errors]
+};
+
+/** Measures the covariance of the nearest neighbours brighter than the mean, with the information on the slope of the
+ * variance as weights: in a dark scene the few bright pixels determine the gain. With white noise, a pair of pixels has
+ * a positive covariance in half of the cases, and independently of other pairs. The jackknife of IsCorrelatedInSpace()
+ * has a larger error where few tiles have a covariance, such as stars that twinkle. */
+SensorNoise_EXPORT BrightCovariance
+MeasureBrightCovariance(const CorrelationSums & sums, const ParallelFor & parallelFor);
+
 /** Sums the noise covariance over all spatial lags within reach. The reach grows until the next ring is small or not
  * significant. Fits the dependence on the signal, and sets the noise class unless it is Temporal. */
 SensorNoise_EXPORT void

@@ -120,6 +120,17 @@ WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const Lag
                   "(--roi), or steady the illumination");
     return;
   }
+  if (correlation.brightCovariance > 0.0)
+  {
+    report.Warn(WarningCode::NoiseNotLinear,
+                "at the bright levels the nearest neighbours have a covariance of " +
+                  PercentApart(correlation.brightCovariance, InCorrelation.leastBrightCovariance) +
+                  " of the noise variance (expected at most " + Percent(InCorrelation.leastBrightCovariance) +
+                  "), and pixels of all levels together none: details of the scene change or move by themselves, as "
+                  "stars that twinkle. Charge that spreads to neighbours has the same effect. Choose a part of the "
+                  "scene without them (--roi), or record it at rest");
+    return;
+  }
   if (correlation.isBySensitivity)
   {
     report.Warn(WarningCode::NoiseNotLinear,
