@@ -3,6 +3,7 @@
 #include "refined/GainEstimate.h"
 #include "sensornoise/Settings.h"
 #include "sensornoise/Report.h"
+#include "sensornoise/ReportText.h"
 #include "sensornoise/SimulationSettings.h"
 #include "sensornoise/Simulator.h"
 #include "helpers/SensorTestHelper.h"
@@ -89,6 +90,26 @@ TEST(SensorNoiseDarkPoint, FlatAndDarkFramesArePhotonTransfer)
   EXPECT_FALSE(HasWarning(report, WarningCode::DarkFramesDiffer));
   EXPECT_FALSE(HasWarning(report, WarningCode::NotStatic));
   EXPECT_FALSE(HasWarning(report, WarningCode::IntensityRangeTooSmall));
+}
+
+// Two amplifiers of a flat differ in gain by 3 %. Their levels alone have twice the slope of the gain, and dark frames
+// show it.
+TEST(SensorNoiseDarkPoint, LevelsOfAFlatThatContradictTheDarkFramesHaveNoGain)
+{
+  SimulationSettings settings = FlatCamera();
+  Stack<GreyValue>   flat = Simulate<GreyValue>(settings, Size, Size, FlatScene(Size));
+  settings.camera.gainDnPerElectron = 1.03;
+  const Stack<GreyValue> other = Simulate<GreyValue>(settings, Size, Size, FlatScene(Size));
+  for (std::size_t i = 0; i < flat.pixels.size(); ++i)
+  {
+    if (i % Size >= Size / 2)
+    {
+      flat.pixels[i] = other.pixels[i];
+    }
+  }
+  const Report report = Measure(flat, WithDarkFrames(DarkFramesOf(settings, Size))).GetReport();
+  EXPECT_EQ(report.gain.status, EstimateStatus::Failed) << MakeText(report);
+  EXPECT_TRUE(HasWarning(report, WarningCode::VarianceNotAffine)) << MakeText(report);
 }
 
 // The initial model takes flicker of a flat for noise, and its slope is by chance. Neither may exclude pixels that

@@ -157,6 +157,18 @@ TextOfTemporalCorrelation(const GainEstimate & gain)
 }
 
 std::string
+TextOfDarkFrames(const RefinedResults & found, const GainEstimate & gain)
+{
+  const DarkVariance & dark = *found.settings.offset->variance;
+  return "the dark frames have a noise variance of " + Measured(dark.valueDn2, dark.standardErrorDn2) +
+         " DN^2, but the line of the variance has " +
+         Measured(gain.atOffset->valueDn2, gain.atOffset->standardErrorDn2) +
+         " DN^2 at their level, and the levels of the scene are too alike for a line without them: parts of the sensor "
+         "may have a gain or an offset of their own, or the dark frames another setting. Include dark and bright areas "
+         "in the scene";
+}
+
+std::string
 AdviceOn(Divided divided)
 {
   switch (divided)
@@ -234,6 +246,9 @@ WarnOfGain(Report & report, const RefinedResults & found, const TestedGain & tes
       WarnOfIdentified(report, tested);
       return;
     case GainVerdict::NoiseNotLinear: // WarnOfCorrelation() has the reason
+      return;
+    case GainVerdict::DarkFramesContradict:
+      report.Warn(WarningCode::VarianceNotAffine, TextOfDarkFrames(found, tested.line));
       return;
     case GainVerdict::LineIllumination:
       report.Warn(WarningCode::Contradicted, TextOfLineIllumination(found.lines, effectOfLines));

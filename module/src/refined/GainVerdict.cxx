@@ -40,6 +40,11 @@ FindContradiction(const RefinedResults & found, const GainEstimate & gain)
   {
     return GainVerdict::NotAffine;
   }
+  // Levels that are alike do not show whether their line or the dark frames are wrong.
+  if (gain.isDarkRejected && gain.atOffset && !gain.isOffsetAboveFlicker && !gain.isWide)
+  {
+    return GainVerdict::DarkFramesContradict;
+  }
   if (gain.isWide && gain.IsNonlinear() &&
       gain.above + gain.below > 2.0 * InCommon.largestRelativeError * gain.line.gain)
   {
@@ -92,6 +97,7 @@ StatusBy(GainVerdict verdict)
     case GainVerdict::MotionIsLeft:
     case GainVerdict::NotAffine:
     case GainVerdict::GainDependsOnOffset:
+    case GainVerdict::DarkFramesContradict:
     case GainVerdict::NotRising:
     case GainVerdict::LineIllumination:
     case GainVerdict::NoiseNotLinear:

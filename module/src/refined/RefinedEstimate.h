@@ -143,14 +143,15 @@ enum class GainVerdict : std::uint8_t
   FewLitFrames,   ///< flicker and motion take up the shot noise of the few frames that hold the illumination
   LevelsTooAlike, ///< the levels of the scene differ too little
   // The data contradict a sensor of one gain.
-  FramesDiffer,        ///< the noise variance of the frames does not follow their levels
-  IlluminationIsLeft,  ///< the noise correlation, which changes the gain much, may be due to the illumination
-  MotionIsLeft,        ///< the noise correlation between frames, which changes the gain, may be due to motion
-  NotAffine,           ///< the variance deviates from its line
-  GainDependsOnOffset, ///< the variance is a curve of the mean, and the gain depends on the assumed read noise
-  NotRising,           ///< the variance does not rise with the mean
-  LineIllumination,    ///< the illumination differs between rows or columns of one frame
-  NoiseNotLinear       ///< medians, compression or repeated frames made the noise
+  FramesDiffer,         ///< the noise variance of the frames does not follow their levels
+  IlluminationIsLeft,   ///< the noise correlation, which changes the gain much, may be due to the illumination
+  MotionIsLeft,         ///< the noise correlation between frames, which changes the gain, may be due to motion
+  NotAffine,            ///< the variance deviates from its line
+  GainDependsOnOffset,  ///< the variance is a curve of the mean, and the gain depends on the assumed read noise
+  DarkFramesContradict, ///< the dark frames are beside the line of levels that are alike
+  NotRising,            ///< the variance does not rise with the mean
+  LineIllumination,     ///< the illumination differs between rows or columns of one frame
+  NoiseNotLinear        ///< medians, compression or repeated frames made the noise
 };
 
 /** Returns the verdict on the slope of \a gain by the fit and the pixels: all but LineIllumination and NoiseNotLinear,
