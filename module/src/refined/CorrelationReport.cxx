@@ -98,69 +98,68 @@ MostUnusualDifference(const NoiseCorrelation & correlation)
   return most;
 }
 
-void
-WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const LagCoefficient * space)
+/** Returns the known cause of noise that no linear filter makes, and what to do; null: none is known. \a space is the
+ * largest coefficient of a spatial lag, or null. */
+std::optional<std::string>
+CauseOfNonlinear(const NoiseCorrelation & correlation, const LagCoefficient * space)
 {
   if (correlation.repeatedFraction > 0.0)
   {
-    report.Warn(WarningCode::NoiseNotLinear,
-                PercentApart(correlation.repeatedFraction, InRefined.largestRepeatedFraction) +
-                  " of the pixels repeat their value in the frame before, beyond chance (expected at most " +
-                  Percent(InRefined.largestRepeatedFraction) +
-                  "): a video coder skips blocks, or parts of frames are repeated, so that the gain is not "
-                  "identifiable. Record raw frames");
-    return;
+    return PercentApart(correlation.repeatedFraction, InRefined.largestRepeatedFraction) +
+           " of the pixels repeat their value in the frame before, beyond chance (expected at most " +
+           Percent(InRefined.largestRepeatedFraction) +
+           "): a video coder skips blocks, or parts of frames are repeated, so that the gain is not "
+           "identifiable. Record raw frames";
   }
   if (correlation.isByIllumination && space != nullptr)
   {
-    report.Warn(WarningCode::NoiseNotLinear,
-                CorrelationOf(*space) +
-                  " and grows with the square of the signal: the illumination changes from place to place, in patterns "
-                  "too fine to be removed (caustics, haze, moving shadows). Choose an evenly lit part "
-                  "(--roi), or steady the illumination");
-    return;
+    return CorrelationOf(*space) +
+           " and grows with the square of the signal: the illumination changes from place to place, in patterns "
+           "too fine to be removed (caustics, haze, moving shadows). Choose an evenly lit part "
+           "(--roi), or steady the illumination";
   }
   if (correlation.brightCovariance > 0.0)
   {
-    report.Warn(WarningCode::NoiseNotLinear,
-                "at the bright levels the nearest neighbours have a covariance of " +
-                  PercentApart(correlation.brightCovariance, InCorrelation.leastBrightCovariance) +
-                  " of the noise variance (expected at most " + Percent(InCorrelation.leastBrightCovariance) +
-                  "), and pixels of all levels together none: details of the scene change or move by themselves, as "
-                  "stars that twinkle. Charge that spreads to neighbours has the same effect. Choose a part of the "
-                  "scene without them (--roi), or record it at rest");
-    return;
+    return "at the bright levels the nearest neighbours have a covariance of " +
+           PercentApart(correlation.brightCovariance, InCorrelation.leastBrightCovariance) +
+           " of the noise variance (expected at most " + Percent(InCorrelation.leastBrightCovariance) +
+           "), and pixels of all levels together none: details of the scene change or move by themselves, as "
+           "stars that twinkle. Charge that spreads to neighbours has the same effect. Choose a part of the "
+           "scene without them (--roi), or record it at rest";
   }
   if (correlation.isBySensitivity)
   {
-    report.Warn(WarningCode::NoiseNotLinear,
-                "the noise correlation between frames grows with the square of the signal, as no filter makes it: the "
-                "sensitivity "
-                "of pixels drifts during the burst, or the illumination changes in patterns too fine to be removed. "
-                "Record a shorter burst, let the sensor settle, or choose an evenly lit part (--roi)");
-    return;
+    return "the noise correlation between frames grows with the square of the signal, as no filter makes it: the "
+           "sensitivity "
+           "of pixels drifts during the burst, or the illumination changes in patterns too fine to be removed. "
+           "Record a shorter burst, let the sensor settle, or choose an evenly lit part (--roi)";
   }
   if (correlation.HasLocalMotion())
   {
-    report.Warn(
-      WarningCode::NoiseNotLinear,
-      PercentOf(correlation.localMotion) +
-        " of the noise variance is common to neighbours in proportion to the slopes of the scene (expected "
-        "at most " +
-        Percent(InCorrelation.leastLocalMotion) +
-        "): parts of the scene move by themselves, as in heat haze. Choose a smooth part of the scene (--roi), "
-        "or record it at rest");
-    return;
+    return PercentOf(correlation.localMotion) +
+           " of the noise variance is common to neighbours in proportion to the slopes of the scene (expected "
+           "at most " +
+           Percent(InCorrelation.leastLocalMotion) +
+           "): parts of the scene move by themselves, as in heat haze. Choose a smooth part of the scene (--roi), "
+           "or record it at rest";
   }
   if (correlation.LacksTail())
   {
-    report.Warn(
-      WarningCode::NoiseNotLinear,
-      "of the values more than " + Text(InCorrelation.tailBegins) +
-        " standard deviations above their mean that normal noise has, " + Percent(-correlation.upperTail.value) +
-        " are missing (expected at most " + Percent(InCorrelation.largestTailDeficit) +
-        "): outliers were removed, as of cosmic rays or defects, and noise with them, so that the gain is not "
-        "identifiable. Give the frames as the camera read them");
+    return "of the values more than " + Text(InCorrelation.tailBegins) +
+           " standard deviations above their mean that normal noise has, " + Percent(-correlation.upperTail.value) +
+           " are missing (expected at most " + Percent(InCorrelation.largestTailDeficit) +
+           "): outliers were removed, as of cosmic rays or defects, and noise with them, so that the gain is not "
+           "identifiable. Give the frames as the camera read them";
+  }
+  return std::nullopt;
+}
+
+void
+WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const LagCoefficient * space)
+{
+  if (const std::optional<std::string> cause = CauseOfNonlinear(correlation, space))
+  {
+    report.Warn(WarningCode::NoiseNotLinear, *cause);
     return;
   }
   const MeasuredNumber & own = correlation.kurtosis.front();
