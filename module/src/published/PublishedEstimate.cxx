@@ -80,14 +80,16 @@ EstimateParameters(const PolynomialFit &             line,
 namespace
 {
 /** Contrast of the bright and the dark set that a line needs, in units of the sum of the standard deviations of their
- * levels [1]. Chosen. */
+ * levels [1]. Chosen without a source: the paper has no limit. */
 constexpr double LeastContrast = 6.0;
-/** Significance of a curvature of the corrected variance [standard errors]. Chosen. */
-constexpr double LeastCurvatureZ = 5.0;
-/** Fraction of the pixels that are darker than the darkest level, which bounds the offset [1]. Chosen. */
-constexpr double DarkestFraction = 0.001;
-/** Number of standard errors by which the darkest level, a mean of noisy values, may be below the offset [1]. Chosen.
+/** Significance of a curvature of the corrected variance [standard errors]. Chosen without a source, as LeastContrast.
  */
+constexpr double LeastCurvatureZ = 5.0;
+/** Fraction of the pixels that are darker than the darkest level, which bounds the offset [1]. Chosen without a source:
+ * the paper has no limit. */
+constexpr double DarkestFraction = 0.001;
+/** Number of standard errors by which the darkest level, a mean of noisy values, may be below the offset [1]. Chosen
+ * without a source. */
 constexpr double DarkestErrors = 3.0;
 
 void
