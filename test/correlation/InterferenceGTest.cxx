@@ -194,6 +194,20 @@ TEST(SensorNoiseInterference, SubtractionLeavesWhiteNoiseWhite)
   }
 }
 
+// A wave along the columns is the same in a row: without the correction its subtraction would leave a noise of rows
+// below 0, and the correction for that would correlate the pixels of a row.
+TEST(SensorNoiseInterference, SubtractionLeavesNoNoiseOfRows)
+{
+  NoiseResiduals residuals = ResidualsOf(WhiteNoise(Geometry, 9));
+  for (int k = 0; k < 8; ++k)
+  {
+    residuals.SubtractWave({ 0.0, 0.05 + 0.02 * k }, SerialFor);
+  }
+  const NoiseCorrelation found = MeasureNoiseCorrelation(residuals, 0.0, SerialFor);
+  EXPECT_NEAR(found.rowsDn2.value, 0.0, 4.0 * found.rowsDn2.standardError);
+  EXPECT_EQ(found.kind, NoiseKind::White);
+}
+
 TEST(SensorNoiseInterference, FilteredNoiseKeepsItsCorrelation)
 {
   NoiseResiduals         plain = ResidualsOf(Averaged(WhiteNoise(Geometry, 8)));

@@ -209,6 +209,16 @@ SumTile(const NoiseResiduals & residuals, std::size_t i)
     products.AddTo(distant, &DistantSums::covariance, factor);
     distant.far.signalCovariance += factor * ofSignal;
   });
+  for (const float * const projection : residuals.WaveProjectionsOf(i)) // restores what the waves removed
+  {
+    SegmentSums<VSide>     sums{};
+    SegmentProducts<VSide> products;
+    sums.Sum([=](std::size_t p) { return static_cast<double>(w[p] * projection[p]); });
+    products.Add(sums);
+    products.AddTo(distant, &DistantSums::covariance, 1.0);
+    sums.SumOfCells([=](std::size_t p) { return static_cast<double>(w[p] * z[p] * projection[p]); });
+    distant.far.signalCovariance += CellProduct(sums.cells);
+  }
   if (residuals.GetSubtractedLines())
   {
     const bool areRows = *residuals.GetSubtractedLines() == LineAxis::Rows;
