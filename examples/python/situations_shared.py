@@ -138,6 +138,20 @@ def recursive(random, electrons, weight, count):
     return Burst(digitise(frames[settling:], BITS), offset=OFFSET[BITS], read_noise=READ_NOISE)
 
 
+def reduced_where_alike(random, electrons, weight, limit):
+    """Returns frames of noise reduction in time that mixes only where frames differ little: each pixel is a mean of its
+    new value, which has this weight, and the value before, if both differ by less than `limit` standard deviations. The
+    filter has settled."""
+    settling = 12
+    factors = illumination(random, frames=FRAMES + settling)
+    frames = expose(random, electrons, factors, offset=OFFSET[BITS])
+    noise = np.sqrt(GAIN**2 * electrons + READ_NOISE**2)
+    for t in range(1, len(frames)):
+        step = frames[t] - frames[t - 1]
+        frames[t] -= np.where(np.abs(step) < limit * noise, (1 - weight) * step, 0.0)
+    return Burst(digitise(frames[settling:], BITS), offset=OFFSET[BITS], read_noise=READ_NOISE)
+
+
 def lagging(random, electrons, weight):
     """Returns frames of a sensor with image lag: this fraction of the charge of each frame is left to the next one."""
     settling = 12
@@ -201,6 +215,11 @@ SITUATIONS = (
     *(
         line(f"recursive/weight-{weight:g}-frames-{count}", recursive, weight, count, expected=MAY_REFUSE)
         for weight, count in ((0.3, 24), (0.3, 80), (0.6, 24))
+    ),
+    *(
+        line(f"recursive/weight-{weight:g}-below-{limit:g}", reduced_where_alike, weight, limit, expected=MUST_REFUSE)
+        for weight in (0.4, 0.7)
+        for limit in (2, 3)
     ),
     *(line(f"image-lag/{100 * weight:g}%", lagging, weight) for weight in (0.003, 0.008, 0.02)),
     *(line(f"converted/rate-{ratio:g}", converted, ratio, expected=MUST_REFUSE) for ratio in (0.5, 0.8)),

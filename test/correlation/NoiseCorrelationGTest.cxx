@@ -5,6 +5,7 @@
 #include "correlation/FrameSample.h"
 #include "sensornoise/Simulator.h"
 #include "sensornoise/SimulationSettings.h"
+#include "helpers/CorrelationTestHelper.h"
 #include "helpers/SimulatorTestHelper.h"
 #include "helpers/StackTestHelper.h"
 
@@ -226,6 +227,39 @@ TEST(SensorNoiseNoiseCorrelation, MixedFramesAreTemporalAndTheSumIsThatOfTheFilt
   }
   ExpectNumber(found.timeFactor, (1.0 + a) / (1.0 - a), 0.15);
   EXPECT_NEAR(CoefficientAt(found.space, { 1, 0, 0 }).value, 0.0, 0.01);
+}
+
+// Each frame is mixed with the frame before, or only where both differ by less than two standard deviations.
+TEST(SensorNoiseNoiseCorrelation, FramesThatAreMixedOnlyWhereTheyDifferLittleAreNotLinear)
+{
+  const FrameGeometry      geometry{ 128, 128, 1 };
+  std::vector<DoubleFrame> mixed;
+  std::vector<DoubleFrame> reduced;
+  for (std::size_t t = 0; t < 60; ++t)
+  {
+    const DoubleFrame own = NormalFrame(geometry.width, geometry.height, 500 + t);
+    mixed.push_back(own);
+    reduced.push_back(own);
+    for (std::size_t p = 0; t > 0 && p < own.values.size(); ++p)
+    {
+      mixed[t].values[p] -= 0.5 * (own.values[p] - mixed[t - 1].values[p]);
+      const double step = own.values[p] - reduced[t - 1].values[p];
+      reduced[t].values[p] -= std::abs(step) < 2.0 ? 0.5 * step : 0.0;
+    }
+  }
+  const std::vector<double> signal(geometry.Pixels(), 100.0);
+  const auto                measure = [&](const std::vector<DoubleFrame> & frames) {
+    auto residuals = correlation::ComputeResiduals(
+      geometry, frames.size() - 10, signal, [&](std::size_t t) { return frames[t + 10]; });
+    return MeasureNoiseCorrelation(residuals, 0.0, SerialFor);
+  };
+  const NoiseCorrelation linear = measure(mixed);
+  EXPECT_EQ(linear.kind, NoiseKind::Temporal);
+  EXPECT_NEAR(linear.kurtosisOfSteps.value, 0.0, 4.0 * linear.kurtosisOfSteps.standardError);
+  EXPECT_LT(linear.kurtosisOfSteps.standardError, 0.02);
+  const NoiseCorrelation steps = measure(reduced);
+  EXPECT_EQ(steps.kind, NoiseKind::NotLinear);
+  EXPECT_TRUE(steps.MixesByDifference());
 }
 
 TEST(SensorNoiseNoiseCorrelation, CorrectedDefectsAndMediansAreNotLinear)

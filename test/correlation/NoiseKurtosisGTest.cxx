@@ -235,3 +235,30 @@ TEST(SensorNoiseNoiseKurtosis, SameBitsForAnyNumberOfThreads)
     EXPECT_EQ(serial[i].series, threads[i].series);
   }
 }
+
+// The weights of y_t = a x_t + b y_(t-1) are a b^k, and the weights of its differences are a and a (b - 1) b^(k-1).
+TEST(SensorNoiseNoiseKurtosis, RatioBehindARecursionIsThatOfItsWeights)
+{
+  for (const double b : { 0.0, 0.2, 0.5, 0.8 })
+  {
+    const auto factorOf = [](const std::vector<double> & weights) {
+      double squares = 0.0;
+      double fourths = 0.0;
+      for (const double weight : weights)
+      {
+        squares += weight * weight;
+        fourths += std::pow(weight, 4);
+      }
+      return fourths / (squares * squares);
+    };
+    std::vector<double> values{ 1.0 };
+    std::vector<double> differences{ 1.0 };
+    for (int k = 1; k < 300; ++k)
+    {
+      values.push_back(values.back() * b);
+      differences.push_back((b - 1.0) * std::pow(b, k - 1));
+    }
+    EXPECT_NEAR(KurtosisRatioOfRecursion(b), factorOf(differences) / factorOf(values), 1e-12) << b;
+  }
+  EXPECT_EQ(KurtosisRatioOfRecursion(-0.2), KurtosisRatioOfRecursion(0.0));
+}

@@ -211,6 +211,22 @@ TEST(SensorNoiseCorrelationReport, NormalNoiseThatIsNotLinearIsInterferenceOrRou
   EXPECT_FALSE(Has(warning, "takes medians")) << warning;
 }
 
+TEST(SensorNoiseCorrelationReport, FramesThatAreMixedWhereTheyDifferLittleAreNamed)
+{
+  NoiseCorrelation correlation = CorrelationOf(NoiseKind::NotLinear);
+  correlation.kurtosisOfSteps = { 1.25, 0.03 };
+  const std::string warning = WarningOf(correlation, false);
+  EXPECT_TRUE(Has(warning, "have an excess kurtosis of 1.250 +- 0.030 (expected at most 0.1)")) << warning;
+  EXPECT_TRUE(Has(warning, "Switch noise reduction in time off")) << warning;
+}
+
+TEST(SensorNoiseCorrelationReport, AWaveThatIsNotSignificantIsNotInTheRecord)
+{
+  NoiseCorrelation correlation = CorrelationOf(NoiseKind::White);
+  correlation.interference = { { { 0.1, 0.2 }, { 0.4, 0.4 } } };
+  EXPECT_TRUE(RecordOf(correlation).interference.empty());
+}
+
 TEST(SensorNoiseCorrelationReport, InterferenceIsInTheRecord)
 {
   NoiseCorrelation correlation = CorrelationOf(NoiseKind::White);

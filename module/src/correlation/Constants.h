@@ -166,6 +166,12 @@ struct CorrelationConstants
    * deviations makes -0.06 to -0.08 for pixels, and 0.1 to 0.25 for alternating sums of four neighbours. White and
    * filtered noise make 0.01. */
   double largestExcess{ 0.04 };
+  /** Excess kurtosis of the differences between successive frames that no linear filter causes [1]. Chosen empirically:
+   * noise reduction that mixes frames only where they differ little makes 0.2 to 20. */
+  double largestExcessOfSteps{ 0.1 };
+  /** Largest coefficient of neighbouring frames for which the kurtosis behind a recursive filter is computed [1].
+   * Behind a stronger filter, a burst has too few independent frames. */
+  double largestRecursion{ 0.9 };
   /** Begin of the upper tail, in standard deviations [1]. Normal noise has 0.023 % of its values there, few electrons
    * have more. Outliers are removed from 2.5 to 3.5 on, about a centre that is estimated from the frames. */
   double tailBegins{ 3.5 };

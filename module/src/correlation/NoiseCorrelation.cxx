@@ -144,6 +144,18 @@ CorrectKurtosisForTemporalCorrelation(const Eigen::MatrixXd & basis, NoiseCorrel
   }
 }
 
+/** Sets NoiseCorrelation::kurtosisOfSteps. */
+void
+CompareSteps(const NoiseResiduals & residuals, const ParallelFor & parallelFor, NoiseCorrelation & found)
+{
+  const Eigen::MatrixXd  shared = CorrelationOfFrames(found.time, residuals.GetBasis().rows());
+  const MeasuredNumber & own = found.kurtosis.front();
+  const double           ratio = KurtosisRatioOfRecursion(found.time.front().coefficient.value);
+  found.kurtosisOfSteps = KurtosisOfFrameDifferences(residuals, shared, parallelFor);
+  found.kurtosisOfSteps.value -= ratio * std::max(0.0, own.value);
+  found.kurtosisOfSteps.standardError = std::hypot(found.kurtosisOfSteps.standardError, ratio * own.standardError);
+}
+
 /** Returns whether the distribution agrees with normal noise, or with few electrons, after a linear filter. */
 bool
 IsLinear(const CorrelationSums & sums, const NoiseCorrelation & found)
@@ -264,6 +276,13 @@ NoiseCorrelation::ProbabilityOfLateNoise() const
     half, shapes.end(), 0.0, [](double sum, const WeightedShape & shape) { return sum + shape.probability; });
 }
 
+bool
+NoiseCorrelation::MixesByDifference() const
+{
+  return kurtosisOfSteps.value > 0.0 &&
+         kurtosisOfSteps.Exceeds(InCorrelation.largestExcessOfSteps, Significance.severalTests);
+}
+
 double
 VarianceInflation(const std::vector<LagCoefficient> & lags)
 {
@@ -320,7 +339,7 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double quantisationDn2
     CorrectKurtosisForTemporalCorrelation(residuals.GetBasis(), found);
     found.upperTail = {}; // common changes of the frames, as flicker, need not be normally distributed
   }
-  if (found.isBySensitivity || found.brightCovariance > 0.0 || !IsLinear(sums, found))
+  if (found.isBySensitivity || found.brightCovariance > 0.0 || found.MixesByDifference() || !IsLinear(sums, found))
   {
     found.kind = NoiseKind::NotLinear;
   }
@@ -332,6 +351,7 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double quantisationDn2
   return found;
 }
 
+    CompareSteps(residuals, parallelFor, found);
 void
 MeasureSettledFrames(NoiseCorrelation &  correlation,
                      NoiseResiduals &    residuals,

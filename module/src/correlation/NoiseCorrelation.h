@@ -121,6 +121,10 @@ struct SensorNoise_EXPORT NoiseCorrelation
   /** Largest total covariance of the lags beyond reach, relative to the variance [1]. */
   double beyondReach{ 0.0 };
   /** Fraction of values that repeat the value in the frame before, beyond statistical scatter, if this makes the class
+  /** Excess kurtosis of the differences between successive frames, beyond that which a linear filter may make of the
+   * kurtosis of the values [1]; measured only where frames are correlated. Noise reduction in time makes it that mixes
+   * only frames which differ little at a pixel. */
+  MeasuredNumber kurtosisOfSteps;
    * NotLinear; else 0 [1]. */
   double repeatedFraction{ 0.0 };
   /** Whether the spatial covariance grows with the squared signal and reaches further than coupled charge: the
@@ -158,6 +162,10 @@ struct SensorNoise_EXPORT NoiseCorrelation
   /** Returns whether local motion of the scene causes a part of the spatial correlation. */
   bool
   HasLocalMotion() const;
+
+  /** Returns whether frames are mixed only where they differ little. */
+  bool
+  MixesByDifference() const;
 
   /** Returns the probability that most of the variance at zero signal was added after the filter. */
   double

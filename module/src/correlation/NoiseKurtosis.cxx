@@ -10,6 +10,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -262,6 +264,58 @@ KurtosisOfNormal(const Eigen::MatrixXd & covariance)
     sum += s * s * std::exp(-0.5 * rest.log().sum()) * (squares * left).squaredNorm();
   }
   return 3.0 * step * sum;
+}
+
+MeasuredNumber
+KurtosisOfFrameDifferences(const NoiseResiduals &  residuals,
+                           const Eigen::MatrixXd & frames,
+                           const ParallelFor &     parallelFor)
+{
+  const SampleTiles &   tiles = residuals.GetTiles();
+  const std::size_t     size = tiles.Pixels();
+  const Eigen::Index    count = frames.rows() - 1;
+  const Eigen::MatrixXd projection = ResidualProjection(residuals.GetBasis());
+  const Eigen::MatrixXd step = projection.bottomRows(count) - projection.topRows(count);
+  const double          normal = KurtosisOfNormal(step * frames * step.transpose());
+  const auto            least = InCorrelation.leastNoise * static_cast<float>(residuals.GetDof());
+  std::vector<double>   excess(tiles.origins.size(), std::numeric_limits<double>::quiet_NaN());
+  parallelFor(tiles.origins.size(), [&](std::size_t i) {
+    const float * weight = residuals.WeightOf(i);
+    double        sum = 0.0;
+    double        pixels = 0.0;
+    for (std::size_t p = 0; p < size; ++p)
+    {
+      double squares = 0.0;
+      double fourths = 0.0;
+      for (Eigen::Index t = 0; t < count && weight[p] > 0.0F; ++t)
+      {
+        const float * value = residuals.OfTile(i) + static_cast<std::size_t>(t) * size + p;
+        const double  square = static_cast<double>(value[size] - value[0]) * (value[size] - value[0]);
+        squares += square;
+        fourths += square * square;
+      }
+      if (squares * weight[p] > least)
+      {
+        sum += fourths / (squares * squares);
+        pixels += 1.0;
+      }
+    }
+    if (pixels > 0.0)
+    {
+      excess[i] = 3.0 * (sum / (pixels * normal) - 1.0);
+    }
+  });
+  return MeanOfTiles(std::move(excess));
+}
+
+double
+KurtosisRatioOfRecursion(double coefficient)
+{
+  const double b = std::clamp(coefficient, 0.0, InCorrelation.largestRecursion);
+  const double square = b * b;
+  const double ofValues = (1.0 - square) / (1.0 + square);
+  const double ofDifferences = 0.25 * (1.0 + b) * (1.0 + b) * (1.0 + std::pow(1.0 - b, 4) / (1.0 - square * square));
+  return ofDifferences / ofValues;
 }
 
 MixtureKurtosis::MixtureKurtosis(const NoiseResiduals & residuals)

@@ -155,8 +155,8 @@ OrthonormalWave(const WaveFrequency &              frequency,
   }
   return wave;
 }
+} // namespace
 
-/** Returns the mean of the numbers that are not NaN, with the standard error by their scatter. */
 MeasuredNumber
 MeanOfTiles(std::vector<double> numbers)
 {
@@ -171,7 +171,6 @@ MeanOfTiles(std::vector<double> numbers)
   const double mean = values.mean();
   return { mean, std::sqrt((values.array() - mean).square().sum() / (count * (count - 1.0))) };
 }
-} // namespace
 
 double
 NoiseResiduals::SubtractWaveOfTile(std::size_t                    i,

@@ -86,6 +86,11 @@ struct WaveFrequency
 
 /** Periodic interference: a sine wave across the frame, whose amplitude and phase are free in each tile of each frame.
  * Estimator.md, 3.12. */
+/** Returns the mean of the numbers that are not NaN, one from each tile, with the standard error by their scatter; 0
+ * from fewer than two. */
+SensorNoise_EXPORT MeasuredNumber
+MeanOfTiles(std::vector<double> numbers);
+
 struct PeriodicInterference
 {
   WaveFrequency  frequency;

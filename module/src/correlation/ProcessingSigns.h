@@ -118,6 +118,21 @@ private:
 SensorNoise_EXPORT KurtosisSums
 KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKurtosis & normal, double quantisationDn2);
 
+/** Returns the excess kurtosis of the differences between successive frames, for normal noise with the correlation
+ * matrix
+ * \a frames. Each series of differences is scaled by itself, as in KurtosisSums. */
+SensorNoise_EXPORT MeasuredNumber
+KurtosisOfFrameDifferences(const NoiseResiduals &  residuals,
+                           const Eigen::MatrixXd & frames,
+                           const ParallelFor &     parallelFor);
+
+/** Returns the kurtosis of the differences between successive frames, divided by the kurtosis of the values, that a
+ * recursive filter makes of noise that is not normal [1]. The filter is y_t = a x_t + b y_(t-1), so that neighbouring
+ * frames have the \a coefficient b. A filter with the weights h multiplies the kurtosis by sum h^4 / (sum h^2)^2.
+ * Estimator.md, 3.12. */
+SensorNoise_EXPORT double
+KurtosisRatioOfRecursion(double coefficient);
+
 /** \struct BlockPhases
  * \brief Noise covariance of nearest neighbours by their position in a block of 8 pixels.
  *

@@ -134,6 +134,15 @@ CauseOfNonlinear(const NoiseCorrelation & correlation, const LagCoefficient * sp
            "of pixels drifts during the burst, or the illumination changes in patterns too fine to be removed. "
            "Record a shorter burst, let the sensor settle, or choose an evenly lit part (--roi)";
   }
+  if (correlation.MixesByDifference())
+  {
+    const MeasuredNumber & excess = correlation.kurtosisOfSteps;
+    return "the differences between successive frames have an excess kurtosis of " +
+           Measured(excess.value, excess.standardError) + " (expected at most " +
+           Text(InCorrelation.largestExcessOfSteps) +
+           "), which no linear filter makes: frames are mixed only where they differ little, so that the gain is not "
+           "identifiable. Switch noise reduction in time off, or record raw frames";
+  }
   if (correlation.HasLocalMotion())
   {
     return PercentOf(correlation.localMotion) +
