@@ -18,6 +18,7 @@ import situations_good
 import situations_light
 import situations_parts
 import situations_shared
+import situations_structured
 import situations_values
 from acceptance_bursts import estimate
 from acceptance_lines import stream_of
@@ -36,6 +37,7 @@ MODULES = (
     situations_light,
     situations_parts,
     situations_shared,
+    situations_structured,
     situations_values,
 )
 # The compared quantities: member of Burst, and path in the report.

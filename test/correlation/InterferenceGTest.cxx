@@ -227,6 +227,6 @@ TEST(SensorNoiseInterference, StructuredNoiseIsTheSumOfWhatIsSignificant)
   correlation.columnsDn2 = { 0.2, 0.1 };
   correlation.interference = { { { 0.1, 0.2 }, { 5.0, 0.3 } }, { { 0.3, 0.2 }, { 0.5, 0.4 } } };
   EXPECT_DOUBLE_EQ(correlation.LineNoise().value, 2.0);
-  EXPECT_DOUBLE_EQ(correlation.StructuredNoise().value, 7.0);
-  EXPECT_DOUBLE_EQ(correlation.StructuredNoise().standardError, std::hypot(0.1, 0.3));
+  EXPECT_DOUBLE_EQ(correlation.SignificantStructuredNoise().value, 7.0);
+  EXPECT_DOUBLE_EQ(correlation.SignificantStructuredNoise().standardError, std::hypot(0.1, 0.3));
 }

@@ -96,6 +96,20 @@ struct MedianReadNoise
   double standardErrorDn{ 0.0 }; ///< standard error of the read noise [DN]
 };
 
+/** Frequency of a sine wave across the frame. */
+struct WaveFrequency
+{
+  double cyclesPerColumn{ 0.0 }; ///< along x [cycles/pixel]
+  double cyclesPerRow{ 0.0 };    ///< along y [cycles/pixel]
+};
+
+/** Noise of dark frames that pixels have in common: of whole rows, of whole columns, and periodic interference. */
+struct StructuredNoise
+{
+  DarkVariance               variance; ///< the sum of all, which is a part of the variance of the dark frames
+  std::vector<WaveFrequency> waves;    ///< the waves of the interference
+};
+
 /** Dark offset that is given, or measured with dark frames. Dark frames determine the read noise, too. */
 struct KnownOffset
 {
@@ -107,6 +121,7 @@ struct KnownOffset
   std::size_t                    numberDefective{ 0 };   ///< number of pixels left out as defective
   double driftVarianceDn2{ 0.0 };                        ///< temporal variance of the common level of all pixels [DN^2]
   std::shared_ptr<const DarkMaps> maps{};                ///< results of every pixel; null: fewer than two dark frames
+  std::optional<StructuredNoise>  structured{};          ///< null: not measured
 };
 
 /** Range of levels, bounds included. */

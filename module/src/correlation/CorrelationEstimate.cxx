@@ -320,9 +320,13 @@ RecordOf(const NoiseCorrelation & correlation)
   }
   for (const PeriodicInterference & wave : correlation.interference)
   {
-    const double rms = std::sqrt(std::max(0.0, wave.varianceDn2.value));
-    const double error = rms > 0.0 ? wave.varianceDn2.standardError / (2.0 * rms) : 0.0;
-    record.interference.push_back({ wave.frequency.cyclesPerColumn, wave.frequency.cyclesPerRow, rms, error });
+    // A wave of the dark frames need not be significant in the frames.
+    if (wave.varianceDn2.value > Significance.severalTests * wave.varianceDn2.standardError)
+    {
+      const double rms = std::sqrt(wave.varianceDn2.value);
+      const double error = wave.varianceDn2.standardError / (2.0 * rms);
+      record.interference.push_back({ wave.frequency.cyclesPerColumn, wave.frequency.cyclesPerRow, rms, error });
+    }
   }
   record.rowNoise = LineNoise(correlation.rowsDn2);
   record.columnNoise = LineNoise(correlation.columnsDn2);

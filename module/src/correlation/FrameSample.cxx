@@ -165,7 +165,15 @@ FrameSample::AddFrames(const TPixel *              frames,
         }
         else
         {
-          std::transform(values, values + m_Tiles.side, mean.data() + pixel, m_Values.data() + place, AboveMean);
+          const auto to = m_Values.data() + place;
+          if (mean.empty())
+          {
+            std::transform(values, values + m_Tiles.side, to, [](double value) { return AboveMean(value, 0.0); });
+          }
+          else
+          {
+            std::transform(values, values + m_Tiles.side, mean.data() + pixel, to, AboveMean);
+          }
         }
       }
     }

@@ -200,7 +200,7 @@ public:
   }
 
   /** Adds frames firstFrame ... firstFrame + count - 1, whose pixel type is the type of the sample. \a mean is the mean
-   * of every pixel [DN]. */
+   * of every pixel [DN]; empty: it is not known yet, and floating-point numbers are stored as they are. */
   template <typename TPixel>
   void
   AddFrames(const TPixel *              frames,

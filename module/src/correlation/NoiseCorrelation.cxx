@@ -245,7 +245,7 @@ NoiseCorrelation::LineNoise() const
 }
 
 MeasuredNumber
-NoiseCorrelation::StructuredNoise() const
+NoiseCorrelation::SignificantStructuredNoise() const
 {
   MeasuredNumber sum = this->LineNoise();
   for (const PeriodicInterference & wave : interference)
@@ -255,11 +255,32 @@ NoiseCorrelation::StructuredNoise() const
   return sum;
 }
 
+MeasuredNumber
+NoiseCorrelation::StructuredNoiseWithScatter() const
+{
+  // A wave along the columns makes distant pixels of a column opposite, and their covariance negative.
+  MeasuredNumber sum{ std::max(0.0, rowsDn2.value) + std::max(0.0, columnsDn2.value),
+                      std::hypot(rowsDn2.standardError, columnsDn2.standardError) };
+  for (const PeriodicInterference & wave : interference)
+  {
+    sum.value += wave.varianceDn2.value;
+    sum.standardError = std::hypot(sum.standardError, wave.varianceDn2.standardError);
+  }
+  return sum;
+}
+
 bool
 NoiseCorrelation::LacksTail() const
 {
   return upperTail.value < -InCorrelation.largestTailDeficit &&
          upperTail.value < -Significance.severalTests * upperTail.standardError;
+}
+
+bool
+NoiseCorrelation::MixesByDifference() const
+{
+  return kurtosisOfSteps.value > 0.0 &&
+         kurtosisOfSteps.Exceeds(InCorrelation.largestExcessOfSteps, Significance.severalTests);
 }
 
 bool
@@ -274,13 +295,6 @@ NoiseCorrelation::ProbabilityOfLateNoise() const
   const auto half = shapes.begin() + static_cast<std::size_t>(CovarianceShape::FirstPart) + PartsAfterFilter / 2 - 1;
   return std::accumulate(
     half, shapes.end(), 0.0, [](double sum, const WeightedShape & shape) { return sum + shape.probability; });
-}
-
-bool
-NoiseCorrelation::MixesByDifference() const
-{
-  return kurtosisOfSteps.value > 0.0 &&
-         kurtosisOfSteps.Exceeds(InCorrelation.largestExcessOfSteps, Significance.severalTests);
 }
 
 double
@@ -337,6 +351,7 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double quantisationDn2
   if (inTime)
   {
     CorrectKurtosisForTemporalCorrelation(residuals.GetBasis(), found);
+    CompareSteps(residuals, parallelFor, found);
     found.upperTail = {}; // common changes of the frames, as flicker, need not be normally distributed
   }
   if (found.isBySensitivity || found.brightCovariance > 0.0 || found.MixesByDifference() || !IsLinear(sums, found))
@@ -351,7 +366,6 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double quantisationDn2
   return found;
 }
 
-    CompareSteps(residuals, parallelFor, found);
 void
 MeasureSettledFrames(NoiseCorrelation &  correlation,
                      NoiseResiduals &    residuals,

@@ -11,6 +11,7 @@
 #include "correlation/ProcessingSigns.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/Report.h"
+#include "sensornoise/Settings.h"
 #include "sensornoise/StepResults.h"
 
 #include <array>
@@ -120,11 +121,11 @@ struct SensorNoise_EXPORT NoiseCorrelation
   double beyondTimeLags{ 0.0 };
   /** Largest total covariance of the lags beyond reach, relative to the variance [1]. */
   double beyondReach{ 0.0 };
-  /** Fraction of values that repeat the value in the frame before, beyond statistical scatter, if this makes the class
   /** Excess kurtosis of the differences between successive frames, beyond that which a linear filter may make of the
    * kurtosis of the values [1]; measured only where frames are correlated. Noise reduction in time makes it that mixes
    * only frames which differ little at a pixel. */
   MeasuredNumber kurtosisOfSteps;
+  /** Fraction of values that repeat the value in the frame before, beyond statistical scatter, if this makes the class
    * NotLinear; else 0 [1]. */
   double repeatedFraction{ 0.0 };
   /** Whether the spatial covariance grows with the squared signal and reaches further than coupled charge: the
@@ -153,19 +154,22 @@ struct SensorNoise_EXPORT NoiseCorrelation
   /** Returns the noise variance of whole rows and columns and of periodic interference together, where each is
    * significant [DN^2]. */
   MeasuredNumber
-  StructuredNoise() const;
+  SignificantStructuredNoise() const;
+  /** Returns the same sum with all parts that are above 0, significant or not, so that its error is complete [DN^2]. */
+  MeasuredNumber
+  StructuredNoiseWithScatter() const;
 
   /** Returns whether outliers were removed: much of the upper tail is missing. */
   bool
   LacksTail() const;
 
-  /** Returns whether local motion of the scene causes a part of the spatial correlation. */
-  bool
-  HasLocalMotion() const;
-
   /** Returns whether frames are mixed only where they differ little. */
   bool
   MixesByDifference() const;
+
+  /** Returns whether local motion of the scene causes a part of the spatial correlation. */
+  bool
+  HasLocalMotion() const;
 
   /** Returns the probability that most of the variance at zero signal was added after the filter. */
   double
@@ -221,6 +225,17 @@ FindLocalMotion(const NoiseResiduals & residuals, const ParallelFor & parallelFo
  * Estimator.md, 3.18. */
 SensorNoise_EXPORT MeasuredNumber
 EstimateLineIlluminationChange(const NoiseResiduals & residuals, LineAxis axis, const ParallelFor & parallelFor);
+
+/** Largest number of dark frames in which MeasureStructuredNoise() measures. Chosen empirically: a sample of so many
+ * frames has as many tiles as a sample can have. With half the number, the errors are 1.4 times as large; with twice
+ * the number, the tiles are half as many. */
+inline constexpr std::size_t SampledDarkFrames = 64;
+
+/** Measures the structured noise of dark frames. \a sample has the first \a frames of the frames that \a dark was
+ * measured in. The drift of their common level is left out.
+ * \return null: there are too few pixels or frames */
+SensorNoise_EXPORT std::optional<StructuredNoise>
+MeasureStructuredNoise(FrameSample sample, std::size_t frames, const DarkMaps & dark, const ParallelFor & parallelFor);
 
 /** Settings of a measurement of the noise correlation alone. */
 struct SensorNoise_EXPORT CorrelationSettings

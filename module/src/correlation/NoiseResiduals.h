@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
+#include "sensornoise/Settings.h"
 #include "sensornoise/StepResults.h"
 #include "correlation/Constants.h"
 #include "correlation/FrameSample.h"
@@ -77,25 +78,18 @@ private:
   double          m_OffsetDn{ 0.0 };
 };
 
-/** Frequency of a sine wave across the frame. */
-struct WaveFrequency
-{
-  double cyclesPerColumn{ 0.0 }; ///< along x [cycles/pixel]
-  double cyclesPerRow{ 0.0 };    ///< along y [cycles/pixel]
-};
-
 /** Periodic interference: a sine wave across the frame, whose amplitude and phase are free in each tile of each frame.
  * Estimator.md, 3.12. */
-/** Returns the mean of the numbers that are not NaN, one from each tile, with the standard error by their scatter; 0
- * from fewer than two. */
-SensorNoise_EXPORT MeasuredNumber
-MeanOfTiles(std::vector<double> numbers);
-
 struct PeriodicInterference
 {
   WaveFrequency  frequency;
   MeasuredNumber varianceDn2; ///< mean square of the wave [DN^2]
 };
+
+/** Returns the mean of the numbers that are not NaN, one from each tile, with the standard error by their scatter; 0
+ * from fewer than two. */
+SensorNoise_EXPORT MeasuredNumber
+MeanOfTiles(std::vector<double> numbers);
 
 /** Properties of the pixels of a frame whose noise is sampled. */
 struct SampledPixels

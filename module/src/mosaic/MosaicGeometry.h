@@ -7,6 +7,8 @@
 #include "base/ParallelWork.h"
 #include "base/PixelLayout.h"
 #include "base/Simd.h"
+#include "correlation/FrameSample.h"
+#include "correlation/NoiseCorrelation.h"
 #include "moments/DarkFrames.h"
 #include "moments/TemporalMoments.h"
 #include "sensornoise/FrameGeometry.h"
@@ -231,7 +233,7 @@ public:
   /** Starts sums over frames that are no mosaics. \a used is nonzero at the pixels to be used; empty: all are. */
   explicit DarkFrameSums(const FrameGeometry & frame, const std::vector<std::uint8_t> & used = {})
   {
-    m_Parts.emplace_back(used, frame.Pixels());
+    m_Parts.emplace_back(used, frame);
   }
 
   /** Starts sums over each plane of a mosaic. \a used is nonzero at the pixels of the frame to be used; empty: all are.
@@ -241,7 +243,7 @@ public:
   {
     for (const BayerPlane plane : BayerPlanes)
     {
-      m_Parts.emplace_back(mosaic.Take(used, plane), mosaic.Plane().Pixels());
+      m_Parts.emplace_back(mosaic.Take(used, plane), mosaic.Plane());
     }
   }
 
@@ -267,8 +269,7 @@ public:
     std::vector<KnownOffset> offsets;
     for (Part & part : m_Parts)
     {
-      offsets.push_back(
-        MeasureDarkFrames<TPixel>(std::move(part.moments), dnSettings, part.used, parallelFor, part.drift));
+      offsets.push_back(part.Measure(dnSettings, parallelFor));
     }
     return offsets;
   }
@@ -277,11 +278,12 @@ private:
   /** Sums over the frames, or over one plane of the frames. */
   struct Part
   {
-    Part(std::vector<std::uint8_t> usedPixels, std::size_t numberOfPixels)
+    Part(std::vector<std::uint8_t> usedPixels, const FrameGeometry & frame)
       : used(std::move(usedPixels))
-      , pixels(numberOfPixels)
-      , moments(numberOfPixels)
-      , drift(numberOfPixels, used)
+      , pixels(frame.Pixels())
+      , moments(pixels)
+      , drift(pixels, used)
+      , sample(FrameSample::Of<TPixel>(frame, SampledDarkFrames))
     {}
 
     void
@@ -292,12 +294,30 @@ private:
       });
       moments.AdvanceFrames(count);
       drift.AddFrames(frames, count, parallelFor);
+      if (sampled < SampledDarkFrames)
+      {
+        sample.AddFrames(frames, sampled, count, {}, parallelFor);
+        sampled = std::min(sampled + count, SampledDarkFrames);
+      }
+    }
+
+    KnownOffset
+    Measure(const DnSettings & dnSettings, const ParallelFor & parallelFor)
+    {
+      KnownOffset dark = MeasureDarkFrames<TPixel>(std::move(moments), dnSettings, used, parallelFor, drift);
+      if (dark.maps)
+      {
+        dark.structured = MeasureStructuredNoise(std::move(sample), sampled, *dark.maps, parallelFor);
+      }
+      return dark;
     }
 
     std::vector<std::uint8_t> used;
     std::size_t               pixels;
     TemporalMoments<TPixel>   moments;
     DarkDrift                 drift;
+    FrameSample               sample; // its frames are the first frames
+    std::size_t               sampled{ 0 };
   };
 
   std::optional<PlaneFrames<TPixel>> m_Planes; // null: not a mosaic

@@ -324,6 +324,13 @@ MeasurePixelNoise(ResidualSquares                          squares,
     }
   };
   allowForFrames();
+  if (settings.offset && settings.offset->structured)
+  {
+    for (const WaveFrequency & wave : settings.offset->structured->waves)
+    {
+      residuals.SubtractWave(wave, parallelFor); // its variance is measured, however small
+    }
+  }
   noise.correlation = MeasureWithoutInterference(residuals, quantisationDn2, parallelFor);
   const double varianceInflation = VarianceInflation(noise.correlation.space);
   if (noise.correlation.IsCorrelated() && varianceInflation > InRefined.leastVarianceInflation)

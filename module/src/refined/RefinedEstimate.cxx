@@ -81,25 +81,75 @@ EstimateFlicker(const RefinedResults & found, const UsedOffset & offset, double 
 
 namespace
 {
-/** Returns the settings with the dark variance of the sensor before filters, without the noise of rows and columns.
- * Dark frames passed the same filter. */
-RefinedSettings
-SettingsOfSensor(const RefinedResults & found, double quantisationDn2)
+/** Variances of the noise of whole rows, whole columns and periodic interference [DN^2]; 0: not significant. */
+struct StructuredVariances
 {
-  RefinedSettings settings = found.settings;
+  MeasuredNumber ofFrames;
+  MeasuredNumber ofDarkFrames;
+};
+
+MeasuredNumber
+IfSignificant(const MeasuredNumber & variance)
+{
+  return variance.value > Significance.severalTests * variance.standardError ? variance : MeasuredNumber{};
+}
+
+/** Returns the structured noise of the frames and of the dark frames. The electronics add the same noise to both, which
+ * is then the mean of both measurements. If they differ, each has its own: the illumination adds to the noise of the
+ * frames, and where their temporal components took it for illumination, they have less. */
+StructuredVariances
+FindStructuredNoise(const NoiseCorrelation & correlation, const std::optional<KnownOffset> & known)
+{
+  const MeasuredNumber frames = correlation.SignificantStructuredNoise();
+  if (!known || !known->structured)
+  {
+    return { frames, frames };
+  }
+  const DarkVariance & variance = known->structured->variance;
+  const MeasuredNumber dark{ variance.valueDn2, variance.standardErrorDn2 };
+  const MeasuredNumber all = correlation.StructuredNoiseWithScatter();
+  if (!(all.standardError > 0.0) || !(dark.standardError > 0.0))
+  {
+    return { IfSignificant(dark), IfSignificant(dark) };
+  }
+  const double error = std::hypot(all.standardError, dark.standardError);
+  if (std::abs(all.value - dark.value) > Significance.severalTests * error)
+  {
+    return { frames, IfSignificant(dark) };
+  }
+  const double         ofDark = all.standardError * all.standardError / (error * error);
+  const MeasuredNumber both =
+    IfSignificant({ ofDark * dark.value + (1.0 - ofDark) * all.value, all.standardError * dark.standardError / error });
+  return { both, both };
+}
+
+/** Returns the correlation with another structured noise. */
+NoiseCorrelation
+WithStructuredNoise(NoiseCorrelation correlation, const MeasuredNumber & structured)
+{
+  correlation.rowsDn2 = structured;
+  correlation.columnsDn2 = {};
+  correlation.interference.clear();
+  return correlation;
+}
+
+/** Returns the settings with the dark variance of the sensor before filters, without the structured noise. Dark frames
+ * passed the same filter. \a correlation has the structured noise of the dark frames. */
+RefinedSettings
+SettingsOfSensor(RefinedSettings settings, const NoiseCorrelation & correlation, double quantisationDn2)
+{
   if (settings.offset && settings.offset->variance)
   {
-    DarkVariance & dark = *settings.offset->variance;
-    const double   spread = StandardDeviationOfShapes(dark.valueDn2, found.correlation, quantisationDn2);
-    dark.valueDn2 = VarianceOfSensor(dark.valueDn2, found.correlation, quantisationDn2);
-    dark.standardErrorDn2 =
-      AddInQuadrature(FilterFactor(found.correlation) * dark.standardErrorDn2,
-                      FilterFactor(found.correlation) * found.correlation.StructuredNoise().standardError,
-                      spread);
+    const MeasuredNumber structured = correlation.SignificantStructuredNoise();
+    DarkVariance &       dark = *settings.offset->variance;
+    const double         spread = StandardDeviationOfShapes(dark.valueDn2, correlation, quantisationDn2);
+    dark.valueDn2 = VarianceOfSensor(dark.valueDn2, correlation, quantisationDn2);
+    dark.standardErrorDn2 = AddInQuadrature(
+      FilterFactor(correlation) * dark.standardErrorDn2, FilterFactor(correlation) * structured.standardError, spread);
     settings.offset->maps.reset();
-    if (auto & median = settings.offset->readNoiseMedian; median && FilterFactor(found.correlation) == 1.0)
+    if (auto & median = settings.offset->readNoiseMedian; median && FilterFactor(correlation) == 1.0)
     {
-      const double square = median->valueDn * median->valueDn - found.correlation.StructuredNoise().value;
+      const double square = median->valueDn * median->valueDn - structured.value;
       median->valueDn = std::sqrt(std::max(0.0, square));
     }
     else
@@ -165,7 +215,8 @@ EstimateBy(const RefinedResults & found, const GainEstimate & gain)
   estimate.ofSensor = QuantitiesBy(verdict, gain, found, quantisationDn2);
   if (verdict != GainVerdict::Identified)
   {
-    estimate.dark = QuantitiesOfDarkFrames(found.settings, quantisationDn2, StatusBy(verdict));
+    estimate.dark =
+      QuantitiesOfDarkFrames(found.settings, quantisationDn2, StatusBy(verdict), FilterFactor(found.correlation));
     return estimate;
   }
   estimate.dark = QuantitiesByOffset(found, gain, estimate.limits, estimate.flickerOffset, quantisationDn2);
@@ -214,17 +265,30 @@ WithholdGain(RefinedEstimate estimate)
 }
 } // namespace
 
+RefinedSettings
+WithoutStructuredNoise(const RefinedSettings & settings)
+{
+  NoiseCorrelation correlation;
+  correlation.kind = NoiseKind::White;
+  return SettingsOfSensor(
+    settings, WithStructuredNoise(correlation, FindStructuredNoise({}, settings.offset).ofDarkFrames), 0.0);
+}
+
 RefinedEstimate
 EstimateRefined(const RefinedResults & found)
 {
-  const double       quantisationDn2 = found.variance.quantisationNoise.darkVarianceDn2;
-  const GainEstimate ofFrames = EstimateGain(found);
-  RefinedEstimate    estimate;
-  if (found.correlation.IsCorrelated() || found.correlation.StructuredNoise().value > 0.0)
+  const double              quantisationDn2 = found.variance.quantisationNoise.darkVarianceDn2;
+  const GainEstimate        ofFrames = EstimateGain(found);
+  RefinedEstimate           estimate;
+  const StructuredVariances structured = FindStructuredNoise(found.correlation, found.settings.offset);
+  if (found.correlation.IsCorrelated() || structured.ofFrames.value > 0.0 || structured.ofDarkFrames.value > 0.0)
   {
-    const RefinedSettings settings = SettingsOfSensor(found, quantisationDn2);
-    const SensorLines     lines =
-      AddCovariances(LinesOf(found.variance), found.correlation, found.blackDn, quantisationDn2);
+    const RefinedSettings settings = SettingsOfSensor(
+      found.settings, WithStructuredNoise(found.correlation, structured.ofDarkFrames), quantisationDn2);
+    const SensorLines    lines = AddCovariances(LinesOf(found.variance),
+                                             WithStructuredNoise(found.correlation, structured.ofFrames),
+                                             found.blackDn,
+                                             quantisationDn2);
     const RefinedResults sensor = { settings,        found.scene,       found.series,
                                     found.variance,  found.reestimated, found.correctedVariance,
                                     found.blackDn,   found.correlation, found.frameNoise,

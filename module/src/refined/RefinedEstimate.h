@@ -233,9 +233,19 @@ struct DarkQuantities
 };
 
 /** Returns offset and read noise from the dark frames or from the user. Quantities that they do not determine have
- * \a status. \a quantisationDn2 is the variance of the quantization noise [DN^2]. */
+ * \a status. \a quantisationDn2 is the variance of the quantization noise [DN^2]. \a filterFactor is the factor from
+ * the variance of the frames to the variance of the sensor, see FilterFactor(): below a noise of half a step in the
+ * frames, the read noise has a limit only. */
 SensorNoise_EXPORT DarkQuantities
-QuantitiesOfDarkFrames(const RefinedSettings & settings, double quantisationDn2, EstimateStatus status);
+QuantitiesOfDarkFrames(const RefinedSettings & settings,
+                       double                  quantisationDn2,
+                       EstimateStatus          status,
+                       double                  filterFactor = 1.0);
+
+/** Returns the settings with the variance of the dark frames without their structured noise, where it is significant:
+ * the noise of whole rows, whole columns and periodic interference. */
+SensorNoise_EXPORT RefinedSettings
+WithoutStructuredNoise(const RefinedSettings & settings);
 
 /** Returns offset and read noise beside an identified gain. The offset is the known offset, if it is given, else
  * \a flicker. \a quantisationDn2 is the variance of the quantization noise [DN^2]. */

@@ -314,7 +314,9 @@ MakeFailedReport(const RefinedSettings &           settings,
 {
   Report report = DescribeInput(settings, scene, pixelUse);
   report.Warn(failureReason.GetCode(), failureReason.what());
-  CopyDark(report, QuantitiesOfDarkFrames(settings, QuantisationVariance(scene), EstimateStatus::Failed));
+  CopyDark(
+    report,
+    QuantitiesOfDarkFrames(WithoutStructuredNoise(settings), QuantisationVariance(scene), EstimateStatus::Failed));
   return report;
 }
 

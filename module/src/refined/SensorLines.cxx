@@ -59,7 +59,7 @@ public:
     : m_Mean(MeanShape(correlation))
     , m_BlackDn(blackDn)
     , m_QuantisationDn2(quantisationDn2)
-    , m_StructuredDn2(correlation.StructuredNoise().value)
+    , m_StructuredDn2(correlation.SignificantStructuredNoise().value)
   {}
 
   /** Returns the sensor's variance, from the variance of a pixel at a level [DN^2]. */
@@ -217,7 +217,7 @@ ErrorOf(const NoiseCorrelation & correlation,
   const double          relative = beyond * line.gain / std::max(smallestDivisor, sensor.gain);
   error += relative * relative * whole * whole.transpose();
   // The structured noise is subtracted before the factor of the filter is applied.
-  const double ofStructured = FilterFactor(correlation) * correlation.StructuredNoise().standardError;
+  const double ofStructured = FilterFactor(correlation) * correlation.SignificantStructuredNoise().standardError;
   error(1, 1) += ofStructured * ofStructured;
   return error;
 }
@@ -246,7 +246,7 @@ VarianceOfSensor(double varianceDn2, const NoiseCorrelation & correlation, doubl
 double
 StandardDeviationOfShapes(double varianceDn2, const NoiseCorrelation & correlation, double quantisationDn2)
 {
-  const double noise = varianceDn2 - quantisationDn2 - correlation.StructuredNoise().value;
+  const double noise = varianceDn2 - quantisationDn2 - correlation.SignificantStructuredNoise().value;
   const auto   covarianceOf = [noise](const WeightedShape & shape) {
     return shape.ofVariance * noise + shape.constantDn2;
   };

@@ -206,7 +206,10 @@ QuantitiesBy(GainVerdict verdict, const GainEstimate & line, const RefinedResult
 }
 
 DarkQuantities
-QuantitiesOfDarkFrames(const RefinedSettings & settings, double quantisationDn2, EstimateStatus status)
+QuantitiesOfDarkFrames(const RefinedSettings & settings,
+                       double                  quantisationDn2,
+                       EstimateStatus          status,
+                       double                  filterFactor)
 {
   DarkQuantities dark;
   dark.offset = dark.readNoise = dark.readNoiseElectrons = Quantity::Without(status);
@@ -222,7 +225,7 @@ QuantitiesOfDarkFrames(const RefinedSettings & settings, double quantisationDn2,
   }
   const double student = StudentQuantile(0.975, std::max(1.0, static_cast<double>(known.darkFrames) - 1.0));
   const double square = known.variance->valueDn2 - quantisationDn2;
-  const double halfStepDn2 = 3.0 * quantisationDn2; // below it, the quantization hides the noise
+  const double halfStepDn2 = filterFactor * 3.0 * quantisationDn2; // below it, the quantization hides the noise
   dark.readNoise = square < halfStepDn2 ? UpperLimit(std::sqrt(halfStepDn2))
                                         : RootOf(square, known.variance->standardErrorDn2, student);
   if (known.readNoiseMedian)
@@ -272,7 +275,7 @@ QuantitiesByOffset(const RefinedResults & found,
   if (known && known->variance)
   {
     const RefinedSettings settings = WidenDarkErrors(found, gain);
-    dark = QuantitiesOfDarkFrames(settings, quantisationDn2, EstimateStatus::Failed);
+    dark = QuantitiesOfDarkFrames(settings, quantisationDn2, EstimateStatus::Failed, FilterFactor(found.correlation));
     const DarkVariance square{ known->variance->valueDn2 - quantisationDn2,
                                settings.offset->variance->standardErrorDn2 };
     dark.readNoiseElectrons = InElectrons(dark.readNoise, square, gain, student);
