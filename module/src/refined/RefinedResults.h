@@ -20,7 +20,6 @@
 #include "sensornoise/Settings.h"
 #include "series/Constants.h"
 #include "series/FrameSums.h"
-#include "series/InstrumentShifts.h"
 #include "series/MotionSeries.h"
 #include "series/OffsetLine.h"
 #include "series/SceneSeries.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "series/InstrumentShifts.h"
+#include "series/MotionSeries.h"
 
 #include "base/Constants.h"
 #include "base/Stencils.h"
