@@ -76,6 +76,23 @@ TEST(SensorNoiseIlluminationChange, OfAScenesContrastForAnyOffset)
   }
 }
 
+// One frame of 100 without light is a relative standard deviation of 10 %, and a change of that frame by 99 %.
+TEST(SensorNoiseIlluminationChange, OneUnlitFrameIsAStrongChange)
+{
+  std::vector<std::vector<double>> frames(100);
+  std::vector<double>              mean(Cells, 0.0);
+  for (std::size_t t = 0; t < frames.size(); ++t)
+  {
+    for (std::size_t i = 0; i < Cells; ++i)
+    {
+      frames[t].push_back(50.0 + (t == 30 ? 0.0 : Signal(i)));
+      mean[i] += frames[t][i] / static_cast<double>(frames.size());
+    }
+  }
+  const double change = ComputeIlluminationChange(mean, frames, 1.0);
+  EXPECT_NEAR(change, InMoments.strongIlluminationChange / InMoments.strongChangeOfOneFrame, 1e-9);
+}
+
 TEST(SensorNoiseIlluminationChange, OfAFlatFieldsLevelInUnitsOfTheNoise)
 {
   CounterSeededRandom random(5, 1, 0);

@@ -105,6 +105,7 @@ ComputeIlluminationChange(const std::vector<double> &              mean,
   const double squares = std::accumulate(
     mean.begin(), mean.end(), 0.0, [centre](double sum, double own) { return sum + (own - centre) * (own - centre); });
   double              slopes = 0.0;
+  double              largest = 0.0;
   double              levels = 0.0;
   std::vector<double> errors;
   for (const std::vector<double> & frame : frames)
@@ -113,6 +114,7 @@ ComputeIlluminationChange(const std::vector<double> &              mean,
     if (difference.isExplained)
     {
       slopes += difference.slope * difference.slope;
+      largest = std::max(largest, std::abs(difference.slope));
       levels += difference.level * difference.level;
       errors.push_back(difference.slopeError);
     }
@@ -126,7 +128,8 @@ ComputeIlluminationChange(const std::vector<double> &              mean,
   const bool hasContrast = Quantile(errors, 0.5) < InMoments.largestSlopeError * InMoments.strongIlluminationChange;
   if (hasContrast)
   {
-    return std::sqrt(slopes / dof);
+    const double ofOneFrame = InMoments.strongIlluminationChange * largest / InMoments.strongChangeOfOneFrame;
+    return std::max(std::sqrt(slopes / dof), ofOneFrame);
   }
   const double strong = InMoments.strongChangeOfFlat * noiseDn2;
   return strong > 0.0 ? InMoments.strongIlluminationChange * std::sqrt(levels / dof / strong) : 0.0;
