@@ -122,14 +122,14 @@ public:
   const std::vector<double> &
   GetVariance() const override
   {
-    return m_Scene->frame.variance;
+    return m_Scene->frame.variance.GetDoubles();
   }
   /** Returns the variance without flicker and motion [DN^2]; NaN where it was not computed; empty if the stack cannot
    * be measured. */
   const std::vector<double> &
   GetCorrectedVariance() const override
   {
-    return m_CorrectedVariance;
+    return m_CorrectedVariance.GetDoubles();
   }
   /** Returns values of PixelUse. */
   const std::vector<std::uint8_t> &
@@ -147,12 +147,12 @@ public:
   std::vector<double>
   TakeVariance() override
   {
-    return std::move(m_Scene->frame.variance);
+    return m_Scene->frame.variance.TakeDoubles();
   }
   std::vector<double>
   TakeCorrectedVariance() override
   {
-    return std::move(m_CorrectedVariance);
+    return m_CorrectedVariance.TakeDoubles();
   }
   std::vector<std::uint8_t>
   TakePixelUse() override
@@ -191,6 +191,10 @@ private:
               const TPixel *             frames,
               std::size_t                count,
               const ParallelFor &        parallelFor) const override;
+  /** Packs the means if sums of the third pass are held when \a count frames are added: it does not need the means
+   * before its end. */
+  void
+  PackMeans(std::size_t count, const ParallelFor & parallelFor);
   void
   ForgetOwnSums() override;
   void
@@ -249,7 +253,7 @@ private:
   std::optional<PixelNoise>           m_Noise;
   std::optional<const ReestimatedComponents> m_Reestimated;
   std::vector<double>                        m_Mean; // map for display, filled when the report is made
-  std::vector<double>                        m_CorrectedVariance;
+  PixelMap                                   m_CorrectedVariance;
   std::optional<const NothingToMeasure>      m_FailureReason;
   bool                                       m_HasScene{ false };
   bool                                       m_IsWithoutMerging{ false };
