@@ -45,8 +45,9 @@ namespace sensornoise
  * Identical frames are counted once: the result is the result of the distinct frames, and the series in the report
  * repeat the values of a frame's original.
  *
- * The results are identical for any number of threads and any chunks. Memory: 56 bytes for each pixel, 4 or 8 more for
- * each temporal component that is found (2 to 20), 20 kB for each frame, and 32 MiB, see MemoryNeed. A stack that
+ * The results are identical for any number of threads and any chunks. Memory: 48 bytes for each pixel (52 for
+ * floating-point frames), or in the third pass 12 (20) bytes, and 4 or 8 more for each temporal component that is found
+ * (2 to 20); 20 kB for each frame, and 32 MiB, see MemoryNeed. A stack that
  * cannot be measured (NothingToMeasure) has a report whose quantities are `failed`, with a warning that gives the
  * reason. Wrong use throws std::invalid_argument. May be moved, also between and within passes. */
 template <typename TPixel>
