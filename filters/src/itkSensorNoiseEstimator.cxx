@@ -62,10 +62,10 @@ SizeValueType
 SensorNoiseEstimator<TStack>::ChunkBytes(unsigned int pass) const
 {
   // In the second pass of Refined the computation per chunk takes as long as about eight frames, so that larger chunks
-  // are faster. This pass needs at least 16 bytes per pixel less than the third pass.
-  constexpr SizeValueType lessBytes = 16;
+  // are faster. With 16 bytes more per pixel, this pass needs as much memory as the third pass with nine components.
+  constexpr SizeValueType moreBytes = 16;
   const bool              isLarger = m_Method == MethodEnum::Refined && pass == 1 && m_MemoryLimit == 0;
-  return Superclass::ChunkBytes(pass) + (isLarger ? lessBytes * this->GetFrameRegion().GetNumberOfPixels() : 0);
+  return Superclass::ChunkBytes(pass) + (isLarger ? moreBytes * this->GetFrameRegion().GetNumberOfPixels() : 0);
 }
 
 template <typename TStack>

@@ -37,22 +37,24 @@ struct HandMadeResults
     constexpr std::size_t pixels = Size * Size;
     constexpr double      lowDn = 150.0;
     constexpr double      highDn = 3150.0;
+    std::vector<double>   own;
     for (std::size_t p = 0; p < pixels; ++p)
     {
       scene.frame.mean.push_back(lowDn + (highDn - lowDn) * static_cast<double>(p) / (pixels - 1.0));
-      scene.frame.variance.push_back(scene.frame.mean.back() - 100.0 + 64.0);
+      own.push_back(scene.frame.mean.back() - 100.0 + 64.0);
     }
+    scene.frame.variance = own;
     scene.valid = pixels;
     scene.pixelUse.assign(pixels, static_cast<std::uint8_t>(PixelUse::Used));
     scene.usable = pixels;
     scene.frame.geometry = { Size, Size, 1 };
     scene.frame.frames = 20;
-    scene.frame.neighbourMean = scene.frame.mean;
+    scene.frame.neighbourMean.assign(scene.frame.mean.begin(), scene.frame.mean.end());
     scene.frame.usable.assign(pixels, 1);
     scene.model.darkestDn = lowDn;
     scene.model.brightestDn = highDn;
     scene.model.centreDn = 1100.0;
-    correctedVariance = scene.frame.variance;
+    correctedVariance = own;
 
     VarianceLine & line = variance.line;
     line.gain = 1.0;

@@ -25,10 +25,10 @@ UnitFor(double varianceDn2)
   ReferenceFrame frame;
   frame.frames = Frames;
   frame.mean.assign(Pixels, 1000.0);
-  frame.variance.assign(Pixels, varianceDn2);
+  frame.variance = std::vector<double>(Pixels, varianceDn2);
   frame.usable.assign(Pixels, 1);
   frame.usable[7] = 0; // an outlier counts for nothing
-  frame.variance[7] = 1e9;
+  frame.variance.Set(7, 1e9);
   InitialNoiseModel model;
   model.interceptDn2 = 100.0;
   model.slopeDn = 0.0;
@@ -65,7 +65,25 @@ TEST(SensorNoiseNarrowSums, NoUsablePixelNeedsNone)
   ReferenceFrame frame;
   frame.frames = Frames;
   frame.mean.assign(Pixels, 1000.0);
-  frame.variance.assign(Pixels, 1.0);
+  frame.variance = std::vector<double>(Pixels, 1.0);
   frame.usable.assign(Pixels, 0);
   EXPECT_FALSE(UnitOfNarrowSums(frame, InitialNoiseModel()));
+}
+
+TEST(SensorNoiseSingleVariance, IsEnoughUntilItsRoundingIsAHundredthOfTheNoise)
+{
+  // The rounding error of v, 2^-24 v / sqrt(3), over V is 0.01 sqrt(2/T) if v is 41,096 V.
+  const auto isEnough = [](double ratio) {
+    ReferenceFrame frame;
+    frame.frames = Frames;
+    frame.mean.assign(Pixels, 1000.0);
+    frame.variance = std::vector<double>(Pixels, ratio * 100.0);
+    frame.usable.assign(Pixels, 1);
+    InitialNoiseModel model;
+    model.interceptDn2 = 100.0;
+    model.slopeDn = 0.0;
+    return IsSingleEnough(frame, model);
+  };
+  EXPECT_TRUE(isEnough(41000.0));
+  EXPECT_FALSE(isEnough(41200.0));
 }

@@ -167,7 +167,8 @@ TEST(SensorNoiseProjectedVariance, ThreadsChangeNoBit)
   ProjectedSquares      expected = input.Project();
   ProjectedSquares      projected = other.Project(Threads(3));
   EXPECT_TRUE(HaveSameBits(projected.GetDivisor(), expected.GetDivisor()));
-  EXPECT_TRUE(HaveSameBits(std::move(projected).TakeVarianceAt(1.0), std::move(expected).TakeVarianceAt(1.0)));
+  EXPECT_TRUE(HaveSameBits(std::move(projected).TakeVarianceAt(1.0).TakeDoubles(),
+                           std::move(expected).TakeVarianceAt(1.0).TakeDoubles()));
 }
 
 TEST(SensorNoiseProjectedVariance, IsAFunctionOfTheGainAndOfTheRatios)
@@ -195,7 +196,7 @@ TEST(SensorNoiseProjectedVariance, IsAFunctionOfTheGainAndOfTheRatios)
   EXPECT_FALSE(corrected.HasRatios());
   EXPECT_TRUE(divided.WithLine({}).HasRatios());
   const double              first = corrected.GetVariance()[5 * Width + 7];
-  const std::vector<double> taken = std::move(squares).TakeVarianceAt(2.0);
+  const std::vector<double> taken = std::move(squares).TakeVarianceAt(2.0).TakeDoubles();
   EXPECT_EQ(taken[5 * Width + 7], first);
 }
 

@@ -223,7 +223,7 @@ TEST(SensorNoiseRejectionModel, PixelsWithUnequalOffsetsAreTestedAtTheMeanOfThei
   const Burst          burst(StraightVariance, 60.0);
   const RejectionModel rejection = burst.FitModel();
   EXPECT_TRUE(rejection.byNeighbours);
-  EXPECT_EQ(rejection.LevelsOf(burst.frame)[1000], burst.frame.neighbourMean[1000]);
+  EXPECT_EQ(rejection.LevelOf(burst.frame, 1000), burst.frame.neighbourMean[1000]);
   EXPECT_EQ(Count(burst.Rejected(rejection)), 0u);
 }
 

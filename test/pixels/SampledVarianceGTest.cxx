@@ -27,7 +27,7 @@ constexpr double      Intercept = -2.0;
 struct Maps
 {
   std::vector<double>       mean;
-  std::vector<double>       neighbourMean;
+  std::vector<float>        neighbourMean;
   std::vector<double>       variance;
   std::vector<float>        dof = std::vector<float>(Pixels, static_cast<float>(Dof));
   std::vector<std::uint8_t> mask = std::vector<std::uint8_t>(Pixels, 1);
@@ -41,7 +41,7 @@ struct Maps
     {
       mask[p] = p % 7 == 3 ? 0 : 1;
       mean.push_back(mask[p] != 0 ? uniform(random) : std::nan(""));
-      neighbourMean.push_back(mean.back() + 1.0);
+      neighbourMean.push_back(static_cast<float>(mean.back() + 1.0));
       variance.push_back((Intercept + Gain * mean.back()) * chiSquare(random) / Dof);
     }
   }

@@ -44,7 +44,8 @@ WideningOf(double deviationOfCells)
     mean.push_back(100.0 + 40.0 * static_cast<double>(cells.Of(p) * 7 % 24));
     variance.push_back((10.0 + 0.1 * mean[p]) * factors[cells.Of(p)] * chiSquare(random) / Dof);
   }
-  const VarianceData data{ mean.data(), mean.data(), { variance.data() }, dof.data(), mask.data(), Pixels };
+  const std::vector<float> neighbourMean(mean.begin(), mean.end());
+  const VarianceData data{ mean.data(), neighbourMean.data(), { variance.data() }, dof.data(), mask.data(), Pixels };
   VarianceFit        fit(data, SerialFor, std::nullopt);
   fit.Iterate(8);
   return WideningByCells(fit, data, geometry);

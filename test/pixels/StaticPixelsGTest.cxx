@@ -237,7 +237,7 @@ TEST(SensorNoiseStaticPixels, RunsAreTestedAsSinglePixelsAre)
         const std::size_t p = first + i;
         if (noise.input.mask[p] != 0)
         {
-          const double expected = noise.line.At(noise.line.LevelsOf(frame)[p]);
+          const double expected = noise.line.At(noise.line.LevelOf(frame, p));
           const double ratio = noise.projected.GetVariance()[p] / expected;
           const double dof = noise.line.EffectiveDof(noise.projected.GetDof()[p], expected);
           ASSERT_NEAR(run.expected[i], expected, 1e-12 * expected) << p;

@@ -68,8 +68,10 @@ CurveOfPixels(double gain, double wave)
     mean.push_back(uniform(random));
     variance.push_back((20.0 + gain * mean[p]) * (1.0 + wave * std::sin(0.03 * mean[p])) * chiSquare(random) / 30.0);
   }
-  VarianceFit fit(
-    { mean.data(), mean.data(), { variance.data() }, dof.data(), mask.data(), pixels }, SerialFor, std::nullopt);
+  const std::vector<float> neighbourMean(mean.begin(), mean.end());
+  VarianceFit fit({ mean.data(), neighbourMean.data(), { variance.data() }, dof.data(), mask.data(), pixels },
+                  SerialFor,
+                  std::nullopt);
   fit.Iterate(8);
   return fit.CurveAbout(fit.GetLine());
 }

@@ -33,6 +33,7 @@ constexpr double      BlackDn = 100.0;
 struct Maps
 {
   std::vector<double>       mean;
+  std::vector<float>        neighbourMean;
   std::vector<double>       variance;
   std::vector<double>       readVariance;
   std::vector<float>        dof = std::vector<float>(Pixels, Dof);
@@ -46,6 +47,7 @@ struct Maps
     for (std::size_t p = 0; p < Pixels; ++p)
     {
       mean.push_back(uniform(random));
+      neighbourMean.push_back(static_cast<float>(mean.back()));
       readVariance.push_back(readVarianceOf(random));
       variance.push_back((readVariance[p] + Gain * (mean[p] - BlackDn)) * chiSquare(random) / Dof);
     }
@@ -53,7 +55,7 @@ struct Maps
   VarianceData
   Data() const
   {
-    return { mean.data(), mean.data(), { variance.data() }, dof.data(), mask.data(), Pixels };
+    return { mean.data(), neighbourMean.data(), { variance.data() }, dof.data(), mask.data(), Pixels };
   }
   VarianceFit
   Fit(TrimRule rule, const ParallelFor & parallelFor = SerialFor) const

@@ -28,7 +28,7 @@ constexpr double      Intercept = -2.0;
 struct Maps
 {
   std::vector<double>       mean;
-  std::vector<double>       neighbourMean;
+  std::vector<float>        neighbourMean;
   std::vector<double>       variance;
   std::vector<float>        dof = std::vector<float>(Pixels, Dof);
   std::vector<std::uint8_t> mask = std::vector<std::uint8_t>(Pixels, 1);
@@ -42,7 +42,7 @@ struct Maps
     for (std::size_t p = 0; p < Pixels; ++p)
     {
       mean.push_back(uniform(random));
-      neighbourMean.push_back(mean.back() + (isNoisy ? 5.0 * normal(random) : 0.0));
+      neighbourMean.push_back(static_cast<float>(mean.back() + (isNoisy ? 5.0 * normal(random) : 0.0)));
       variance.push_back((Intercept + Gain * mean.back()) * (isNoisy ? chiSquare(random) / Dof : 1.0));
     }
   }
@@ -109,7 +109,7 @@ TEST(SensorNoiseVarianceFit, FollowsTheUnitsAndTheLevel)
   for (std::size_t p = 0; p < Pixels; ++p)
   {
     changed.mean[p] = scale * maps.mean[p] + added;
-    changed.neighbourMean[p] = scale * maps.neighbourMean[p] + added;
+    changed.neighbourMean[p] = static_cast<float>(scale * maps.neighbourMean[p] + added);
     changed.variance[p] = scale * scale * maps.variance[p];
   }
   const auto other = changed.Fit();
@@ -154,7 +154,8 @@ TEST(SensorNoiseVarianceFit, OutliersAndPixelsOutsideTheMaskHaveNoPart)
   const auto part = masked.Fit();
   for (std::size_t p = 0; p < Pixels; p += 3)
   {
-    masked.variance[p] = masked.mean[p] = masked.neighbourMean[p] = std::nan("");
+    masked.variance[p] = masked.mean[p] = std::nan("");
+    masked.neighbourMean[p] = std::nanf("");
     masked.dof[p] = 0.0F;
   }
   EXPECT_EQ(masked.Fit().gain, part.gain);
@@ -197,7 +198,7 @@ TEST(SensorNoiseVarianceFit, StartsBetweenPatchesOfFewLevels)
     const std::size_t patch = p < 2450 ? 0 : 1 + p % 9;
     const double      electrons = 80.0 * static_cast<double>(patch);
     maps.mean[p] = 200.0 + gain * electrons;
-    maps.neighbourMean[p] = maps.mean[p] + uniform(random);
+    maps.neighbourMean[p] = static_cast<float>(maps.mean[p] + uniform(random));
     const double                    variance = 9.0 + gain * gain * electrons;
     const double                    dof = Dof / (1.0 + 0.5 * gain * gain / variance);
     std::gamma_distribution<double> gamma(0.5 * dof, 2.0 / dof);
@@ -224,7 +225,7 @@ TEST(SensorNoiseVarianceFit, OneIntensityOrTooFewPixelsDetermineNothing)
 {
   Maps maps(true);
   maps.mean.assign(Pixels, 500.0);
-  maps.neighbourMean = maps.mean;
+  maps.neighbourMean.assign(maps.mean.begin(), maps.mean.end());
   EXPECT_FALSE(maps.Fit().isDetermined);
   maps = Maps(true);
   maps.mask.assign(Pixels, 0);
@@ -245,7 +246,7 @@ TEST(SensorNoiseVarianceFit, FixedPatternOfDarkPixelsDoesNotFlattenTheLineOfTheR
     {
       maps.variance[p] *= (Intercept + Gain * 100.0) / (Intercept + Gain * maps.mean[p]);
       maps.mean[p] = 100.0 + normal(random);
-      maps.neighbourMean[p] = 100.0 + normal(random) / std::sqrt(8.0);
+      maps.neighbourMean[p] = static_cast<float>(100.0 + normal(random) / std::sqrt(8.0));
     }
   }
   const auto sloped = maps.Fit();

@@ -37,8 +37,8 @@ FrameOf(const InitialNoiseModel & truth, std::size_t every = 0)
     {
       const double gx = ApplyStencil(stencils[StencilX], frame.mean.data(), Width, p);
       const double gy = ApplyStencil(stencils[StencilY], frame.mean.data(), Width, p);
-      frame.variance[p] = truth.RawVariance(frame.neighbourMean[p], gx, gy);
-      frame.variance[p] *= every > 0 && ++count % every == 0 ? 50.0 : 1.0;
+      frame.variance.Set(p, truth.RawVariance(frame.neighbourMean[p], gx, gy));
+      frame.variance.Set(p, frame.variance[p] * (every > 0 && ++count % every == 0 ? 50.0 : 1.0));
     }
   }
   return frame;
@@ -83,7 +83,7 @@ TEST(SensorNoiseInitialNoiseModel, VarianceThatChanceExplainsIsUniform)
   double                                count = 0.0;
   for (std::size_t p = 0; p < frame.variance.size(); ++p)
   {
-    frame.variance[p] *= chi2(random) / 39.0;
+    frame.variance.Set(p, frame.variance[p] * (chi2(random) / 39.0));
     sum += frame.usable[p] * frame.variance[p];
     count += frame.usable[p];
   }

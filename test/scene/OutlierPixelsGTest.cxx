@@ -33,7 +33,7 @@ TEST(SensorNoiseOutlierPixels, AreThoseFarAboveTheModel)
   frames.model.largestRatio = 3.0;
   auto &     frame = frames.reference;
   const auto setRatio = [&](std::size_t p, double ratio) {
-    frame.variance[p] = ratio * frames.model.RawVariance(frame.neighbourMean[p], 0.0, 0.0);
+    frame.variance.Set(p, ratio * frames.model.RawVariance(frame.neighbourMean[p], 0.0, 0.0));
   };
   for (std::size_t p = 0; p < frame.variance.size(); ++p)
   {
@@ -80,7 +80,7 @@ TEST(SensorNoiseOutlierPixels, AreNotThoseOfEdgesSharperThanAPixel)
     const double      signal = inPeriod < 6 ? 0.0 : inPeriod == 6 || inPeriod == 13 ? 0.4 : 1.0;
     const bool        isEdge = inPeriod == 6 || inPeriod == 13;
     frame.mean[p] = 500.0 + stepDn * signal;
-    frame.variance[p] = noiseDn2 + (isEdge ? shiftVariance * stepDn * stepDn : 0.0);
+    frame.variance.Set(p, noiseDn2 + (isEdge ? shiftVariance * stepDn * stepDn : 0.0));
   }
   frame.neighbourMean = ComputeNeighbourMean(frame, SerialFor);
   const InitialNoiseModel model = FitInitialNoiseModel(frame);
@@ -88,6 +88,6 @@ TEST(SensorNoiseOutlierPixels, AreNotThoseOfEdgesSharperThanAPixel)
   EXPECT_GT(model.vibrationXPixels2, shiftVariance);
   EXPECT_LT(model.vibrationXPixels2, 4.0 * shiftVariance); // the difference is half of the step, and twice as wide
   EXPECT_EQ(Count(FindOutlierPixels(frame, model, SerialFor)), 0u);
-  frame.variance[20 * Width + 24] = 100.0 * noiseDn2; // in a bright bar
+  frame.variance.Set(20 * Width + 24, 100.0 * noiseDn2); // in a bright bar
   EXPECT_EQ(Count(FindOutlierPixels(frame, model, SerialFor)), 1u);
 }

@@ -51,7 +51,7 @@ FrameWith(const Excess & excess, std::size_t size = Size)
       const double gx = ApplyStencil(stencils[StencilX], frame.mean.data(), size, p);
       const double gy = ApplyStencil(stencils[StencilY], frame.mean.data(), size, p);
       const double variance = truth.RawVariance(frame.neighbourMean[p], gx, gy) + excess(x, y, frame.mean[p]);
-      frame.variance[p] = gamma(random) * variance / Dof;
+      frame.variance.Set(p, gamma(random) * variance / Dof);
     }
   }
   return frame;

@@ -56,19 +56,20 @@ SumClasses(const ProjectedVariance &         projected,
            const ParallelFor &               parallelFor)
 {
   const ReferenceFrame & frame = projected.GetFrame();
-  const double * const   levels = line.LevelsOf(frame).data();
   const double           sampling = 2.0 * line.varianceInflation / static_cast<double>(frame.frames - 1);
   const auto             sumRun = [&](std::size_t first, std::size_t pixels, TestedRun & run, double * sums) {
     RunValues weight{};
     RunValues error{};
     RunValues precision{};
     CallWithAvx2([&,
-                  level = frame.neighbourMean.data() + first,
+                  neighbours = frame.neighbourMean.data() + first,
                   divisor = projected.GetSquares().GetDivisor().data() + first,
                   dof = projected.GetDof().data() + first,
                   spread = line.line.noiseDispersionDn4] {
       run.Test(projected, line, first, pixels);
-      line.FillVariance(level, pixels, weight);
+      RunValues level;
+      std::copy_n(neighbours, pixels, level.data());
+      line.FillVariance(level.data(), pixels, weight);
       for (std::size_t i = 0; i < pixels; ++i)
       {
         const double halfDof = 0.5 * static_cast<double>(dof[i]);
@@ -92,7 +93,7 @@ SumClasses(const ProjectedVariance &         projected,
           own[Weight] += weight[i];
           own[WeightedRatio] += weight[i] * run.ratio[i];
           own[SquaredErrors] += error[i];
-          own[WeightedLevel] += weight[i] * levels[first + i] / run.expected[i];
+          own[WeightedLevel] += weight[i] * line.LevelOf(frame, first + i) / run.expected[i];
           own[WeightedOne] += weight[i] / run.expected[i];
           const double x = frame.mean[first + i] - line.line.pivotDn;
           const double z = frame.neighbourMean[first + i] - line.line.pivotDn;

@@ -339,4 +339,20 @@ UnitOfNarrowSums(const ReferenceFrame & frame, const InitialNoiseModel & model, 
   return left <= InPixels.largestRoundingError * standardError ? std::optional(unit) : std::nullopt;
 }
 
+bool
+IsSingleEnough(const ReferenceFrame & frame, const InitialNoiseModel & model)
+{
+  const std::vector<std::size_t> pixels = SamplePixels(frame.usable);
+  double                         squares = 0.0;
+  for (const std::size_t p : pixels)
+  {
+    const double ratio = frame.variance[p] / model.NoiseVariance(frame.mean[p]);
+    squares += ratio * ratio;
+  }
+  // A rounded number has an error that is uniform, of at most 2^-24 of the number.
+  const double left = squares / static_cast<double>(std::max<std::size_t>(1, pixels.size())) * std::exp2(-48.0) / 3.0;
+  const double standardError = std::sqrt(2.0 / static_cast<double>(frame.frames));
+  return std::sqrt(left) <= InPixels.largestRoundingError * standardError;
+}
+
 } // namespace sensornoise

@@ -153,6 +153,13 @@ UnitOfNarrowSums(const ReferenceFrame &    frame,
                  const InitialNoiseModel & model,
                  const ParallelFor &       parallelFor = SerialFor);
 
+/** Returns whether single precision is enough for the variance of integer frames about their mean, from which the
+ * residual squares are computed. A changing illumination makes this variance larger than the variance that remains.
+ * Their ratio times the rounding error has to be at most InPixels.largestRoundingError of a pixel's standard error, in
+ * the mean square over a sample of the usable pixels. \a model gives the noise variance. Estimator.md, 6. */
+SensorNoise_EXPORT bool
+IsSingleEnough(const ReferenceFrame & frame, const InitialNoiseModel & model);
+
 } // namespace sensornoise
 
 #endif

@@ -156,8 +156,8 @@ ProjectedSquares::ProjectedSquares(const ReferenceFrame &            frame,
   this->Replace(replaced);
   if (!quantisationNoise.remaindersDn2.empty())
   {
-    ForPixels(m_Variance.size(), m_ParallelFor, [&](std::size_t p) {
-      m_Variance[p] -= m_Mask[p] != 0 ? quantisationNoise.RemainderAt(m_Frame.mean[p]) : 0.0;
+    ForPixels(m_Divisor.size(), m_ParallelFor, [&](std::size_t p) {
+      m_Variance.Set(p, m_Variance[p] - (m_Mask[p] != 0 ? quantisationNoise.RemainderAt(m_Frame.mean[p]) : 0.0));
     });
   }
 }
@@ -172,17 +172,17 @@ ProjectedSquares::Replace(const ReplacedSquares & replaced)
     const auto        divisor = static_cast<float>(static_cast<double>(m_Divisor[p]) * replaced.dof / all);
     m_PerGain[p] *= m_Divisor[p] / divisor;
     m_Divisor[p] = divisor;
-    m_Variance[p] = replaced.squares[i] / static_cast<double>(divisor);
+    m_Variance.Set(p, replaced.squares[i] / static_cast<double>(divisor));
   }
 }
 
-std::vector<double>
+PixelMap
 ProjectedSquares::TakeVarianceAt(double gain) &&
 {
-  std::vector<double> variance = std::move(m_Variance);
-  ForPixels(
-    variance.size(), m_ParallelFor, [&](std::size_t p) { variance[p] += gain * static_cast<double>(m_PerGain[p]); });
-  return variance;
+  ForPixels(m_Variance.size(), m_ParallelFor, [&](std::size_t p) {
+    m_Variance.Set(p, m_Variance[p] + gain * static_cast<double>(m_PerGain[p]));
+  });
+  return std::move(m_Variance);
 }
 
 void
@@ -207,7 +207,7 @@ ProjectedSquares::DivideSquares(const MotionSeries & motion, const InitialNoiseM
         const double      taken = m_Mask[p] != 0 && !(bounds[x] < 1e-5 * noise) ? leverage.At(p) / noise : 0.0;
         const double      fraction = 1.0 - std::min(InPixels.largestLeverage, taken);
         m_Divisor[p] = m_Mask[p] != 0 ? static_cast<float>(all * fraction) : 0.0F;
-        m_Variance[p] = m_Mask[p] != 0 ? m_Variance[p] / m_Divisor[p] : 0.0;
+        m_Variance.Set(p, m_Mask[p] != 0 ? m_Variance[p] / m_Divisor[p] : 0.0);
         m_PerGain[p] = m_Mask[p] != 0 ? m_PerGain[p] / m_Divisor[p] : 0.0F;
       }
     }

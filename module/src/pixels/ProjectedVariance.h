@@ -4,6 +4,7 @@
 #define sensornoise_pixels_ProjectedVariance_h
 
 #include "SensorNoiseExport.h"
+#include "base/PixelMap.h"
 #include "pixels/RoughnessClasses.h"
 #include "pixels/VarianceLine.h"
 #include "pixels/QuantisationNoise.h"
@@ -69,10 +70,15 @@ public:
   PixelVariance
   VarianceAt(double gain) const
   {
-    return { m_Variance.data(), m_PerGain.data(), nullptr, gain };
+    const bool isDouble = m_Variance.GetPrecision() == Precision::Double;
+    return { isDouble ? m_Variance.GetDoubles().data() : nullptr,
+             m_PerGain.data(),
+             nullptr,
+             gain,
+             isDouble ? nullptr : m_Variance.GetSingles().data() };
   }
   /** Moves this variance out of the object. */
-  std::vector<double>
+  PixelMap
   TakeVarianceAt(double gain) &&;
 
   /** Returns the rise of each pixel's variance with the gain, sum_i S_i sum_j K_ij over the divisor [DN]. */
@@ -140,7 +146,7 @@ private:
   const TemporalBasis &             m_Basis;
   const std::vector<std::uint8_t> & m_Mask;
   ParallelFor                       m_ParallelFor;
-  std::vector<double>               m_Variance; // variance for the gain 0 [DN^2]
+  PixelMap                          m_Variance; // variance for the gain 0 [DN^2]
   std::vector<float>                m_PerGain;  // rise of the variance with the gain [DN]
   std::vector<float>                m_Divisor;
   FrameDof                          m_FrameDof;

@@ -197,7 +197,7 @@ public:
   static constexpr std::size_t BlockPixels = ProjectionSums::BlockPixels;
 
   SquaresOfBlocks(const ReferenceFrame & frame, const TemporalBasis & basis, ResidualSquares & squares)
-    : m_Variance(frame.variance.data())
+    : m_Variance(frame.variance)
     , m_Squares(squares)
     , m_Dof(static_cast<double>(frame.frames - 1))
   {
@@ -210,12 +210,12 @@ public:
   Fill(const double * coordinates, std::size_t first, std::size_t pixels) const
   {
     CallWithAvx2([&] {
-      double               squares[BlockPixels]; // a copy that no pointer can alias
-      float                skews[BlockPixels] = {};
-      const double * const variance = m_Variance + first;
+      double squares[BlockPixels]; // a copy that no pointer can alias
+      float  skews[BlockPixels] = {};
+      m_Variance.CopyTo(squares, first, pixels);
       for (std::size_t i = 0; i < pixels; ++i)
       {
-        squares[i] = m_Dof * variance[i];
+        squares[i] *= m_Dof;
       }
       for (std::size_t j = 0; j < m_Factors.size(); ++j)
       {
@@ -227,13 +227,13 @@ public:
           skews[i] += static_cast<float>(factor * own[i]);
         }
       }
-      std::copy_n(squares, pixels, m_Squares.rss.data() + first);
+      m_Squares.rss.SetBlock(first, pixels, squares);
       std::copy_n(skews, pixels, m_Squares.skew.data() + first);
     });
   }
 
 private:
-  const double *      m_Variance;
+  const PixelMap &    m_Variance;
   ResidualSquares &   m_Squares;
   double              m_Dof;
   std::vector<double> m_Factors; // weights of the coordinates in the skew
@@ -246,12 +246,12 @@ namespace
  * same time. begin(first, last) is called before the blocks of a slab; its sums are released after them. */
 template <typename TBegin, typename TFunction>
 void
-ForCoordinates(ProjectionSums &            sums,
-               const TemporalBasis &       basis,
-               const std::vector<double> & mean,
-               const ParallelFor &         parallelFor,
-               TBegin                      begin,
-               TFunction                   function)
+ForCoordinates(ProjectionSums &       sums,
+               const TemporalBasis &  basis,
+               const ReferenceFrame & frame,
+               const ParallelFor &    parallelFor,
+               TBegin                 begin,
+               TFunction              function)
 {
   constexpr std::size_t BlockPixels = ProjectionSums::BlockPixels;
   const std::size_t     end = sums.LastPixel();
@@ -262,10 +262,11 @@ ForCoordinates(ProjectionSums &            sums,
     begin(slab, last);
     ForBlocks(last - slab, parallelFor, [&](std::size_t from, std::size_t to) {
       std::vector<double> coordinates(basis.Size() * BlockPixels);
+      double              buffer[BlockPixels];
       for (std::size_t first = slab + from; first < slab + to; first += BlockPixels)
       {
         const std::size_t    pixels = std::min(BlockPixels, slab + to - first);
-        const double * const means = mean.data() + first;
+        const double * const means = frame.MeansOf(first, pixels, buffer);
         sums.CopyBlock(first, pixels, basis, means, coordinates.data());
         basis.ToCoordinates(coordinates.data(), BlockPixels, means, pixels);
         function(first, pixels, coordinates.data());
@@ -285,31 +286,32 @@ AppendResidualSquares(const ReferenceFrame & frame,
                       PixelCoordinates &     coordinates)
 {
   const detail::SquaresOfBlocks blocks(frame, basis, squares);
-  squares.rss.reserve(frame.mean.size());
-  squares.skew.reserve(frame.mean.size());
+  squares.rss.Reserve(frame.variance.size());
+  squares.skew.reserve(frame.variance.size());
   const auto begin = [&](std::size_t first, std::size_t last) {
-    GrowMap(squares.rss, last, parallelFor);
+    squares.rss.Grow(last, parallelFor);
     GrowMap(squares.skew, last, parallelFor);
     coordinates.AllocateSlabOf(first);
   };
   ForCoordinates(
-    sums, basis, frame.mean, parallelFor, begin, [&](std::size_t first, std::size_t pixels, const double * own) {
+    sums, basis, frame, parallelFor, begin, [&](std::size_t first, std::size_t pixels, const double * own) {
       blocks.Fill(own, first, pixels);
       coordinates.SetBlock(first, pixels, own);
     });
 }
 
 void
-FillCoordinates(const std::vector<double> & mean,
-                const TemporalBasis &       basis,
-                ProjectionSums &            sums,
-                const ParallelFor &         parallelFor,
-                PixelCoordinates &          coordinates)
+FillCoordinates(const ReferenceFrame & frame,
+                const TemporalBasis &  basis,
+                ProjectionSums &       sums,
+                const ParallelFor &    parallelFor,
+                PixelCoordinates &     coordinates)
 {
   const auto begin = [&](std::size_t first, std::size_t) { coordinates.AllocateSlabOf(first); };
-  ForCoordinates(sums, basis, mean, parallelFor, begin, [&](std::size_t first, std::size_t pixels, const double * own) {
-    coordinates.SetBlock(first, pixels, own);
-  });
+  ForCoordinates(
+    sums, basis, frame, parallelFor, begin, [&](std::size_t first, std::size_t pixels, const double * own) {
+      coordinates.SetBlock(first, pixels, own);
+    });
 }
 
 template <typename TPixel>

@@ -5,6 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "base/Eigen.h"
+#include "base/PixelMap.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/ProjectedFrames.h"
 
@@ -258,8 +259,8 @@ private:
  * coordinates S_j. */
 struct ResidualSquares
 {
-  std::vector<double> rss;  ///< sum of squares about the mean minus sum_j S_j^2 [DN^2]
-  std::vector<float>  skew; ///< sum_i S_i sum_j K_ij, K_ij = sum_t Q_tj^2 Q_ti [DN]
+  PixelMap           rss;  ///< sum of squares about the mean minus sum_j S_j^2 [DN^2]
+  std::vector<float> skew; ///< sum_i S_i sum_j K_ij, K_ij = sum_t Q_tj^2 Q_ti [DN]
 };
 
 /** Appends the squares of the pixels whose \a sums are held, which must follow the pixels that \a squares has already.
@@ -287,13 +288,13 @@ FillResidualSquares(const ReferenceFrame &          frame,
                     PixelCoordinates &              coordinates);
 
 /** Fills \a coordinates, for as many of the first components as it has, of the \a sums of all pixels, which are
- * released slab by slab. \a mean is the map of means over time [DN]. */
+ * released slab by slab. \a frame has the means over time. */
 SensorNoise_EXPORT void
-FillCoordinates(const std::vector<double> & mean,
-                const TemporalBasis &       basis,
-                ProjectionSums &            sums,
-                const ParallelFor &         parallelFor,
-                PixelCoordinates &          coordinates);
+FillCoordinates(const ReferenceFrame & frame,
+                const TemporalBasis &  basis,
+                ProjectionSums &       sums,
+                const ParallelFor &    parallelFor,
+                PixelCoordinates &     coordinates);
 
 } // namespace sensornoise
 

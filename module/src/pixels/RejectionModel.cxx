@@ -329,7 +329,8 @@ FindQuietPixels(const ProjectedVariance &         projected,
   // No pixel has more signal than its level above the darkest one.
   const double darkestDn = QuantileOf(std::move(levels), InCommon.darkestQuantile);
   const auto   isQuiet = [&](std::size_t p) {
-    const double level = std::min(data.mean[p], data.neighbourMean[p]); // beside an edge, neighbours may be brighter
+    const double level =
+      std::min<double>(data.mean[p], data.neighbourMean[p]); // beside an edge, neighbours may be brighter
     const double shotDn2 = line.gain * (level - darkestDn);
     const double variance = data.variance[p];
     if (data.mask[p] == 0 || !(variance < InPixels.largestQuietVariance * shotDn2))

@@ -93,7 +93,7 @@ EdgesOf(std::vector<double> roughness)
 /** Sets the classes of a row of pixels from their sums of the energy. All limits are compared, without branches. */
 void
 ClassifyRow(const double *            sums,
-            const double *            neighbourMean,
+            const float *             neighbourMean,
             const InitialNoiseModel & model,
             const ClassEdges &        edges,
             std::size_t               width,
@@ -157,7 +157,7 @@ namespace
 class LevelBins
 {
 public:
-  LevelBins(const std::vector<double> & levels, const std::vector<std::uint8_t> & usable)
+  LevelBins(const std::vector<float> & levels, const std::vector<std::uint8_t> & usable)
     : m_Levels(levels)
   {
     double highest = -std::numeric_limits<double>::infinity();
@@ -166,8 +166,8 @@ public:
     {
       if (usable[p] != 0)
       {
-        m_LowestDn = std::min(m_LowestDn, levels[p]);
-        highest = std::max(highest, levels[p]);
+        m_LowestDn = std::min<double>(m_LowestDn, levels[p]);
+        highest = std::max<double>(highest, levels[p]);
       }
     }
     m_RangeDn = std::max(0.0, highest - m_LowestDn);
@@ -192,9 +192,9 @@ public:
   }
 
 private:
-  const std::vector<double> & m_Levels;
-  double                      m_LowestDn;
-  double                      m_RangeDn;
+  const std::vector<float> & m_Levels;
+  double                     m_LowestDn;
+  double                     m_RangeDn;
 };
 
 /** Returns one more than the highest bin that has enough pixels. */

@@ -78,11 +78,24 @@ struct SensorNoise_EXPORT RejectionModel
       variance[i] *= ratio[i];
     }
   }
-  /** Returns the levels of the pixels of \a frame at which they are tested [DN]. */
-  const std::vector<double> &
-  LevelsOf(const ReferenceFrame & frame) const
+  /** Returns the level of pixel \a p of \a frame at which it is tested [DN]. */
+  double
+  LevelOf(const ReferenceFrame & frame, std::size_t p) const
   {
-    return byNeighbours ? frame.neighbourMean : frame.mean;
+    return byNeighbours ? static_cast<double>(frame.neighbourMean[p]) : frame.mean[p];
+  }
+  /** Sets \a own to the levels of \a pixels pixels of \a frame from pixel \a first on [DN]. */
+  void
+  FillLevels(const ReferenceFrame & frame, std::size_t first, std::size_t pixels, RunValues & own) const
+  {
+    if (byNeighbours)
+    {
+      std::copy_n(frame.neighbourMean.data() + first, pixels, own.data());
+    }
+    else
+    {
+      std::copy_n(frame.mean.data() + first, pixels, own.data());
+    }
   }
   /** Returns the degrees of freedom of a pixel's variance, reduced by the dispersion of the noise from pixel to
    * pixel. */
@@ -140,10 +153,11 @@ struct TestedRun
   Test(const ProjectedVariance & projected, const RejectionModel & model, std::size_t first, std::size_t pixels)
   {
     const ReferenceFrame & frame = projected.GetFrame();
-    const double * const   level = model.LevelsOf(frame).data() + first;
     const float * const    dof = projected.GetDof().data() + first;
     const VarianceLine     line = model.line;
-    model.FillVariance(level, pixels, expected);
+    RunValues              level;
+    model.FillLevels(frame, first, pixels, level);
+    model.FillVariance(level.data(), pixels, expected);
     projected.GetVariance().Fill(first, pixels, ratio.data());
     for (std::size_t i = 0; i < pixels; ++i)
     {

@@ -252,7 +252,7 @@ VarianceFit::FindTrimmed() const
 VarianceCurve
 VarianceFit::CurveAbout(const VarianceLine & line, SortedBy sortedBy) const
 {
-  const double * const levels = sortedBy == SortedBy::OwnLevel ? m_Data.mean : m_Data.neighbourMean;
+  const bool isOfOwn = sortedBy == SortedBy::OwnLevel;
   using SumsOfBins = std::array<double, VarianceCurve::Bins * CurveBin::Sums>;
   const std::vector<double> edges = EdgesOfEqualCount(m_Data.SampleLevels(), VarianceCurve::Bins);
   const double              toPivot = m_Line.pivotDn - line.pivotDn;
@@ -263,7 +263,8 @@ VarianceFit::CurveAbout(const VarianceLine & line, SortedBy sortedBy) const
       const double w = kept.weight[i];
       if (w > 0.0)
       {
-        double * own = sums.data() + CurveBin::Sums * BinOf(edges, levels[first + i]);
+        double * own = sums.data() + CurveBin::Sums *
+                                       BinOf(edges, isOfOwn ? m_Data.mean[first + i] : m_Data.neighbourMean[first + i]);
         own[0] += 1.0;
         own[1] += w;
         own[2] += w * (kept.x[i] + toPivot);

@@ -307,7 +307,7 @@ public:
 
 private:
   std::vector<double>       m_Mean;
-  std::vector<double>       m_NeighbourMean;
+  std::vector<float>        m_NeighbourMean;
   std::vector<double>       m_Variance;
   std::vector<float>        m_Dof;
   std::vector<std::uint8_t> m_Mask;

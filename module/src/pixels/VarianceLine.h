@@ -19,15 +19,17 @@ namespace sensornoise
 /** Variance of every pixel, computed where it is read: a map, corrected by a gain, and divided by ratios [DN^2]. */
 struct PixelVariance
 {
-  const double * map{ nullptr };     ///< variance with the gain 0 [DN^2]
+  const double * map{ nullptr };     ///< variance with the gain 0 [DN^2]; null: it is in `single`
   const float *  perGain{ nullptr }; ///< rise of the variance with the gain [DN]; null: 0
   const float *  ratios{ nullptr };  ///< variance relative to a uniform sensor [1]; null: 1
   double         gain{ 0.0 };        ///< gain that corrects the variance [DN/e-]
+  const float *  single{ nullptr };  ///< the map in single precision
 
   double
   operator[](std::size_t p) const
   {
-    const double corrected = perGain != nullptr ? map[p] + gain * static_cast<double>(perGain[p]) : map[p];
+    const double own = map != nullptr ? map[p] : static_cast<double>(single[p]);
+    const double corrected = perGain != nullptr ? own + gain * static_cast<double>(perGain[p]) : own;
     return ratios != nullptr ? corrected / static_cast<double>(ratios[p]) : corrected;
   }
   /** Sets \a variance to the values of \a pixels pixels from pixel \a first on. For loops with SIMD instructions. */
@@ -35,9 +37,13 @@ struct PixelVariance
   Fill(std::size_t first, std::size_t pixels, double * variance) const
   {
     const PixelVariance own = *this; // a copy that no pointer can alias
-    for (std::size_t i = 0; i < pixels; ++i)
+    for (std::size_t i = 0; own.map != nullptr && i < pixels; ++i)
     {
       variance[i] = own.map[first + i];
+    }
+    for (std::size_t i = 0; own.map == nullptr && i < pixels; ++i)
+    {
+      variance[i] = static_cast<double>(own.single[first + i]);
     }
     for (std::size_t i = 0; own.perGain != nullptr && i < pixels; ++i)
     {
@@ -54,7 +60,7 @@ struct PixelVariance
 struct VarianceData
 {
   const double *       mean{ nullptr };          ///< temporal mean [DN]
-  const double *       neighbourMean{ nullptr }; ///< mean of the 8 neighbours [DN]
+  const float *        neighbourMean{ nullptr }; ///< mean of the 8 neighbours [DN]
   PixelVariance        variance;                 ///< unbiased variance [DN^2]
   const float *        dof{ nullptr };           ///< degrees of freedom of the variance
   const std::uint8_t * mask{ nullptr };          ///< nonzero at the pixels that count

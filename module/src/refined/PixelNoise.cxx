@@ -297,7 +297,7 @@ MeasurePixelNoise(ResidualSquares                          squares,
     variance.quantisationNoise = quantisationNoise;
     return variance;
   };
-  PixelNoise noise{ fit(1.0), {}, {}, allowed.lines, {} };
+  PixelNoise noise{ fit(1.0), {}, {}, allowed.lines, PixelMap() };
   if (!noise.variance.line.isDetermined)
   {
     return noise;

@@ -38,6 +38,7 @@ PixelProjections::PixelProjections(const FrameGeometry & geometry,
   , m_Options(options)
   , m_ParallelFor(std::move(parallelFor))
   , m_Sample(std::move(sample))
+  , m_Squares{ PixelMap(options.precision), {} }
 {
   if (!m_Options.withoutMerging)
   {
@@ -102,7 +103,9 @@ struct PixelProjections::Batch
     {
       ofIllumination.AllocateSlabOf(p);
     }
-    to->m_Squares = { MakeMap<double>(pixels, to->m_ParallelFor), MakeMap<float>(pixels, to->m_ParallelFor) };
+    to->m_Squares.rss.Reserve(pixels);
+    to->m_Squares.rss.Grow(pixels, to->m_ParallelFor);
+    to->m_Squares.skew = MakeMap<float>(pixels, to->m_ParallelFor);
     to->m_IsProjected = true;
   }
 
@@ -165,7 +168,7 @@ PixelProjections::Forget()
   m_Sums.Clear(m_ParallelFor);
   if (std::exchange(m_IsProjected, false))
   {
-    m_Squares = {};
+    m_Squares = { PixelMap(m_Options.precision), {} };
     m_Coordinates = PixelCoordinates();
   }
   if (!m_HasSample)
@@ -251,7 +254,7 @@ void
 PixelProjections::EndIlluminationPass(const ReferenceFrame & frame)
 {
   m_Coordinates = this->MakeCoordinates();
-  FillCoordinates(frame.mean, m_Basis, m_Sums, m_ParallelFor, m_Coordinates);
+  FillCoordinates(frame, m_Basis, m_Sums, m_ParallelFor, m_Coordinates);
 }
 
 #define SensorNoise_INSTANTIATE(TPixel)                         \
@@ -358,15 +361,15 @@ LevelProjection::TakeMaps(const ParallelFor & parallelFor)
   m_Projections.EndPass(m_Frame);
   ResidualSquares     squares = m_Projections.TakeSquares();
   const double        dof = static_cast<double>(m_Frame.frames) - 2.0;
-  std::vector<double> raw = std::move(m_Frame.variance);
+  std::vector<double> raw = m_Frame.variance.TakeDoubles();
   m_Frame.variance = std::move(squares.rss);
-  ForPixels(raw.size(), parallelFor, [&](std::size_t p) { m_Frame.variance[p] /= dof; });
+  ForPixels(raw.size(), parallelFor, [&](std::size_t p) { m_Frame.variance.Set(p, m_Frame.variance[p] / dof); });
   const double gain = RoughGain(m_Frame, squares.skew, dof);
   ForPixels(raw.size(), parallelFor, [&](std::size_t p) {
     const double added = gain * static_cast<double>(squares.skew[p]) / dof;
-    m_Frame.variance[p] += raw[p] > 0.0 ? added : 0.0; // the variance of a constant pixel stays 0
+    m_Frame.variance.Set(p, m_Frame.variance[p] + (raw[p] > 0.0 ? added : 0.0)); // a constant pixel keeps 0
   });
-  return { { m_Summary, std::move(m_Frame.mean), std::move(m_Frame.variance), std::move(m_Valid) }, std::move(raw) };
+  return { { m_Summary, std::move(m_Frame.mean), m_Frame.variance.TakeDoubles(), std::move(m_Valid) }, std::move(raw) };
 }
 
 } // namespace sensornoise

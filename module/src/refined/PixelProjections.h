@@ -86,10 +86,11 @@ class SensorNoise_EXPORT PixelProjections
 public:
   struct Options
   {
-    std::size_t slabsAtOnce{ 1 };          ///< slabs (ProjectionSums) that are projected in a pass
-    bool        keepIllumination{ false }; ///< whether the coordinates on the illumination components are needed
-    bool        withoutMerging{ false };   ///< whether no sums are saved or merged
-    SumWidth    width{ SumWidth::Wide };   ///< how the sums are held
+    std::size_t slabsAtOnce{ 1 };               ///< slabs (ProjectionSums) that are projected in a pass
+    bool        keepIllumination{ false };      ///< whether the coordinates on the illumination components are needed
+    bool        withoutMerging{ false };        ///< whether no sums are saved or merged
+    SumWidth    width{ SumWidth::Wide };        ///< how the sums are held
+    Precision   precision{ Precision::Double }; ///< how the residual squares are held
   };
 
   /** Prepares the first pass over frames of \a geometry. \a sample must be empty, and is filled in the first pass. */
@@ -114,6 +115,12 @@ public:
   GetBasis() const
   {
     return m_Basis;
+  }
+  /** Returns whether sums of the pixels are held if the next frames are \a count of \a frames. */
+  bool
+  HoldsSums(std::size_t count, std::size_t frames) const
+  {
+    return m_NextSlab > 0 || count < frames;
   }
 
   /** Sets the memory layout of the pixels of the frames that are added. Default: one frame after the other. */

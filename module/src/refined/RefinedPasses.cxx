@@ -3,6 +3,7 @@
 #include "refined/RefinedPasses.h"
 
 #include "base/BinaryStream.h"
+#include "base/FreeMemory.h"
 #include "sensornoise/FrameGeometry.h"
 #include "moments/Constants.h"
 #include "moments/DarkFrames.h"
@@ -40,6 +41,10 @@ LargestMeanDn(const std::vector<double> & mean)
   }
   return largest;
 }
+
+/** Precision of the residual squares. Digital numbers have no squares beyond the range of single precision. */
+template <typename TPixel>
+constexpr Precision PrecisionOfSquares = std::is_integral_v<TPixel> ? Precision::Single : Precision::Double;
 
 /** Returns \a noise with the frames of its groups by their indices in the stack. \a counted has the indices of the
  * distinct frames. */
@@ -94,6 +99,7 @@ RefinedPasses<TPixel>::AddDistinct(const std::vector<Plane> & planes,
     }
     else if (method.m_Projections)
     {
+      method.PackMeans(count, parallelFor);
       projected.push_back({ &*method.m_Projections, place, &method.m_Scene->frame });
     }
     else
@@ -108,6 +114,18 @@ RefinedPasses<TPixel>::AddDistinct(const std::vector<Plane> & planes,
   if (!projected.empty())
   {
     PixelProjections::AddFrames(projected, frames, count, parallelFor);
+  }
+}
+
+template <typename TPixel>
+void
+RefinedPasses<TPixel>::PackMeans(std::size_t count, const ParallelFor & parallelFor)
+{
+  ReferenceFrame & frame = m_Scene->frame;
+  const bool       isFirst = !m_Noise && frame.packedMean.IsEmpty(); // no pass of the illumination alone
+  if (std::is_integral_v<TPixel> && isFirst && m_Projections->HoldsSums(count, frame.frames))
+  {
+    frame.packedMean.Pack(frame.mean, frame.frames, TemporalMaps<TPixel>::Centre, parallelFor);
   }
 }
 
@@ -146,8 +164,13 @@ void
 RefinedPasses<TPixel>::AddFindings(Fingerprint & fingerprint) const
 {
   const ReferenceFrame & frame = m_Levels ? m_Levels->GetFrame() : m_Scene->frame;
-  fingerprint.Add(frame.mean.data(), frame.mean.size());
-  fingerprint.Add(frame.variance.data(), frame.variance.size());
+  for (std::size_t p = 0; p < frame.variance.size(); p += PixelsPerRun)
+  {
+    RunValues         buffer;
+    const std::size_t pixels = std::min(PixelsPerRun, frame.variance.size() - p);
+    fingerprint.Add(frame.MeansOf(p, pixels, buffer.data()), pixels);
+  }
+  frame.variance.Visit([&](const auto & variance) { fingerprint.Add(variance.data(), variance.size()); });
   fingerprint.Add(m_Scene->pixelUse.data(), m_Scene->pixelUse.size());
   const TemporalBasis * const basis = m_Levels   ? &m_Levels->GetProjections().GetBasis()
                                       : m_Series ? &m_Series->basis
@@ -269,6 +292,10 @@ RefinedPasses<TPixel>::MakeScene(StackMaps maps, std::optional<StrongChange> str
     m_Settings.RequireOffsetWithin(1000.0 * LargestMeanDn(m_Scene->frame.mean),
                                    "1000 times the largest level of the frames");
   }
+  if (std::is_integral_v<TPixel> && IsSingleEnough(m_Scene->frame, m_Scene->model))
+  {
+    m_Scene->frame.variance.Round(m_ParallelFor);
+  }
   m_FrameSums = std::make_unique<FrameSums>(MakeSceneRegressors(*m_Scene, made.outliers, m_ParallelFor), m_ParallelFor);
   m_FrameSums->SetLayout(m_Layout);
 }
@@ -305,7 +332,8 @@ RefinedPasses<TPixel>::EndFrameSums()
   m_Projections.emplace(m_Geometry,
                         FrameSample::Of<TPixel>(m_Geometry, m_Distinct.Count(), m_ParallelFor),
                         m_Series->basis,
-                        PixelProjections::Options{ slabs, m_Series->local.IsLocal(), m_IsWithoutMerging, width },
+                        PixelProjections::Options{
+                          slabs, m_Series->local.IsLocal(), m_IsWithoutMerging, width, PrecisionOfSquares<TPixel> },
                         m_ParallelFor);
   m_Projections->SetLayout(m_Layout);
 }
@@ -326,6 +354,11 @@ RefinedPasses<TPixel>::EndProjections()
   }
   else
   {
+    if (!m_Scene->frame.packedMean.IsEmpty())
+    {
+      ReleaseFreedMemory(); // frees the memory of the sums
+      m_Scene->frame.packedMean.Unpack(m_Scene->frame.mean, m_ParallelFor);
+    }
     this->MeasureNoise();
     const double most = m_Noise->frames.areFramesEqual ? InMoments.largestOtherGroup : InMoments.largestLeftOutFraction;
     if (this->RestartWithoutFrames(m_Noise->frames.unlike, FrameFault::OtherNoise, most))
@@ -355,7 +388,7 @@ RefinedPasses<TPixel>::ForgetFindings()
   m_Series.reset();
   m_Projections.reset();
   m_Noise.reset();
-  m_CorrectedVariance.clear();
+  m_CorrectedVariance = PixelMap();
   m_HasScene = false;
 }
 
@@ -384,9 +417,9 @@ RefinedPasses<TPixel>::MeasureNoise()
   }
   m_CorrectedVariance = std::move(m_Noise->correctedVariance);
   ForPixels(m_CorrectedVariance.size(), m_ParallelFor, [&](std::size_t p) {
-    m_CorrectedVariance[p] = frame.usable[p] != 0
-                               ? m_CorrectedVariance[p] + quantisationNoise.RemainderAt(frame.mean[p])
-                               : std::numeric_limits<double>::quiet_NaN();
+    m_CorrectedVariance.Set(p,
+                            frame.usable[p] != 0 ? m_CorrectedVariance[p] + quantisationNoise.RemainderAt(frame.mean[p])
+                                                 : std::numeric_limits<double>::quiet_NaN());
   });
 }
 
@@ -409,7 +442,7 @@ RefinedPasses<TPixel>::MakeMeasuredReport() const
                              *m_Series,
                              variance,
                              *m_Reestimated,
-                             m_CorrectedVariance,
+                             m_CorrectedVariance.GetDoubles(),
                              BlackLevel(m_Settings, *m_Scene, m_Series),
                              m_Noise->correlation,
                              WithIndicesOfStack(m_Noise->frames, m_Distinct.Counted()),
@@ -424,11 +457,15 @@ template <typename TPixel>
 void
 RefinedPasses<TPixel>::MakeReport()
 {
+  m_Scene->frame.packedMean.Unpack(m_Scene->frame.mean, m_ParallelFor);
+  m_Scene->frame.variance.Widen(m_ParallelFor);
+  m_CorrectedVariance.Widen(m_ParallelFor);
   m_Report = m_FailureReason ? MakeFailedReport(m_Settings, *m_Scene, this->GetPixelUse(), *m_FailureReason)
                              : this->MakeMeasuredReport();
   ReportLinearity(m_Report, m_ExposureFit);
   FileStatuses(m_Report);
   DivideExcessNoise(m_Report, m_Settings.excessNoiseFactor);
+  std::exchange(m_Scene->frame.neighbourMean, {});
   m_Mean = KnownMeans(m_Scene->frame, m_ParallelFor);
   WarnOfMosaic(m_Report, m_Mean, m_Geometry, m_ParallelFor);
   NoteMask(m_Report, m_Geometry, m_UserMask);

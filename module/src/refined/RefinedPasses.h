@@ -45,8 +45,9 @@ namespace sensornoise
  * Identical frames are counted once: the result is the result of the distinct frames, and the series in the report
  * repeat the values of a frame's original.
  *
- * The results are identical for any number of threads and any chunks. Memory: 56 bytes for each pixel, 4 or 8 more for
- * each temporal component that is found (2 to 20), 20 kB for each frame, and 32 MiB, see MemoryNeed. A stack that
+ * The results are identical for any number of threads and any chunks. Memory: 48 bytes for each pixel (52 for
+ * floating-point frames), or in the third pass 12 (20) bytes, and 4 or 8 more for each temporal component that is found
+ * (2 to 20); 20 kB for each frame, and 32 MiB, see MemoryNeed. A stack that
  * cannot be measured (NothingToMeasure) has a report whose quantities are `failed`, with a warning that gives the
  * reason. Wrong use throws std::invalid_argument. May be moved, also between and within passes. */
 template <typename TPixel>
@@ -122,14 +123,14 @@ public:
   const std::vector<double> &
   GetVariance() const override
   {
-    return m_Scene->frame.variance;
+    return m_Scene->frame.variance.GetDoubles();
   }
   /** Returns the variance without flicker and motion [DN^2]; NaN where it was not computed; empty if the stack cannot
    * be measured. */
   const std::vector<double> &
   GetCorrectedVariance() const override
   {
-    return m_CorrectedVariance;
+    return m_CorrectedVariance.GetDoubles();
   }
   /** Returns values of PixelUse. */
   const std::vector<std::uint8_t> &
@@ -147,12 +148,12 @@ public:
   std::vector<double>
   TakeVariance() override
   {
-    return std::move(m_Scene->frame.variance);
+    return m_Scene->frame.variance.TakeDoubles();
   }
   std::vector<double>
   TakeCorrectedVariance() override
   {
-    return std::move(m_CorrectedVariance);
+    return m_CorrectedVariance.TakeDoubles();
   }
   std::vector<std::uint8_t>
   TakePixelUse() override
@@ -191,6 +192,10 @@ private:
               const TPixel *             frames,
               std::size_t                count,
               const ParallelFor &        parallelFor) const override;
+  /** Packs the means if sums of the third pass are held when \a count frames are added: it does not need the means
+   * before its end. */
+  void
+  PackMeans(std::size_t count, const ParallelFor & parallelFor);
   void
   ForgetOwnSums() override;
   void
@@ -249,7 +254,7 @@ private:
   std::optional<PixelNoise>           m_Noise;
   std::optional<const ReestimatedComponents> m_Reestimated;
   std::vector<double>                        m_Mean; // map for display, filled when the report is made
-  std::vector<double>                        m_CorrectedVariance;
+  PixelMap                                   m_CorrectedVariance;
   std::optional<const NothingToMeasure>      m_FailureReason;
   bool                                       m_HasScene{ false };
   bool                                       m_IsWithoutMerging{ false };

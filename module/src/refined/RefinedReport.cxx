@@ -210,8 +210,9 @@ FillCurves(Report & report, const RefinedResults & found, const ParallelFor & pa
 {
   const std::vector<std::uint8_t> used = MaskOfUsed(found.variance.pixelUse);
   const ReferenceFrame &          frame = found.scene.frame;
-  FillBaselines(report, { frame.mean.data(), frame.variance.data(), used.data(), used.size() }, parallelFor);
-  FillScatter(report, frame.mean, frame.variance, found.correctedVariance, used, parallelFor);
+  const std::vector<double> &     variance = frame.variance.GetDoubles();
+  FillBaselines(report, { frame.mean.data(), variance.data(), used.data(), used.size() }, parallelFor);
+  FillScatter(report, frame.mean, variance, found.correctedVariance, used, parallelFor);
 }
 
 void

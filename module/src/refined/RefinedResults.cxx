@@ -57,12 +57,12 @@ NoiseOfLine(const FrameRegressors & regressors,
 } // namespace
 
 ReestimatedComponents
-ReestimateComponents(const FrameSums &           sums,
-                     const SceneSeries &         series,
-                     const PixelCoordinates &    coordinates,
-                     const StaticVariance &      variance,
-                     const std::vector<double> & correctedVariance,
-                     const ParallelFor &         parallelFor)
+ReestimateComponents(const FrameSums &        sums,
+                     const SceneSeries &      series,
+                     const PixelCoordinates & coordinates,
+                     const StaticVariance &   variance,
+                     const PixelMap &         correctedVariance,
+                     const ParallelFor &      parallelFor)
 {
   const InitialNoiseModel &   model = sums.GetRegressors().GetModel();
   const std::vector<double> & gamma = series.line.gamma;

@@ -54,12 +54,12 @@ struct ReestimatedComponents
  * pixel [DN^2], and the line. Reads no frames. The pixels' \a coordinates on the temporal components are needed only
  * under local illumination. */
 SensorNoise_EXPORT ReestimatedComponents
-ReestimateComponents(const FrameSums &           sums,
-                     const SceneSeries &         series,
-                     const PixelCoordinates &    coordinates,
-                     const StaticVariance &      variance,
-                     const std::vector<double> & correctedVariance,
-                     const ParallelFor &         parallelFor);
+ReestimateComponents(const FrameSums &        sums,
+                     const SceneSeries &      series,
+                     const PixelCoordinates & coordinates,
+                     const StaticVariance &   variance,
+                     const PixelMap &         correctedVariance,
+                     const ParallelFor &      parallelFor);
 
 /** Illumination that is specific to the rows of a frame, or to its columns where the frame is turned: by pulsed
  * illumination under a rolling shutter, or by interlaced frames. Estimator.md, 3.18. */
@@ -251,7 +251,7 @@ struct PixelNoise
   FrameNoise       frames; ///< indices among the distinct frames
   LineIllumination lines;
   /** Variance without flicker and motion [DN^2]; 0 at pixels that are not usable; empty: there is no line. */
-  std::vector<double> correctedVariance;
+  PixelMap correctedVariance;
 };
 
 /** Fits the variance and measures the noise correlation. If the correlation is strong, the mean variance of a tile

@@ -6,7 +6,9 @@
 #include "base/ParallelWork.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace sensornoise
@@ -28,12 +30,13 @@ struct KnownRows
     const std::size_t width = frame.geometry.width;
     const auto        read = [&](std::size_t row, std::vector<double> & known) {
       const double * const mean = frame.mean.data() + row * width;
-      const double * const variance = frame.variance.data() + row * width;
       known.resize(width);
-      for (std::size_t x = 0; x < width; ++x)
-      {
-        known[x] = std::isnan(variance[x]) ? variance[x] : mean[x];
-      }
+      frame.variance.Visit([&](const auto & variance) {
+        for (std::size_t x = 0; x < width; ++x)
+        {
+          known[x] = std::isnan(variance[row * width + x]) ? std::numeric_limits<double>::quiet_NaN() : mean[x];
+        }
+      });
     };
     if (y > 0)
     {
@@ -80,7 +83,7 @@ MeanOfNeighbours(const KnownRows & rows, const FrameGeometry & geometry, std::si
  * their sum is computed without a test of each one. If it is not finite, the mean is computed again from the known
  * ones. */
 void
-ComputeNeighbourMeans(const KnownRows & rows, const FrameGeometry & geometry, std::size_t y, double * means)
+ComputeNeighbourMeans(const KnownRows & rows, const FrameGeometry & geometry, std::size_t y, float * means)
 {
   const std::size_t width = geometry.width;
   if (y > 0 && y + 1 < geometry.height)
@@ -90,16 +93,16 @@ ComputeNeighbourMeans(const KnownRows & rows, const FrameGeometry & geometry, st
     const double * const below = rows.below.data();
     for (std::size_t x = 1; x + 1 < width; ++x)
     {
-      means[x] =
+      means[x] = static_cast<float>(
         (above[x - 1] + above[x] + above[x + 1] + here[x - 1] + here[x + 1] + below[x - 1] + below[x] + below[x + 1]) /
-        8.0;
+        8.0);
     }
   }
   for (std::size_t x = 0; x < width; ++x)
   {
     if (x == 0 || x + 1 == width || y == 0 || y + 1 == geometry.height || !std::isfinite(means[x]))
     {
-      means[x] = MeanOfNeighbours(rows, geometry, x, y);
+      means[x] = static_cast<float>(MeanOfNeighbours(rows, geometry, x, y));
     }
   }
 }
@@ -126,6 +129,35 @@ FillUsable(const std::vector<double> &       variance,
 }
 } // namespace
 
+void
+PackedMeans::Pack(std::vector<double> & means, std::size_t frames, double centreDn, const ParallelFor & parallelFor)
+{
+  constexpr double most = 2147483647.0;
+  m_Frames = static_cast<double>(frames);
+  m_CentreDn = centreDn;
+  m_Sums = MakeMap<std::int32_t>(means.size(), parallelFor);
+  const auto lost = SumOverBlocks<1>(means.size(), parallelFor, [&](std::size_t p, std::array<double, 1> & count) {
+    const double sum = std::round((means[p] - centreDn) * m_Frames);
+    const bool   isWithin = std::abs(sum) <= most;
+    m_Sums[p] = isWithin ? static_cast<std::int32_t>(sum) : 0;
+    count[0] += isWithin && static_cast<double>(m_Sums[p]) / m_Frames + centreDn == means[p] ? 0.0 : 1.0;
+  });
+  lost[0] > 0.0 ? void(std::exchange(m_Sums, {})) : void(std::exchange(means, {}));
+}
+
+void
+PackedMeans::Unpack(std::vector<double> & means, const ParallelFor & parallelFor)
+{
+  if (!this->IsEmpty())
+  {
+    means = MakeMap<double>(m_Sums.size(), parallelFor);
+    ForBlocks(means.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
+      this->Fill(means.data() + begin, begin, end - begin);
+    });
+    std::exchange(m_Sums, {});
+  }
+}
+
 ReferenceFrame
 MakeReferenceFrame(std::vector<double>               mean,
                    std::vector<double>               variance,
@@ -139,34 +171,34 @@ MakeReferenceFrame(std::vector<double>               mean,
   frame.geometry = geometry;
   frame.frames = frames;
   frame.mean = std::move(mean);
-  frame.variance = std::move(variance);
   frame.usable.assign(frame.mean.size(), 0);
   parallelFor(geometry.height, [&](std::size_t y) {
     if (y >= StencilMargin && y + StencilMargin < geometry.height)
     {
-      CallWithAvx2([&] { FillUsable(frame.variance, valid, width, y, frame.usable.data() + y * width); });
+      CallWithAvx2([&] { FillUsable(variance, valid, width, y, frame.usable.data() + y * width); });
     }
   });
+  frame.variance = std::move(variance);
   frame.neighbourMean = ComputeNeighbourMean(frame, parallelFor);
   ForBlocks(frame.mean.size(), parallelFor, [&frame](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
     {
       const bool isKnown = std::isfinite(frame.mean[p]) && !std::isnan(frame.variance[p]);
-      frame.mean[p] = isKnown ? frame.mean[p] : frame.neighbourMean[p];
+      frame.mean[p] = isKnown ? frame.mean[p] : static_cast<double>(frame.neighbourMean[p]);
     }
   });
   return frame;
 }
 
-std::vector<double>
+std::vector<float>
 ComputeNeighbourMean(const ReferenceFrame & frame, const ParallelFor & parallelFor)
 {
-  auto neighbourMean = MakeMap<double>(frame.mean.size(), parallelFor);
+  auto neighbourMean = MakeMap<float>(frame.mean.size(), parallelFor);
   ForBoxBands(frame.geometry.height, parallelFor, [&](std::size_t first, std::size_t last) {
     KnownRows rows;
     for (std::size_t y = first; y < last; ++y)
     {
-      double * const means = neighbourMean.data() + y * frame.geometry.width;
+      float * const means = neighbourMean.data() + y * frame.geometry.width;
       rows.Read(frame, y);
       ComputeNeighbourMeans(rows, frame.geometry, y, means);
     }

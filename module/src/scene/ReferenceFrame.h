@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
+#include "base/PixelMap.h"
 #include "base/Stencils.h"
 #include "base/Simd.h"
 
@@ -16,6 +17,41 @@
 namespace sensornoise
 {
 
+/** \class PackedMeans
+ * \brief Means of the pixels of integer frames, as the sums that they are quotients of: 4 bytes for each pixel, and the
+ * same bits. */
+class SensorNoise_EXPORT PackedMeans
+{
+public:
+  /** Moves \a means here if 32 bits hold each of them: it is a whole number over \a frames, plus \a centreDn. Otherwise
+   * \a means stay as they are. */
+  void
+  Pack(std::vector<double> & means, std::size_t frames, double centreDn, const ParallelFor & parallelFor);
+
+  bool
+  IsEmpty() const
+  {
+    return m_Sums.empty();
+  }
+  /** Sets \a means to the means of \a pixels pixels from pixel \a first on [DN]. */
+  void
+  Fill(double * means, std::size_t first, std::size_t pixels) const
+  {
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      means[i] = static_cast<double>(m_Sums[first + i]) / m_Frames + m_CentreDn;
+    }
+  }
+  /** Moves the means to \a means. */
+  void
+  Unpack(std::vector<double> & means, const ParallelFor & parallelFor);
+
+private:
+  std::vector<std::int32_t> m_Sums; // sums over time of the values minus m_CentreDn
+  double                    m_Frames{ 1.0 };
+  double                    m_CentreDn{ 0.0 };
+};
+
 /** Reference frame from one pass over the stack, with which all frames are compared: mean and variance of every pixel.
  */
 struct ReferenceFrame
@@ -23,10 +59,23 @@ struct ReferenceFrame
   FrameGeometry       geometry;
   std::size_t         frames{ 0 };   ///< number of distinct frames T
   std::vector<double> mean;          ///< mean over time [DN]; a pixel without one has the mean of its neighbours
-  std::vector<double> neighbourMean; ///< mean of the 8 neighbours, without the pixel itself [DN]
-  std::vector<double> variance;      ///< unbiased variance over time, flicker and motion included [DN^2]; NaN: unknown
+  std::vector<float>  neighbourMean; ///< mean of the 8 neighbours, without the pixel itself [DN]
+  PixelMap            variance;      ///< unbiased variance over time, flicker and motion included [DN^2]; NaN: unknown
   /** 1: the pixel and its 8 neighbours are valid, it varies, and it is StencilMargin pixels from the border. */
   std::vector<std::uint8_t> usable;
+  PackedMeans               packedMean; ///< `mean` while the third pass holds its sums; else empty
+
+  /** Returns the means of \a pixels pixels from pixel \a first on [DN]: \a buffer, or a part of `mean`. */
+  const double *
+  MeansOf(std::size_t first, std::size_t pixels, double * buffer) const
+  {
+    if (packedMean.IsEmpty())
+    {
+      return mean.data() + first;
+    }
+    packedMean.Fill(buffer, first, pixels);
+    return buffer;
+  }
 };
 
 /** Makes the reference frame from maps of the mean and the unbiased variance, which are moved; NaN at pixels without
@@ -44,7 +93,7 @@ MakeReferenceFrame(std::vector<double>               mean,
 
 /** Returns ReferenceFrame::neighbourMean, computed from the other maps of \a frame. A pixel without a mean is no
  * neighbour. */
-SensorNoise_EXPORT std::vector<double>
+SensorNoise_EXPORT std::vector<float>
 ComputeNeighbourMean(const ReferenceFrame & frame, const ParallelFor & parallelFor = SerialFor);
 
 /** Returns the means of \a frame [DN], with NaN where there is none, as in a map for display. */

@@ -225,7 +225,7 @@ MarkGuarded(const ReferenceFrame & frame,
             std::uint8_t *         guarded)
 {
   const double * const       mean = frame.mean.data();
-  const double * const       neighbourMean = frame.neighbourMean.data();
+  const float * const        neighbourMean = frame.neighbourMean.data();
   const std::uint8_t * const usable = frame.usable.data();
   const std::size_t          width = frame.geometry.width;
   for (std::size_t p = begin; p < end; ++p)
@@ -275,18 +275,19 @@ FindGuardBand(const ReferenceFrame &    frame,
 
 namespace
 {
-/** Marks the pixels [begin, end) whose variance \a model does not explain. The model is passed by value: by reference
- * it could alias the output, which prevents vectorization. */
+/** Marks the pixels [begin, end) whose \a variance \a model does not explain. The model is passed by value: by
+ * reference it could alias the output, which prevents vectorization. */
+template <typename TNumber>
 void
 MarkOutlierPixels(const ReferenceFrame & frame,
+                  const TNumber *        variance,
                   InitialNoiseModel      model,
                   std::size_t            begin,
                   std::size_t            end,
                   std::uint8_t *         outliers)
 {
   const double * const       mean = frame.mean.data();
-  const double * const       level = frame.neighbourMean.data();
-  const double * const       variance = frame.variance.data();
+  const float * const        level = frame.neighbourMean.data();
   const std::uint8_t * const usable = frame.usable.data();
   const std::size_t          width = frame.geometry.width;
   const double               leastDn2 = InScene.leastFractionOfDarkest * model.interceptDn2;
@@ -313,7 +314,8 @@ FindOutlierPixels(const ReferenceFrame & frame, const InitialNoiseModel & model,
 {
   std::vector<std::uint8_t> outliers(frame.mean.size(), 0);
   ForInnerBlocks(frame.geometry, parallelFor, [&](std::size_t begin, std::size_t end) {
-    MarkOutlierPixels(frame, model, begin, end, outliers.data());
+    frame.variance.Visit(
+      [&](const auto & variance) { MarkOutlierPixels(frame, variance.data(), model, begin, end, outliers.data()); });
   });
   const std::size_t         width = frame.geometry.width;
   const auto                rows = [&] { return RowsOf(outliers, width); };

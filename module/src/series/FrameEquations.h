@@ -71,9 +71,7 @@ MakeFrameEquations(const FrameSums &           sums,
  * \param variance variance of every pixel [DN^2]; a pixel with another value than a finite one has the variance of the
  * initial noise model */
 SensorNoise_EXPORT std::vector<FrameSums::ClassMatrix>
-CovarianceOfProducts(const FrameRegressors &     regressors,
-                     const std::vector<double> & variance,
-                     const ParallelFor &         parallelFor);
+CovarianceOfProducts(const FrameRegressors & regressors, const PixelMap & variance, const ParallelFor & parallelFor);
 
 } // namespace sensornoise
 

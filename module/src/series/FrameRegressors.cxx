@@ -154,8 +154,8 @@ InstrumentWeight(const ReferenceFrame &            frame,
   const auto noiseRows = [&] {
     return [&, row = std::vector<double>(width)](std::size_t y) mutable {
       const InitialNoiseModel own = model; // a copy: it cannot alias the row, so that the loop is vectorized
-      const double * const    level = frame.neighbourMean.data() + y * width;
-      std::transform(level, level + width, row.begin(), [&own](double mean) { return own.NoiseVariance(mean); });
+      const float * const     level = frame.neighbourMean.data() + y * width;
+      std::transform(level, level + width, row.begin(), [&own](float mean) { return own.NoiseVariance(mean); });
       return row.data();
     };
   };
@@ -210,7 +210,7 @@ FillClasses(const ReferenceFrame & frame,
             std::uint8_t *         classes)
 {
   const double * const mean = frame.mean.data();
-  const double * const neighbourMean = frame.neighbourMean.data();
+  const float * const  neighbourMean = frame.neighbourMean.data();
   const std::size_t    width = frame.geometry.width;
   for (std::size_t p = first; p < last; ++p)
   {

@@ -142,7 +142,7 @@ public:
       m_Terms[2][i] = x * y;
       m_Terms[3][i] = y * y;
     }
-    const double * const level = regressors.GetFrame().neighbourMean.data();
+    const float * const level = regressors.GetFrame().neighbourMean.data();
     std::copy(level + first, level + last, m_Level.begin());
     m_Pixels = last - first;
   }

@@ -29,15 +29,14 @@ ColumnsOf(const FrameRegressors & regressors, std::size_t p)
   std::copy(derivatives.begin(), derivatives.end(), columns.begin() + 2);
   return columns;
 }
+
 } // namespace
 
 std::vector<FrameSums::ClassMatrix>
-CovarianceOfProducts(const FrameRegressors &     regressors,
-                     const std::vector<double> & variance,
-                     const ParallelFor &         parallelFor)
+CovarianceOfProducts(const FrameRegressors & regressors, const PixelMap & variance, const ParallelFor & parallelFor)
 {
-  const std::vector<double> & level = regressors.GetFrame().neighbourMean;
-  const std::vector<double>   sums =
+  const std::vector<float> & level = regressors.GetFrame().neighbourMean;
+  const std::vector<double>  sums =
     SumOverBlocks(level.size(), parallelFor, GradientClasses * Products, [&](std::size_t p, double * sum) {
       const std::size_t c = regressors.ClassOf(p);
       if (c == FrameRegressors::Unused)

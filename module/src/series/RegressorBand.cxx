@@ -222,7 +222,7 @@ RegressorBand::FillWeights()
 {
   const InitialNoiseModel  model = m_Regressors.GetModel(); // a copy: it cannot alias the numbers written below
   const ShiftInstruments & instruments = m_Regressors.GetInstruments();
-  const double * const     level = m_Regressors.GetFrame().neighbourMean.data() + m_First;
+  const float * const      level = m_Regressors.GetFrame().neighbourMean.data() + m_First;
   const double * const     gx = this->RowOf(2 + StencilX);
   const double * const     gy = this->RowOf(2 + StencilY);
   const float * const      weight = instruments.weight.data() + m_First;

@@ -177,9 +177,10 @@ def estimate_sensor_noise(
         bytes; documentation/reference/files.md lists the types. Default: the files have headers.
     memory_limit : int, optional
         Largest memory of the estimate beside the frames [bytes], for example 4 * 10**9. Frames that are read a few at a
-        time are read more often if the estimate would need more memory, with the same result. "refined" needs 56 bytes
-        a pixel of a frame and 4 more for each temporal component of illumination and motion that it finds (8: large
-        changes of the illumination, floating point), "published" 40. The limit has to be at least 64 bytes a pixel
+        time are read more often if the estimate would need more memory, with the same result. "refined" needs 48 bytes
+        a pixel of a frame, or 12 and 4 for each temporal component of illumination and motion that it finds (8: large
+        changes of the illumination) if these are more. Floating point needs 52, or 20 and 8. "published" needs 40. The
+        limit has to be at least 64 bytes a pixel
         (40), 20 kB a frame and 32 MiB. Default: no limit.
     threads : int, optional
         Number of threads. Default: all. The result is the same bits for any number.
