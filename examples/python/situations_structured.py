@@ -51,7 +51,9 @@ def dark_frames(random):
 
 
 def with_common_noise(common):
-    """Returns a function that makes bursts and dark frames with this common noise, of an rms over the read noise [1]."""
+    """Returns a function that makes bursts and dark frames with this common noise.
+
+    Its argument `strength` is the rms of that noise over the read noise [1]."""
 
     def make(random, electrons, strength):
         frames = expose(random, electrons, illumination(random)) + strength * READ_NOISE * common(random, FRAMES)

@@ -7,6 +7,7 @@
 #include "helpers/DarkPixelsTestHelper.h"
 #include "helpers/RefinedTestHelper.h"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <gtest/gtest.h>
@@ -40,10 +41,10 @@ Make(const Settings & settings)
   const double     cycle = 2.0 * std::acos(-1.0);
   for (std::size_t t = 0; t < settings.frames; ++t)
   {
-    CounterSeededRandom random(settings.seed, 9, t);
-    const double        fields[2] = { 1.0 + settings.fieldFlickerSd * random.Normal(),
-                                      1.0 + settings.fieldFlickerSd * random.Normal() };
-    const double        phase = cycle * random.Uniform();
+    CounterSeededRandom         random(settings.seed, 9, t);
+    const std::array<double, 2> fields{ 1.0 + settings.fieldFlickerSd * random.Normal(),
+                                        1.0 + settings.fieldFlickerSd * random.Normal() };
+    const double                phase = cycle * random.Uniform();
     for (std::size_t p = 0; p < Size * Size; ++p)
     {
       const auto   x = static_cast<double>(p % Size);

@@ -336,10 +336,10 @@ inline constexpr std::array<WarningKind, 54> WarningTable{ {
   { WarningCode::NoiseNotLinear,
     "noise-not-linear",
     Severity::Error,
-    "The noise does not fit sensor noise after a linear filter: the camera corrects defects, takes medians or "
-    "compresses, parts of "
-    "the scene move by themselves, or the illumination changes in fine patterns. Set the camera to raw frames, or "
-    "choose a smooth and evenly lit part of the scene (--roi)." },
+    "The noise does not fit sensor noise after a linear filter: the camera corrects defects, takes medians, "
+    "compresses, or "
+    "mixes frames only where they differ little, parts of the scene move by themselves, or the illumination changes in "
+    "fine patterns. Set the camera to raw frames, or choose a smooth and evenly lit part of the scene (--roi)." },
   { WarningCode::FramesEnlarged,
     "frames-enlarged",
     Severity::Error,

@@ -188,9 +188,10 @@ struct MomentsConstants
    * that weights and masks need. Chosen empirically: below, up to a flicker of 10 %, the raw variance serves as well.
    */
   double strongIlluminationChange{ 0.15 };
-  /** Relative change of the illumination of a single frame from which the illumination changes strongly [1]. Chosen by its
-   * effect: one unlit frame in a burst is a change of 1, and makes most of the raw variance of every pixel, so that the
-   * guard band at the clip levels would hold the whole scene. A flicker of 10 % changes no frame of a burst by half. */
+  /** Relative change of the illumination of a single frame from which the illumination changes strongly [1]. Chosen by
+   * its effect: one unlit frame in a burst is a change of 1, and makes most of the raw variance of every pixel, so that
+   * the guard band at the clip levels would hold the whole scene. A flicker of 10 % changes no frame of a burst by
+   * half. */
   double strongChangeOfOneFrame{ 0.5 };
   /** Ratio of the variance of the level between frames to the noise variance of the pixels, from which the illumination
    * of a scene of one level changes strongly [1]. The illumination factor is not known without an offset. Chosen so
