@@ -266,7 +266,7 @@ TEST(SensorNoiseProjectionSums, NarrowOnesGiveTheWideOnes)
     stack[i] = static_cast<unsigned short>(std::clamp(level + normal(random), 0.0, 65535.0));
     mean[i % Pixels] += static_cast<double>(stack[i]) / static_cast<double>(Frames);
   }
-  const TemporalBasis   basis = Basis().WithUnits(TemporalBasis::Unit / 4.0, TemporalBasis::Unit / 4.0);
+  const TemporalBasis   basis = Basis().WithUnit(TemporalBasis::Unit / 4.0);
   const auto            layout = PixelLayout::OfFrames({ Pixels, 1, 1 });
   const ProjectedFrames frames(basis, stack.data(), layout, 0, Frames);
   ProjectionSums        wide(Pixels, Series);

@@ -63,8 +63,9 @@ TEST_F(EstimateSelectionTool, EveryPixelTypeIsRead)
   const double gain = ReportOf(Write("s.mha", burst.GetPointer()))["gain"]["value"];
   // the same integers, summed in another way
   EXPECT_NEAR(gainAs(short{}, 1.0), gain, 1e-9);
-  EXPECT_NEAR(gainAs(float{}, 1.0), gain, 1e-9);
-  EXPECT_NEAR(gainAs(double{}, 1.0), gain, 1e-9);
+  // integers have some maps in single precision, with an error of 6e-8 of each number
+  EXPECT_NEAR(gainAs(float{}, 1.0), gain, 1e-7);
+  EXPECT_NEAR(gainAs(double{}, 1.0), gain, 1e-7);
   // a quantization step of 16 DN adds 1/12 of its square to each variance, which changes the intercept only
   EXPECT_NEAR(gainAs(static_cast<unsigned char>(0), 1.0 / 16.0), gain / 16.0, 0.05 / 16.0);
 }

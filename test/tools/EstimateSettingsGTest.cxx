@@ -197,7 +197,8 @@ TEST_F(EstimateSettingsTool, SomePixelsOfAFloatStackMayBeNaN)
   for (const char * const name : { "gain", "read_noise" })
   {
     const double value = integers[name]["value"];
-    EXPECT_NEAR(whole[name]["value"].get<double>(), value, 1e-9 * value) << name; // sums are rounded in another order
+    // Integers have some maps in single precision, with an error of 6e-8 of each number.
+    EXPECT_NEAR(whole[name]["value"].get<double>(), value, 1e-7 * value) << name;
   }
 
   stack->SetPixel({ { 3, 4, 5 } }, std::numeric_limits<float>::quiet_NaN());
