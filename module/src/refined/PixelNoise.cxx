@@ -258,6 +258,20 @@ MeasureFrames(PixelNoise &            noise,
     noise.frames = {};
   }
 }
+
+/** Subtracts waves of the frequencies that the dark frames have from \a residuals, so that their variance is measured,
+ * however small. */
+void
+SubtractWavesOfDarkFrames(NoiseResiduals & residuals, const RefinedSettings & settings, const ParallelFor & parallelFor)
+{
+  if (settings.offset && settings.offset->structured)
+  {
+    for (const WaveFrequency & wave : settings.offset->structured->waves)
+    {
+      residuals.SubtractWave(wave, parallelFor);
+    }
+  }
+}
 } // namespace
 
 PixelNoise
@@ -324,13 +338,7 @@ MeasurePixelNoise(ResidualSquares                          squares,
     }
   };
   allowForFrames();
-  if (settings.offset && settings.offset->structured)
-  {
-    for (const WaveFrequency & wave : settings.offset->structured->waves)
-    {
-      residuals.SubtractWave(wave, parallelFor); // its variance is measured, however small
-    }
-  }
+  SubtractWavesOfDarkFrames(residuals, settings, parallelFor);
   noise.correlation = MeasureWithoutInterference(residuals, quantisationDn2, parallelFor);
   const double varianceInflation = VarianceInflation(noise.correlation.space);
   if (noise.correlation.IsCorrelated() && varianceInflation > InRefined.leastVarianceInflation)
