@@ -225,7 +225,8 @@ private:
  * \brief Adds up dark frames, which are read once, and measures their offset and read noise.
  *
  * The planes of a Bayer mosaic are measured separately. Frames are added in time order. The numbers of threads and of
- * frames per call do not change the result. */
+ * frames per call do not change the result. Besides moments and drift it holds a sample of the first frames, 16 MiB or
+ * less for integers, twice that for floating point. */
 template <typename TPixel>
 class DarkFrameSums
 {
