@@ -7,7 +7,6 @@ import numpy as np
 from situations import (
     ELECTRONS,
     FRAMES,
-    GAIN,
     OFFSET,
     READ_NOISE,
     SHAPE,
@@ -16,9 +15,9 @@ from situations import (
     digitise,
     expose,
     illumination,
-    read_out,
     situations_of,
 )
+from situations_good import interlaced
 
 DARK_FRAMES = 20
 
@@ -64,15 +63,9 @@ def with_common_noise(common):
 
 
 def interlaced_flat(random, flicker, level):
-    """Returns a flat field of two fields: even and odd rows are exposed at different moments, with independent
-    illumination factors. level: mean signal over ELECTRONS [1]."""
-    factors = np.empty((FRAMES, SHAPE[0], 1))
-    for field in range(2):
-        factors[:, field::2, 0] = illumination(random, flicker=flicker)[:, None]
-    charge = random.poisson(factors * level * ELECTRONS * np.ones(SHAPE))
-    frames = read_out(random, charge, GAIN, OFFSET[12], READ_NOISE)
-    dark = digitise(dark_frames(random))
-    return Burst(digitise(frames), offset=OFFSET[12], read_noise=READ_NOISE, dark=dark, signal_range=GAIN * ELECTRONS)
+    """Returns interlaced frames of a flat field and dark frames. level: mean signal over ELECTRONS [1]."""
+    burst = interlaced(random, np.full(SHAPE, level * ELECTRONS), flicker)
+    return burst._replace(dark=digitise(dark_frames(random)))
 
 
 SITUATIONS = (
