@@ -3,7 +3,8 @@
 """Makes illuminations that change differently from place to place, and scenes that are not static.
 
 They are spots that bleach, cells that flash one by one, light-emitting diodes that pulse in bands of a few states,
-rain, caustics, lamps that settle together with the optics, and frames with skipped blocks.
+rain, caustics, steady light beside illumination that flickers, and frames with skipped blocks. Lamps settle together
+with the optics.
 """
 
 import numpy as np
@@ -113,6 +114,15 @@ def settling(random, electrons, widening):
     return changing(random, np.array([f * smooth(electrons, r) for f, r in zip(factors, radii, strict=True)]))
 
 
+def steady(random, electrons, strength):
+    """Returns a burst under a light source that flickers, and a spot of another one that is steady, as bright as this
+    fraction of the brightest pixel."""
+    y, x = np.indices(SHAPE) / np.reshape(SHAPE, (2, 1, 1))
+    spot = strength * electrons.max() * np.exp(-((x - 0.6) ** 2 + (y - 0.5) ** 2) / 0.08)
+    expected = illumination(random)[:, None, None] * electrons[None] + spot
+    return changing(random, np.minimum(expected, 7000.0))._replace(offset=None)
+
+
 def swaying(random, electrons, shift):
     """Returns a burst under a steady light source, whose right half sways by this shift along both axes (rms) [pixels],
     as near objects do in front of a camera that sways."""
@@ -127,6 +137,7 @@ def swaying(random, electrons, shift):
 
 
 KINDS = {
+    "steady-spot": (steady, (0.1, 0.4)),
     "half-sways": (swaying, (0.03, 0.1)),
     "settling-optics": (settling, (0.05, 0.2)),
     "bleached-spot": (bleached, (0.03, 0.1)),

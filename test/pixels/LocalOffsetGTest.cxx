@@ -161,6 +161,26 @@ TEST(SensorNoiseLocalOffset, LinesMeetUnderCurvedIllumination)
   EXPECT_NEAR(found->offset + CentreDn, OffsetDn, 3.0 * found->standardError);
 }
 
+// A light source flickers; another one is steady, and lights the right of the frame. No tile has another slope.
+TEST(SensorNoiseLocalOffset, SteadyLightMakesParallelLines)
+{
+  const Scene scene([](std::size_t p, double mean) {
+    const double x = static_cast<double>(p % Width) / Width;
+    return Eigen::Vector2d(0.3 * (mean - OffsetDn - 300.0 * x * x), 0.0);
+  });
+  const auto  found = OffsetOf(scene);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->areParallel);
+  EXPECT_FALSE(found->doLinesMeet);
+  for (const Responses & uneven :
+       { Responses(TwoSources), Responses([](std::size_t p, double mean) {
+           return Eigen::Vector2d((mean - OffsetDn) * 0.5 * static_cast<double>(p % Width) / Width, 0.0);
+         }) })
+  {
+    EXPECT_FALSE(OffsetOf(Scene(uneven))->areParallel);
+  }
+}
+
 TEST(SensorNoiseLocalOffset, SlopesOfNoiseHaveNoCommonZero)
 {
   const Scene scene([](std::size_t, double) { return Eigen::Vector2d(0.0, 0.0); });

@@ -113,6 +113,9 @@ TEST(SensorNoiseOffsetEstimate, ResponsesToLocalIlluminationDetermineIt)
   EXPECT_TRUE(offset.IsIdentified());
   EXPECT_DOUBLE_EQ(offset.valueDn, 102.0);
   EXPECT_DOUBLE_EQ(offset.standardErrorDn, 1.0);
+  results.reestimated.localOffset->areParallel = true;
+  EXPECT_TRUE(results.IsRefused("the level that does not flicker differs from place to place"));
+  results.reestimated.localOffset->areParallel = false;
   results.reestimated.localOffset->doLinesMeet = false;
   EXPECT_TRUE(results.IsRefused("areas under different illumination give different offsets"));
   results.reestimated.localOffset.reset();

@@ -116,6 +116,9 @@ struct LocalOffset
   double      phi{ 1.0 };
   std::size_t tiles{ 0 };           ///< number of tiles that determine a line
   bool        doLinesMeet{ false }; ///< whether they cross zero at one level, up to a small dispersion
+  /** Whether parallel lines explain more, in any partition: the flicker is the same everywhere, and the level that does
+   * not flicker differs from place to place, as by a steady light source. */
+  bool areParallel{ false };
 };
 
 /** Estimates the dark offset where the illumination is local, from \a responses without motion. The response of a pixel
@@ -124,6 +127,7 @@ struct LocalOffset
  * and strips of rows are tried. Linear terms do not suffice where curvature is significant. Where rho_j varies even
  * more within tiles, their lines do not meet in one zero. Among the fits whose lines meet, the fit with the smallest
  * error is used that agrees with the fits of larger errors (Lepski 1990). The dispersion of the lines widens the error.
+ * If parallel lines explain more, the level that does not flicker differs between tiles, and the lines do not meet.
  * Null if no tile determines a line. Estimator.md, 3.7. */
 SensorNoise_EXPORT std::optional<LocalOffset>
 FindLocalOffset(const IlluminationResponses &            data,

@@ -24,6 +24,46 @@ namespace sensornoise
 
 namespace
 {
+/** Returns whether \a number lines of the dispersion \a phi fit a model: they do not disperse by more than chance makes
+ * them, or little. A few lines that disperse twice as much as by chance do not fit, either. Where the noise of the
+ * means explains more than all, the lines have no meaning. */
+bool
+DoLinesFit(double phi, double number)
+{
+  const double chance = Significance.oneTest * std::sqrt(2.0 / number);
+  return phi - 1.0 < std::max(InPattern.smallDispersion, std::min(1.0, chance)) &&
+         1.0 - phi < std::max(1.0 + InPattern.smallDispersion, chance);
+}
+
+/** Returns whether parallel lines, each with a zero of its own, explain more of the responses than lines through the
+ * common zero do, whose squares leave \a rest. Both models have one number for each line and one more. */
+bool
+AreParallel(const std::vector<TileLines> & tiles, double rest)
+{
+  double       restOfParallels = 0.0;
+  double       number = 0.0;
+  const double responses = tiles.empty() ? 0.0 : static_cast<double>(tiles.front().r1.size());
+  for (std::size_t j = 0; j < static_cast<std::size_t>(responses); ++j)
+  {
+    double w = 0.0;
+    double slopes = 0.0;
+    double squares = 0.0;
+    for (const TileLines & s : tiles)
+    {
+      const double information = s.Determinant() / s.g11;
+      const double slope = (s.g11 * s.r2[j] - s.g12 * s.r1[j]) / s.Determinant();
+      w += information;
+      slopes += information * slope;
+      squares += information * slope * slope;
+      number += 1.0;
+    }
+    restOfParallels += squares - slopes * slopes / w;
+  }
+  const double free = number - responses;
+  return free > 1.0 && DoLinesFit(restOfParallels / free, number) &&
+         rest - restOfParallels > Significance.severalTests * std::sqrt(4.0 * number);
+}
+
 /** Returns the common zero of \a tiles. Null: they determine none. The information on it is diminished by its own
  * scatter: many slopes of mere noise have a common zero by chance. */
 std::optional<LocalOffset>
@@ -42,11 +82,8 @@ FitTiles(const std::vector<TileLines> & tiles, const IlluminationResponses & dat
   const double top = Explained(tiles, result.offset);
   result.phi = errors.number > 1.0 ? (errors.full - top) / (errors.number - 1.0) : 1.0;
   const double widening = std::max(1.0, result.phi);
-  // A few lines that disperse twice as much as by chance do not meet, either. Where the noise of the means explains
-  // more than all, the lines have no meaning.
-  const double chance = Significance.oneTest * std::sqrt(2.0 / errors.number);
-  result.doLinesMeet = result.phi - 1.0 < std::max(InPattern.smallDispersion, std::min(1.0, chance)) &&
-                       1.0 - result.phi < std::max(1.0 + InPattern.smallDispersion, chance);
+  result.doLinesMeet = DoLinesFit(result.phi, errors.number);
+  result.areParallel = AreParallel(tiles, errors.full - top);
   result.standardError = std::sqrt(widening / information);
   const double far =
     std::max(Explained(tiles, start - 20.0 * data.rangeDn), Explained(tiles, start + 20.0 * data.rangeDn));
@@ -276,7 +313,14 @@ FindLocalOffset(const IlluminationResponses &            data,
   {
     found.insert(found.end(), ofPartition.begin(), ofPartition.end());
   }
-  return ChoosePartition(std::move(found));
+  const bool areParallel = std::any_of(found.begin(), found.end(), [](const auto & fit) { return fit.areParallel; });
+  std::optional<LocalOffset> chosen = ChoosePartition(std::move(found));
+  if (chosen && areParallel)
+  {
+    chosen->areParallel = true;
+    chosen->doLinesMeet = false;
+  }
+  return chosen;
 }
 
 double

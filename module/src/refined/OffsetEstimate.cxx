@@ -146,6 +146,10 @@ FindFailure(const RefinedResults & found,
   {
     return OffsetFailure::OutOfLimits;
   }
+  if (isLocal && local->areParallel)
+  {
+    return OffsetFailure::OffsetsDiffer;
+  }
   return isLocal && !local->doLinesMeet ? OffsetFailure::OffsetsDisagree : OffsetFailure::None;
 }
 

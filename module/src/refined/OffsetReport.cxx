@@ -201,6 +201,10 @@ ReasonOf(const OffsetEstimate & offset, const RefinedResults & found)
              " DN, is above the darkest level or makes the squared read noise negative: parts of the "
              "illumination flicker differently" +
              Ask("");
+    case OffsetFailure::OffsetsDiffer:
+      return "the level that does not flicker differs from place to place: a part of the light is steady, or the dark "
+             "offset differs over the sensor" +
+             Ask("");
     case OffsetFailure::OffsetsDisagree:
       break;
   }

@@ -48,6 +48,7 @@ enum class OffsetFailure : std::uint8_t
   Unbounded,         ///< the interval has an end at infinity
   WideInterval,      ///< the interval is wider than LargestOffsetInterval of the range of the scene
   OutOfLimits,       ///< the offset is outside of its limits
+  OffsetsDiffer,     ///< the level that does not flicker differs from place to place
   OffsetsDisagree    ///< the offsets by several components of the illumination scatter by more than their errors
 };
 
