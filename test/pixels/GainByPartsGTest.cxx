@@ -106,6 +106,24 @@ TEST(SensorNoiseGainByParts, UnlikeReadNoiseIsNoGain)
   EXPECT_NEAR(found.places->dark[1] - found.places->dark[0], 0.8, 0.8 * 0.1);
 }
 
+TEST(SensorNoiseGainByParts, RatiosAreOfThePartsToTheirMeanAndNotToTheLine)
+{
+  // The variance without signal is twice the line's in one half, and five times in the other: 3.5 times is the mean,
+  // which the common curve of the levels takes in part.
+  const auto excess = [](const TileExcess & tile) { return (1.0 - tile.shotFraction) * (tile.x < 0.5 ? 1.0 : 4.0); };
+  const auto found = CompareParts(TilesOf(excess));
+  ASSERT_TRUE(found.places);
+  const PartGains & halves = *found.places;
+  for (const double levelDn : { 110.0, 150.0, 190.0 })
+  {
+    const double dark = 10.0 / levelDn; // as in the tiles
+    const double left = halves.RatioAt(0.25, 0.5, 0, 1.0 - dark, levelDn);
+    const double right = halves.RatioAt(0.75, 0.5, 0, 1.0 - dark, levelDn);
+    EXPECT_NEAR(left, (1.0 + dark) / (1.0 + 2.5 * dark), 0.005) << levelDn;
+    EXPECT_NEAR(right, (1.0 + 4.0 * dark) / (1.0 + 2.5 * dark), 0.005) << levelDn;
+  }
+}
+
 TEST(SensorNoiseGainByParts, ReadNoiseThatGrowsAcrossTheFrameIsASmoothFieldAndNoGain)
 {
   const auto        darkAt = [](const TileExcess & tile) { return 0.8 * (tile.x + tile.y * tile.y - 5.0 / 6.0); };
@@ -120,7 +138,8 @@ TEST(SensorNoiseGainByParts, ReadNoiseThatGrowsAcrossTheFrameIsASmoothFieldAndNo
   TileExcess far;
   near.x = near.y = 0.1;
   far.x = far.y = 0.9;
-  const double difference = found.places->RatioAt(far.x, far.y, 0, 0.0) - found.places->RatioAt(near.x, near.y, 0, 0.0);
+  const double difference =
+    found.places->RatioAt(far.x, far.y, 0, 0.0, 100.0) - found.places->RatioAt(near.x, near.y, 0, 0.0, 100.0);
   // As in the test before, with 15 coefficients in place of 2 for 256 tiles: 7.5 times the variance.
   EXPECT_NEAR(difference, darkAt(far) - darkAt(near), 0.3 * (darkAt(far) - darkAt(near)));
 }

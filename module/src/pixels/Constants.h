@@ -244,7 +244,7 @@ struct PartsConstants
   /** Prior standard deviations of the coefficients [1]: gains agree within a factor of 2, the variances without signal
    * (read noise, offset) within 30 %, and a curve deviates from its line by a few per cent. */
   double priorOfGain{ 1.0 };
-  double priorOfDark{ 0.3 };
+  double priorOfDark{ 1.0 };
   double priorOfCurve{ 0.05 };
   /** Number of knots of the curve, and rounds of the regression; half of the rounds minimize absolute deviations. */
   std::size_t knots{ 6 };

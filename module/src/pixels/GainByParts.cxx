@@ -114,6 +114,11 @@ GainsOf(const PartRegression & fit, const std::vector<TileExcess> & tiles)
   gains.excess.assign(excess.ofParts.data(), excess.ofParts.data() + fraction.size());
   gains.error.assign(error.data(), error.data() + fraction.size());
   gains.dark.assign(dark.ofParts.data(), dark.ofParts.data() + fraction.size());
+  gains.knotsDn = fit.knotsDn;
+  const Eigen::VectorXd curve = fit.theta.segment(fit.gains + fit.darks, static_cast<Eigen::Index>(fit.knotsDn.size()));
+  gains.curve.assign(curve.data(), curve.data() + curve.size());
+  gains.meanExcess = mean - 1.0;
+  gains.meanDark = fraction.dot(toDark * fit.theta);
   gains.size = excess.size;
   gains.z = excess.z;
   gains.field = excess.field;
@@ -258,7 +263,7 @@ CompareParts(const PartTiles & tiles)
   {
     for (TileExcess & tile : phases)
     {
-      const double ratio = found.places->RatioAt(tile.x, tile.y, tile.phase, tile.shotFraction);
+      const double ratio = found.places->RatioAt(tile.x, tile.y, tile.phase, tile.shotFraction, tile.levelDn);
       tile.excess = (1.0 + tile.excess) / ratio - 1.0;
     }
   }

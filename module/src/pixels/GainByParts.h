@@ -163,9 +163,13 @@ struct SensorNoise_EXPORT PartGains
   std::vector<double> error;  ///< standard error of each excess [1]
   /** Relative excess of each part's variance without signal [1]. */
   std::vector<double> dark;
-  std::vector<double> pixels;    ///< number of pixels of each part
-  Eigen::VectorXd     field;     ///< coefficients of excess, if it is a smooth field [1]; otherwise empty
-  Eigen::VectorXd     darkField; ///< coefficients of dark, if it is a smooth field [1]; otherwise empty
+  std::vector<double> pixels;          ///< number of pixels of each part
+  Eigen::VectorXd     field;           ///< coefficients of excess, if it is a smooth field [1]; otherwise empty
+  Eigen::VectorXd     darkField;       ///< coefficients of dark, if it is a smooth field [1]; otherwise empty
+  double              meanExcess{ 0 }; ///< excess of the mean gain over the gain of the line, relative to that [1]
+  double meanDark{ 0 };          ///< excess of the mean variance without signal over the line's, relative to that [1]
+  std::vector<double> knotsDn;   ///< levels of the common curve of the excess, in rising order [DN]
+  std::vector<double> curve;     ///< common excess at these levels [1]
   double              size{ 0 }; ///< rms of the excess over the pixels, beyond chance [1]
   /** Significance of the differences of the gains, in standard deviations of chi-square [1]. */
   double z{ 0 };
@@ -182,11 +186,11 @@ struct SensorNoise_EXPORT PartGains
    * times both \a weights. The place is given as in RatioAt(). */
   void
   AddDarkTerms(double x, double y, std::size_t phase, const Eigen::Vector2d & weights, Eigen::MatrixXd & sums) const;
-  /** Returns the variance of a pixel over the variance by the common line [1]. \a x and \a y are the place in units of
-   * the frame's width and height [1]; \a shotFraction is the fraction of the common line's variance there that is shot
-   * noise [1]. */
+  /** Returns the variance of a pixel over its mean over the parts at the same level [1]. \a x and \a y are the place
+   * in units of the frame's width and height [1]; \a shotFraction is the fraction of the line's variance there that is
+   * shot noise [1], and \a levelDn the level [DN]. */
   double
-  RatioAt(double x, double y, std::size_t phase, double shotFraction) const;
+  RatioAt(double x, double y, std::size_t phase, double shotFraction, double levelDn) const;
 
   /** Returns whether the gains differ by more than InParts.leastDifference, and beyond chance. */
   bool

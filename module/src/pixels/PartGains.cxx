@@ -21,6 +21,20 @@ PhaseOf(std::size_t x, std::size_t y)
   return LargestPeriod * (y % LargestPeriod) + x % LargestPeriod;
 }
 
+/** Returns the value at \a x between \a values at \a knots, and the outermost value beyond them; 0 without knots. */
+double
+Interpolate(const std::vector<double> & knots, const std::vector<double> & values, double x)
+{
+  const auto next = std::upper_bound(knots.begin(), knots.end(), x);
+  if (next == knots.begin() || next == knots.end())
+  {
+    return values.empty() ? 0.0 : next == knots.begin() ? values.front() : values.back();
+  }
+  const auto   k = static_cast<std::size_t>(next - knots.begin());
+  const double part = (x - knots[k - 1]) / (knots[k] - knots[k - 1]);
+  return values[k - 1] + part * (values[k] - values[k - 1]);
+}
+
 /** Returns the fraction of the line's variance at a level that is shot noise [1]. */
 double
 ShotFractionAt(const PartReference & reference, double meanDn)
@@ -31,14 +45,18 @@ ShotFractionAt(const PartReference & reference, double meanDn)
 } // namespace
 
 double
-PartGains::RatioAt(double x, double y, std::size_t phase, double shotFraction) const
+PartGains::RatioAt(double x, double y, std::size_t phase, double shotFraction, double levelDn) const
 {
   const std::size_t part = PartOf(partition, x, y, phase);
   const auto        at = [&](const Eigen::VectorXd & smooth, const std::vector<double> & ofParts) {
     return smooth.size() > 0 ? PartRegression::FieldAt(x, y).dot(smooth) : ofParts[part];
   };
-  return std::max(InCommon.leastVarianceRatio,
-                  1.0 + shotFraction * at(field, excess) + (1.0 - shotFraction) * at(darkField, dark));
+  // The line is the reference; where parts differ much, their mean differs from it, too.
+  const double mean =
+    1.0 + shotFraction * meanExcess + (1.0 - shotFraction) * meanDark + Interpolate(knotsDn, curve, levelDn);
+  const double more =
+    shotFraction * (1.0 + meanExcess) * at(field, excess) + (1.0 - shotFraction) * at(darkField, dark);
+  return std::max(InCommon.leastVarianceRatio, 1.0 + more / std::max(InCommon.leastVarianceRatio, mean));
 }
 
 void
@@ -93,7 +111,7 @@ MapOfRatios(const GainByParts &         parts,
       double            ratio = 1.0;
       for (const PartGains & own : ofPixels)
       {
-        ratio *= own.RatioAt(x, y, PhaseOf(column, row), shot);
+        ratio *= own.RatioAt(x, y, PhaseOf(column, row), shot, mean[p]);
       }
       ratios[p] = static_cast<float>(ratio);
     }
