@@ -68,6 +68,27 @@ TEST(SensorNoiseFrameThumbnails, NoiseIsNoChange)
   EXPECT_FALSE(change.IsLarge()) << change.fraction << ' ' << change.ofTheLevel;
 }
 
+TEST(SensorNoiseFrameThumbnails, VariancesOfCellsAreOfIndependentPixels)
+{
+  // Left, noise of 4 DN; right, the pixels of a cell change together, by 4 DN.
+  CounterSeededRandom random(4, 1, 0);
+  FrameThumbnails     thumbnails(Geometry, Frames, {});
+  const auto          stack = Stack([&](double t, double x, double y) {
+    const double together = 4.0 * std::sin(1.7 * t + std::floor(x / 3.0) + 5.0 * std::floor(y / 4.0));
+    return Wave(x, y) + (x < 24.0 ? 4.0 * random.Normal() : std::sqrt(2.0) * together);
+  });
+  thumbnails.AddFrames(stack.data(), 0, Frames, SerialFor);
+  double left = 0.0;
+  double right = 0.0;
+  for (const CellVariance & own : thumbnails.FindCellVariances(test::AllFrames(thumbnails)))
+  {
+    (own.pixel % Width < 24 ? left : right) += own.perPixelDn2 / 128.0; // half of 256 cells
+  }
+  // 128 variances of 12 frames scatter by sqrt(2 / 11 / 128); a cell samples two rows of 3 pixels.
+  EXPECT_NEAR(left, 16.0, 5.0 * 16.0 * std::sqrt(2.0 / 11.0 / 128.0));
+  EXPECT_NEAR(right, 6.0 * 16.0, 0.25 * 6.0 * 16.0);
+}
+
 TEST(SensorNoiseFrameThumbnails, ScenesOfTheirOwnAreAllChange)
 {
   const auto change =

@@ -142,7 +142,7 @@ TEST(SensorNoiseFullWells, BecomeTheUpperClipLevelOfTheScene)
   for (const bool isFound : { false, true })
   {
     dnRange.SetClipSources(isFound ? "pile-up" : "code range", "code range");
-    const StaticScene scene = MakeStaticScene(maps, {}, Geometry, 32, std::vector<double>(32, 900.0), {}).scene;
+    const StaticScene scene = MakeStaticScene(maps, {}, Geometry, 32, std::vector<double>(32, 900.0), {}, {}).scene;
     ASSERT_FALSE(scene.failureReason);
     ASSERT_TRUE(scene.fullWells);
     EXPECT_EQ(scene.summary.dnRange.clipHighDn, std::round(scene.fullWells->levelDn));

@@ -60,7 +60,7 @@ FrameWith(const Excess & excess, std::size_t size = Size)
 std::vector<std::uint8_t>
 FindIn(const ReferenceFrame & frame)
 {
-  return FindTransientRegion(frame, FitInitialNoiseModel(frame));
+  return FindTransientRegion(frame, FitInitialNoiseModel(frame), {});
 }
 
 /** Returns the variance of an object of 1,000 DN that hides every pixel it reaches for a quarter of the burst. */
@@ -135,6 +135,26 @@ TEST(SensorNoiseTransientRegion, LocalIlluminationIsNoMovingObject)
                 return y >= 1.0 / 3.0 ? 0.0081 * signal * signal : 0.0;
               }))
                 .empty());
+}
+
+// Half of a sensor has twice the noise of the other half, in the dark and in the light.
+TEST(SensorNoiseTransientRegion, NoiseThatNeighboursDoNotShareIsNoMovingObject)
+{
+  const ReferenceFrame frame = FrameWith([](double, double y, double) { return y >= 0.5 ? 2e4 : 0.0; });
+  const auto           model = FitInitialNoiseModel(frame);
+  const auto           found = [&](double together) {
+    std::vector<CellVariance> cells;
+    for (std::size_t i = 0; i < 256; ++i)
+    {
+      const std::size_t p = (i / 16 * 12 + 6) * Size + i % 16 * 12 + 6;
+      const double      excess = i / 16 >= 8 ? 2e4 : 0.0;
+      cells.push_back({ p, model.RawVariance(frame.neighbourMean[p], 0.0, 0.0) + together * excess });
+    }
+    return FindTransientRegion(frame, model, cells);
+  };
+  EXPECT_FALSE(FindTransientRegion(frame, model, {}).empty()); // by its variance alone it would be one
+  EXPECT_TRUE(found(1.0).empty());
+  EXPECT_FALSE(found(8.0).empty());
 }
 
 TEST(SensorNoiseTransientRegion, SmallThingsAreLeftToTheLaterPasses)

@@ -301,6 +301,39 @@ FrameThumbnails::FindChange(const std::vector<std::size_t> & frames) const
   return { Quantile(fractions, 0.5), level > 0.0 ? std::sqrt(Quantile(changed, 0.5)) / level : 0.0 };
 }
 
+std::vector<CellVariance>
+FrameThumbnails::FindCellVariances(const std::vector<std::size_t> & frames) const
+{
+  const auto [cells, means] = this->FindMeanFrame(frames);
+  std::vector<double> squares(cells.size(), 0.0);
+  for (const std::size_t t : frames)
+  {
+    if (!cells.empty())
+    {
+      const std::vector<double> frame = this->MeansOf(t, cells);
+      const FrameFit            fit = FitMostCells(means, frame);
+      for (std::size_t i = 0; i < cells.size(); ++i)
+      {
+        squares[i] += std::pow(fit.DifferenceOf(means[i], frame[i]), 2);
+      }
+    }
+  }
+  std::vector<double>      pixels(m_Cells, 0.0);
+  std::vector<std::size_t> middle(m_Cells, 0);
+  for (const Run & run : m_Runs)
+  {
+    pixels[run.cell] += static_cast<double>(run.end - run.begin);
+    middle[run.cell] = (run.begin + run.end) / 2;
+  }
+  std::vector<CellVariance> variances;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    const double variance = squares[i] / (static_cast<double>(frames.size()) - 1.0);
+    variances.push_back({ middle[cells[i]], pixels[cells[i]] * variance });
+  }
+  return variances;
+}
+
 double
 FrameThumbnails::FindIlluminationChange(const std::vector<std::size_t> & frames) const
 {

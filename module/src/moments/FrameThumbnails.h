@@ -35,6 +35,15 @@ struct SceneChange
   IsLarge() const;
 };
 
+/** How much the mean of a cell changes over time. */
+struct CellVariance
+{
+  std::size_t pixel{ 0 }; ///< a pixel in the middle of the cell
+  /** Variance of the mean over time, times the number of its pixels: the variance of the pixels, if their changes are
+   * independent [DN^2]. */
+  double perPixelDn2{ 0.0 };
+};
+
 /** \class FrameThumbnails
  * \brief Means of each frame over up to 16 x 16 cells, from which it is tested whether all frames show one scene.
  *
@@ -77,6 +86,11 @@ public:
    * 9 cells are usable. */
   SceneChange
   FindChange(const std::vector<std::size_t> & frames) const;
+
+  /** Returns how much the means of the finite cells change over the \a frames, without the factor and the level of each
+   * frame; empty if fewer than 5 frames or 9 cells are usable. */
+  std::vector<CellVariance>
+  FindCellVariances(const std::vector<std::size_t> & frames) const;
 
   /** Returns the relative standard deviation of the illumination factor over the \a frames [1], see
    * ComputeIlluminationChange(). All frames must have been added. Returns 0 if fewer than 5 frames or 9 cells are

@@ -280,6 +280,7 @@ RefinedPasses<TPixel>::MakeScene(StackMaps maps, std::optional<StrongChange> str
                                           m_Geometry,
                                           m_Distinct.Count(),
                                           m_Distinct.OfDistinct(m_Moments.GetFrameMeans()),
+                                          m_Thumbnails.FindCellVariances(m_Distinct.Counted()),
                                           std::move(strongChange),
                                           m_ParallelFor);
   m_Scene = std::make_unique<StaticScene>(std::move(made.scene));

@@ -262,9 +262,9 @@ MarkBorder(StaticScene & scene)
 
 /** Excludes the region that a moving object crosses. Returns false if there is no moving object. */
 bool
-ExcludeTransientRegion(StaticScene & scene)
+ExcludeTransientRegion(StaticScene & scene, const std::vector<CellVariance> & cellVariances)
 {
-  const std::vector<std::uint8_t> transient = FindTransientRegion(scene.frame, scene.model);
+  const std::vector<std::uint8_t> transient = FindTransientRegion(scene.frame, scene.model, cellVariances);
   for (std::size_t p = 0; p < transient.size(); ++p)
   {
     if (transient[p] != 0 && scene.frame.usable[p] != 0)
@@ -283,6 +283,7 @@ MakeStaticScene(StackMaps                         maps,
                 const FrameGeometry &             geometry,
                 std::size_t                       frames,
                 const std::vector<double> &       frameMeans,
+                const std::vector<CellVariance> & cellVariances,
                 std::optional<StrongChange>       strongChange,
                 const ParallelFor &               parallelFor)
 {
@@ -313,7 +314,7 @@ MakeStaticScene(StackMaps                         maps,
   {
     RequireDistinctFrames(frames, valid);
     scene.model = FitInitialNoiseModel(scene.frame);
-    if (ExcludeTransientRegion(scene))
+    if (ExcludeTransientRegion(scene, cellVariances))
     {
       scene.model = FitInitialNoiseModel(scene.frame);
     }

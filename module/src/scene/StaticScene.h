@@ -4,6 +4,7 @@
 #define sensornoise_scene_StaticScene_h
 
 #include "SensorNoiseExport.h"
+#include "moments/FrameThumbnails.h"
 #include "sensornoise/FrameGeometry.h"
 #include "base/NothingToMeasure.h"
 #include "sensornoise/Parallel.h"
@@ -111,6 +112,7 @@ struct SceneAndOutliers
  * \param userMask if not empty, nonzero at the pixels to be used
  * \param frames number of distinct frames
  * \param frameMeans means of the frames [DN]
+ * \param cellVariances see FindTransientRegion()
  * \param strongChange if given, the illumination changes strongly, and the variance in \a maps is without these
  * changes. The model, the usable pixels and the outliers are found with it. The frame of the scene has the raw
  * variance */
@@ -120,6 +122,7 @@ MakeStaticScene(StackMaps                         maps,
                 const FrameGeometry &             geometry,
                 std::size_t                       frames,
                 const std::vector<double> &       frameMeans,
+                const std::vector<CellVariance> & cellVariances,
                 std::optional<StrongChange>       strongChange,
                 const ParallelFor &               parallelFor = SerialFor);
 

@@ -68,6 +68,32 @@ VarianceTiles::Compare(const VariancePrediction & prediction) const
   return comparison;
 }
 
+bool
+VarianceTiles::AreIndependent(const TileComparison &            comparison,
+                              const VariancePrediction &        prediction,
+                              const std::vector<CellVariance> & variances) const
+{
+  std::vector<double> pixels(comparison.fits.size(), 0.0);
+  std::vector<double> expected(comparison.fits.size(), 0.0);
+  std::vector<double> excess(comparison.fits.size(), 0.0);
+  for (std::size_t i = 0; i < m_Sample.Size(); ++i)
+  {
+    pixels[m_CellOf[i]] += 1.0;
+    expected[m_CellOf[i]] += prediction.variance[i];
+    excess[m_CellOf[i]] += m_Sample.raw[i] - prediction.variance[i];
+  }
+  std::vector<double> together; // number of pixels that change together, for each cell
+  for (const CellVariance & own : variances)
+  {
+    const std::size_t c = this->CellOfPixel(own.pixel);
+    if (comparison.fits[c] == CellFit::Above && excess[c] > 0.0)
+    {
+      together.push_back((own.perPixelDn2 * pixels[c] - expected[c]) / excess[c]);
+    }
+  }
+  return together.size() >= InScene.fewestCellsOfRegion && Quantile(together, 0.5) < InScene.mostPixelsTogether;
+}
+
 IlluminationTest
 VarianceTiles::TestIllumination(const TileComparison &     comparison,
                                 const VariancePrediction & prediction,
@@ -294,7 +320,9 @@ FindBest(Candidate                        best,
 } // namespace
 
 std::vector<std::uint8_t>
-FindTransientRegion(const ReferenceFrame & frame, const InitialNoiseModel & model)
+FindTransientRegion(const ReferenceFrame &            frame,
+                    const InitialNoiseModel &         model,
+                    const std::vector<CellVariance> & cellVariances)
 {
   const std::vector<std::size_t> pixels = SamplePixels(frame.usable);
   const VarianceSample           sample = SampleVariance(frame, pixels, model);
@@ -309,8 +337,9 @@ FindTransientRegion(const ReferenceFrame & frame, const InitialNoiseModel & mode
   }
   best = FindBest(std::move(best), frame, model, pixels, sample, cells);
   const IlluminationTest illumination = cells.TestIllumination(best.comparison, best.prediction, model.largestRatio);
-  if (illumination.explained >= InScene.leastIlluminationFraction &&
-      illumination.modulation <= InScene.largestModulation)
+  if ((illumination.explained >= InScene.leastIlluminationFraction &&
+       illumination.modulation <= InScene.largestModulation) ||
+      cells.AreIndependent(best.comparison, best.prediction, cellVariances))
   {
     return {};
   }

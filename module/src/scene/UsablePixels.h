@@ -4,6 +4,7 @@
 #define sensornoise_scene_UsablePixels_h
 
 #include "SensorNoiseExport.h"
+#include "moments/FrameThumbnails.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/StepResults.h"
 #include "scene/InitialNoiseModel.h"
@@ -86,6 +87,13 @@ public:
   TileComparison
   Compare(const VariancePrediction & prediction) const;
 
+  /** Returns whether the pixels of the cells of \a comparison that are above the model change independently of each
+   * other: the means of these cells, \a variances, change as little as independent pixels let them. */
+  bool
+  AreIndependent(const TileComparison &            comparison,
+                 const VariancePrediction &        prediction,
+                 const std::vector<CellVariance> & variances) const;
+
   /** Tests whether changes of the illumination explain the cells of \a comparison that are above the model: a separate
    * flicker in every cell. A pixel is not explained if its variance differs by more than the factor \a largestRatio. */
   IlluminationTest
@@ -113,9 +121,14 @@ private:
  * lie below it. Smaller objects are left to FindOutlierPixels() and to the third pass. Otherwise models are fitted to
  * parts of the frame: halves, thirds and ninths. Each is then extended over all cells that fit it. The cells above the
  * best model are the region, with their neighbours and the narrow islands between them. Local changes of the
- * illumination are not an object, see FindLocalIllumination(). */
+ * illumination are not an object, see FindLocalIllumination(). Neither are parts of the sensor with more read noise:
+ * an object moves many pixels together, and noise changes each by itself. So the means of the cells of the region,
+ * \a cellVariances, do not change by more than independent pixels let them. Nothing is compared if \a cellVariances is
+ * empty. Estimator.md, 3.2. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
-FindTransientRegion(const ReferenceFrame & frame, const InitialNoiseModel & model);
+FindTransientRegion(const ReferenceFrame &            frame,
+                    const InitialNoiseModel &         model,
+                    const std::vector<CellVariance> & cellVariances);
 
 /** Returns whether each pixel can be used, or the reason why not, before any model of the noise: values of PixelUse.
  * \a valid is the map from which \a frame was made; \a userMask, if not empty, is 0 at pixels that are masked. */
