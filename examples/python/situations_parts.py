@@ -6,6 +6,7 @@ The true gain is the mean over the pixels.
 """
 
 import numpy as np
+from acceptance_lines import MAY_REFUSE, MEASURED
 from situations import (
     FRAMES,
     GAIN,
@@ -13,6 +14,7 @@ from situations import (
     READ_NOISE,
     SHAPE,
     Burst,
+    Situation,
     digitise,
     expose,
     illumination,
@@ -88,6 +90,14 @@ def vignetting(random, electrons, fall):
     return burst(random, electrons * transmission, 1 / transmission)
 
 
+def flat_halves(random, difference, has_dark):
+    """Returns a flat field of a sensor whose halves have amplifiers of unlike gains, with dark frames or without."""
+    halves = blocks([[1 - difference / 2, 1 + difference / 2]])
+    flat = burst(random, np.full(SHAPE, 4000.0), halves)
+    dark = burst(random, np.zeros(SHAPE), halves)
+    return flat._replace(dark=dark.frames, signal_range=4000.0 * GAIN) if has_dark else flat
+
+
 KINDS = {
     "quadrants": (quadrants, (1.0, 2.0)),
     "stitched": (stitched, (0.02, 0.04)),
@@ -97,4 +107,12 @@ KINDS = {
     "vignetting": (vignetting, (0.3, 0.5)),
 }
 
-SITUATIONS = situations_of("parts", KINDS)
+SITUATIONS = situations_of("parts", KINDS) + tuple(
+    Situation(
+        f"parts/flat-halves-{difference:g}{'-dark' if has_dark else ''}",
+        lambda random, _electrons, d=difference, h=has_dark: flat_halves(random, d, h),
+        MEASURED if has_dark else MAY_REFUSE,
+    )
+    for difference in (0.01, 0.03)
+    for has_dark in (False, True)
+)

@@ -137,6 +137,36 @@ TEST(SensorNoiseFixedPatternEstimate, TextureAboutAFlatPlaceIsNoPattern)
   EXPECT_NEAR(pattern.gainFraction / GainFraction(pattern, maps, 0.01), 1.0 + PatternError, 5.0 * PatternError);
 }
 
+/** Returns FractionOfSensorSteps() of maps. */
+double
+StepsOf(const Maps & maps)
+{
+  const FixedPatternEstimate pattern = PatternOf(maps);
+  return FractionOfSensorSteps(
+    maps.Data(), maps.frame.geometry, LineOf(maps), BlackDn, pattern.levelVarianceDn2, SerialFor);
+}
+
+// An amplifier for each half: all that differs is their gain.
+TEST(SensorNoiseFixedPatternEstimate, StepBetweenTwoColumnsIsOfTheSensor)
+{
+  for (const double step : { -0.03, 0.02, 0.2 })
+  {
+    const Maps maps([step](std::size_t x, std::size_t) { return Pixel{ 4000.0, x < Size / 2 ? 1.0 : 1.0 + step }; });
+    EXPECT_NEAR(StepsOf(maps), step < 0.1 ? 1.0 : 0.0, 0.1) << step; // a step of 20 % is of the scene
+  }
+}
+
+// An edge of the scene is wider than a pixel, or has others beside it.
+TEST(SensorNoiseFixedPatternEstimate, EdgesOfTheSceneAreNoStepsOfTheSensor)
+{
+  const Maps soft([](std::size_t x, std::size_t) {
+    return Pixel{ x + 1 < Size / 2 ? 4000.0 : x < Size / 2 + 1 ? 4060.0 : 4120.0 };
+  });
+  const Maps bars([](std::size_t x, std::size_t) { return Pixel{ x / 32 % 2 == 0 ? 4000.0 : 4120.0 }; });
+  EXPECT_EQ(StepsOf(soft), 0.0);
+  EXPECT_EQ(StepsOf(bars), 0.0);
+}
+
 TEST(SensorNoiseFixedPatternEstimate, WithoutLevelsEverythingCouldBePattern)
 {
   const Maps maps([](std::size_t, std::size_t) { return Pixel{ 100.0 }; });

@@ -186,6 +186,12 @@ struct PatternConstants
    * data sheets and measured sensors. */
   double largestGain{ 0.03 };
   double largestOffset{ 5.0 };
+  /** Largest step between parts of a sensor, relative to the signal [1]: larger ones are of the scene. Chosen as twice
+   * the largest difference of amplifiers that is known from reports. */
+  double largestStep{ 0.1 };
+  /** Least fraction of the pixels beside a boundary whose levels are known [1]. A judgement: a step along less than
+   * that may be of the scene. */
+  double leastPairs{ 0.5 };
   /** Variance of the slope from whole columns or rows, relative to the variance from pixels, above which it exceeds
    * chance [1]. Chosen empirically: with 256 columns the ratio scatters by 0.1. */
   double leastLikeness{ 1.5 };
@@ -241,8 +247,8 @@ struct PartsConstants
    * [1]: a judgement, one sensor of ten. With odds of 1, differences by chance make the errors of the gain up to 1.7
    * times as large. */
   double priorOfUnlikeParts{ 0.1 };
-  /** Prior standard deviations of the coefficients [1]: gains agree within a factor of 2, the variances without signal
-   * (read noise, offset) within 30 %, and a curve deviates from its line by a few per cent. */
+  /** Prior standard deviations of the coefficients [1]: gains, and variances without signal (read noise, offset), agree
+   * within a factor of 2, and a curve deviates from its line by a few per cent. */
   double priorOfGain{ 1.0 };
   double priorOfDark{ 1.0 };
   double priorOfCurve{ 0.05 };

@@ -4,6 +4,7 @@
 #define sensornoise_pixels_FixedPatternEstimate_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/VarianceLine.h"
 
@@ -24,14 +25,17 @@ struct ReferenceFrame;
  * Levels that differ because of the illumination raise the variance by the gain. Levels that differ because of PRNU
  * raise it by twice the gain, and levels that differ because of DSNU do not raise it. A fraction s of the levels'
  * variance that is pattern therefore changes the slope by -s to +s of the gain. Patterns are measured where the scene
- * is flattest: elsewhere the differences from pixel to pixel are signal. A pattern that differs between the halves of a
- * sensor, or that repeats over long distances, is not identifiable. */
+ * is flattest: elsewhere the differences from pixel to pixel are signal. Between parts of the sensor only
+ * steps are identifiable. A pattern that repeats over long distances is not. */
 struct FixedPatternEstimate
 {
   double levelVarianceDn2{ 0.0 }; ///< weighted variance of the levels without the noise of their means [DN^2]
   /** Largest fraction of levelVarianceDn2 by a pattern of gain or efficiency, its error included [1]. */
   double gainFraction{ 0.0 };
   double offsetFraction{ 0.0 }; ///< largest fraction of levelVarianceDn2 by a pattern of offset, its error included [1]
+  /** Covariance of the levels with the steps between parts of the sensor, over levelVarianceDn2 [1]. It changes the
+   * slope as the other fractions do, but neighbours have it in common. */
+  double stepFraction{ 0.0 };
 
   /** Returns the largest variance of the pixels' offsets [DN^2]. */
   double
@@ -81,6 +85,20 @@ EstimateFixedPattern(const ReferenceFrame & frame,
                      const VarianceLine &   line,
                      double                 blackDn,
                      const ParallelFor &    parallelFor);
+
+/** Returns stepFraction of FixedPatternEstimate for the pixels of \a data, whose variance follows \a line and whose
+ * levels vary by \a levelVarianceDn2. \a blackDn is as in EstimateFixedPattern().
+ *
+ * Amplifiers of unlike gain or offset make a step between two columns or rows, along the whole frame. No image of a
+ * scene does: optics blur its edges over more than one pixel. A step counts if it is significant, twice as large as at
+ * any other boundary, and has one sign along the boundary. Estimator.md, 3.7. */
+SensorNoise_EXPORT double
+FractionOfSensorSteps(const VarianceData &  data,
+                      const FrameGeometry & geometry,
+                      const VarianceLine &  line,
+                      double                blackDn,
+                      double                levelVarianceDn2,
+                      const ParallelFor &   parallelFor);
 
 /** Fits the variance line by instrumental variables. The instrument of a pixel's mean x is z, the mean of its diagonal
  * neighbours:

@@ -359,6 +359,8 @@ FitOnce(const ProjectedSquares &          squares,
   const ReferenceFrame & frame = projected.GetFrame();
   const VarianceData     data = projected.GetData(found.mask);
   found.pattern = EstimateFixedPattern(frame, data, line, blackDn, parallelFor);
+  found.pattern.stepFraction =
+    FractionOfSensorSteps(data, frame.geometry, line, blackDn, found.pattern.levelVarianceDn2, parallelFor);
   if (found.pattern.LargestFraction() * std::abs(line.gain) >
       InPixels.negligiblePattern * std::sqrt(line.covariance(0, 0)))
   {

@@ -74,8 +74,12 @@ ChooseLine(GainEstimate &            estimate,
     estimate.covariance += SlopeCovariance(std::min(fromPattern, 100.0 * std::abs(all.gain)), all.pivotDn);
   }
   const double ofClasses = variance.classes.keptDeviation * std::abs(estimate.line.gain);
-  estimate.covariance += SlopeCovariance(ErrorOfVibration(all, model), all.pivotDn) +
-                         SlopeCovariance(ofClasses, all.pivotDn) + lines.covarianceOfCorrelation;
+  const double ofSteps = variance.pattern.stepFraction * std::abs(estimate.line.gain);
+  for (const double slopeError : { ErrorOfVibration(all, model), ofClasses, ofSteps })
+  {
+    estimate.covariance += SlopeCovariance(slopeError, all.pivotDn);
+  }
+  estimate.covariance += lines.covarianceOfCorrelation;
 }
 
 /** Fits one line on either side of \a step, with the same gain, and replaces the curve by the deviations from both
@@ -93,7 +97,8 @@ ApplyStep(GainEstimate &            estimate,
   estimate.reducedChi2 = estimate.curve.ReducedChi2(variance.varianceInflation);
   estimate.covariance = DispersionOfClasses(variance) * step.line.covariance + lines.covarianceOfCorrelation;
   const double ofPattern = variance.pattern.LargestFraction() * std::abs(step.line.gain);
-  for (const double error : { ErrorOfVibration(step.line, model), ofPattern, step.errorOfSlopes })
+  const double ofSteps = variance.pattern.stepFraction * std::abs(step.line.gain);
+  for (const double error : { ErrorOfVibration(step.line, model), ofPattern, ofSteps, step.errorOfSlopes })
   {
     estimate.covariance += SlopeCovariance(error, step.line.pivotDn);
   }

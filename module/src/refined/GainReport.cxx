@@ -128,7 +128,8 @@ TextOfLevels(const RefinedResults & found, const GainEstimate & gain)
   const bool                   hasDark = found.settings.offset && found.settings.offset->darkFrames > 0;
   return "the levels of the scene do not determine the gain: they differ by " + Rounded(levels) + " DN rms, " +
          Percent(levels / std::max(smallestDivisor, gain.line.pivotDn - found.blackDn)) +
-         " of the signal, and fixed-pattern noise may explain " + Percent(std::min(1.0, pattern.LargestFraction())) +
+         " of the signal, and fixed-pattern noise may explain " +
+         Percent(std::min(1.0, std::max(pattern.LargestFraction(), pattern.stepFraction))) +
          " of that. The gain is known only to +- " + Rounded(gain.StandardError()) + " of about " +
          Rounded(gain.Size()) + " DN/e-. " +
          AskIfExchanged(
