@@ -27,12 +27,12 @@ struct Neighbour
   int y;
 };
 
-/** Means of neighbours by which cameras replace pixels: copies, pairs, the nearest four, the corners, and all eight. */
+/** Means of neighbours by which cameras replace pixels: copies, pairs, the nearest four, the corners, and all eight. A
+ * copy and its original are alike, and it suffices that one of them is left out: each is compared with the pixel before
+ * it alone. */
 const std::vector<std::vector<Neighbour>> MeansOfNeighbours{
   { { -1, 0 } },
-  { { 1, 0 } },
   { { 0, -1 } },
-  { { 0, 1 } },
   { { -1, 0 }, { 1, 0 } },
   { { 0, -1 }, { 0, 1 } },
   { { -1, -1 }, { 1, 1 } },
