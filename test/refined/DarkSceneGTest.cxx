@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "helpers/RefinedTestHelper.h"
+#include "simulation/Random.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <gtest/gtest.h>
 #include <vector>
 
@@ -109,4 +111,51 @@ TEST(SensorNoiseDarkScene, AMovingThingInFrontOfADarkGroundIsNoSignal)
   {
     EXPECT_NEAR(*gain.value, 0.5, 4.0 * *gain.standardError);
   }
+}
+
+TEST(SensorNoiseDarkScene, TelegraphNoiseOfTheDarkPixelsIsNoSignal)
+{
+  // Stars above a read noise of 22 electrons. Every fiftieth pixel jumps between two levels: it is both brighter and
+  // noisier, and its neighbours are not.
+  std::size_t identified = 0;
+  for (const std::uint32_t seed : { 1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U })
+  {
+    CounterSeededRandom random(11, seed, 0);
+    std::vector<double> scene(Width * Height, 0.001);
+    for (int star = 0; star < 40; ++star)
+    {
+      const double x = 5.0 + 150.0 * random.Uniform();
+      const double y = 5.0 + 118.0 * random.Uniform();
+      const double height = 0.1 + 0.9 * random.Uniform();
+      for (std::size_t p = 0; p < scene.size(); ++p)
+      {
+        const double distance = std::hypot(static_cast<double>(p % Width) - x, static_cast<double>(p / Width) - y);
+        scene[p] += height * std::exp(-distance * distance / (2.0 * 1.2 * 1.2));
+      }
+    }
+    SimulationSettings settings = DarkSettings(0.0);
+    settings.camera = { 1600.0, 0.5, 100.0, 11.0 };
+    settings.dsnuSdDn = 0.0;
+    settings.seed = seed;
+    Stack<GreyValue> stack = Simulate<GreyValue>(settings, Width, Height, scene);
+    for (std::size_t p = 0; p < scene.size(); ++p)
+    {
+      const double sizeDn = random.Uniform() < 0.02 ? -66.0 * std::log(1.0 - random.Uniform()) : 0.0;
+      const double duty = 0.02 + 0.48 * random.Uniform();
+      for (std::size_t t = 0; t < settings.frames; ++t)
+      {
+        const long jump = random.Uniform() < duty ? std::lround(sizeDn) : 0;
+        stack.pixels[t * Width * Height + p] = static_cast<GreyValue>(stack.pixels[t * Width * Height + p] + jump);
+      }
+    }
+    const auto method = Measure(stack);
+    const auto gain = method.GetReport().gain;
+    if (gain.status == EstimateStatus::Identified)
+    {
+      ++identified;
+      EXPECT_NEAR(*gain.value, 0.5, 4.0 * *gain.standardError) << seed;
+      EXPECT_LT(*gain.standardError, 0.25 * 0.5) << seed;
+    }
+  }
+  EXPECT_GE(identified, 3u);
 }

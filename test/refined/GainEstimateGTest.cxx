@@ -93,9 +93,9 @@ TEST(SensorNoiseGainEstimate, StraightSensorKeepsItsLineAndItsErrors)
   EXPECT_FALSE(estimate.atOffset);
 }
 
-TEST(SensorNoiseGainEstimate, LineIsChosenByErrorsAndNeverByValues)
+TEST(SensorNoiseGainEstimate, LineIsChosenByErrorsUnlessTheLinesContradict)
 {
-  for (const double instrumentalGain : { 0.9, 1.0, 1.1 })
+  for (const double instrumentalGain : { 0.986, 1.0, 1.014 }) // within three errors of 0.005
   {
     Found found;
     found.variance.instrumentalLine = LineOf(instrumentalGain, 0.005);
@@ -110,6 +110,12 @@ TEST(SensorNoiseGainEstimate, LineIsChosenByErrorsAndNeverByValues)
     // The error at the pivot is unchanged.
     const Eigen::Vector2d pivot(PivotDn, 1.0);
     EXPECT_NEAR(std::sqrt(pivot.dot(wider.covariance * pivot)), PivotErrorDn2, 1e-6);
+  }
+  for (const double instrumentalGain : { 0.984, 1.016 })
+  {
+    Found found;
+    found.variance.instrumentalLine = LineOf(instrumentalGain, 0.005);
+    EXPECT_EQ(found.Estimate().line.gain, instrumentalGain);
   }
 }
 

@@ -4,11 +4,13 @@
 #define sensornoise_pixels_FixedPatternEstimate_h
 
 #include "SensorNoiseExport.h"
+#include "base/Constants.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/VarianceLine.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -112,6 +114,16 @@ FractionOfSensorSteps(const VarianceData &  data,
  * instrument is weak, as where the signal of pixels differs no more than the noise of their means. */
 SensorNoise_EXPORT VarianceLine
 FitInstrumental(const VarianceFit & fit, const VarianceData & data, const ReferenceFrame & frame);
+
+/** Returns whether the slope of \a line, of the pixels' own levels, contradicts the slope of FitInstrumental(). Then
+ * levels of single pixels depend on more than the scene: a pixel with telegraph noise is both brighter and noisier.
+ * \a dispersion is the factor of the variance of the errors [1]. Estimator.md, 3.7. */
+inline bool
+DoContradict(const VarianceLine & line, const VarianceLine & instrumental, double dispersion)
+{
+  const double error = std::sqrt(dispersion * std::max(0.0, instrumental.covariance(0, 0)));
+  return std::abs(line.gain - instrumental.gain) > Significance.oneTest * error;
+}
 
 } // namespace sensornoise
 

@@ -361,11 +361,11 @@ FitOnce(const ProjectedSquares &          squares,
   found.pattern = EstimateFixedPattern(frame, data, line, blackDn, parallelFor);
   found.pattern.stepFraction =
     FractionOfSensorSteps(data, frame.geometry, line, blackDn, found.pattern.levelVarianceDn2, parallelFor);
-  if (found.pattern.LargestFraction() * std::abs(line.gain) >
-      InPixels.negligiblePattern * std::sqrt(line.covariance(0, 0)))
-  {
-    found.instrumentalLine = settle(FitInstrumental(fit, data, frame));
-  }
+  found.instrumentalLine = settle(FitInstrumental(fit, data, frame));
+  found.instrumentalLine.isDetermined =
+    found.instrumentalLine.isDetermined && (found.pattern.LargestFraction() * std::abs(line.gain) >
+                                              InPixels.negligiblePattern * std::sqrt(line.covariance(0, 0)) ||
+                                            DoContradict(line, found.instrumentalLine, 1.0));
   line.covariance *= WideningByCells(fit, data, frame.geometry);
   CorrectForNoisyMeans(line, std::min(blackDn, offsetDn), offsetDn, frame.frames);
   std::vector<std::uint8_t> kept = found.mask;

@@ -224,7 +224,8 @@ struct StaticVariance
   VarianceLine line;
   /** Largest fraction of the levels' variance that can be fixed-pattern noise. */
   FixedPatternEstimate pattern;
-  /** The line by instrumental variables, see FitInstrumental(); not determined where the pattern is negligible. */
+  /** The line by instrumental variables, see FitInstrumental(); not determined where the pattern is negligible and the
+   * line does not contradict it. */
   VarianceLine instrumentalLine;
   /** The line from frames of unequal illumination, and their deviation from it, see FitFramePhotonTransfer(). Not
    * determined where the frames are about equal. */

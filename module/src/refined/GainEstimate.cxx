@@ -49,8 +49,9 @@ DispersionOfClasses(const StaticVariance & variance)
   return variance.varianceInflation * BeyondChance(variance.classes.reducedChi2, ProjectedVariance::Classes - 1.0);
 }
 
-/** Chooses between the line of all pixels, with the error by fixed-pattern noise, and the instrumental-variable fit.
- * The errors alone decide, not the values. */
+/** Chooses between the line of all pixels, with the error by fixed-pattern noise, and the instrumental-variable fit, by
+ * their errors. Where they contradict, levels of single pixels depend on more than the scene: a pixel with telegraph
+ * noise is both brighter and noisier. That fit is free of it. */
 void
 ChooseLine(GainEstimate &            estimate,
            const SensorLines &       lines,
@@ -63,8 +64,10 @@ ChooseLine(GainEstimate &            estimate,
   const double         error = std::sqrt(dispersion * all.covariance(0, 0));
   estimate.line = all;
   estimate.covariance = dispersion * all.covariance;
-  if (lines.instrumentalLine.isDetermined &&
-      std::hypot(error, fromPattern) > std::sqrt(dispersion * lines.instrumentalLine.covariance(0, 0)))
+  const VarianceLine & instrumental = lines.instrumentalLine;
+  const double         errorOfInstrumental = std::sqrt(dispersion * instrumental.covariance(0, 0));
+  if (instrumental.isDetermined &&
+      (DoContradict(all, instrumental, dispersion) || std::hypot(error, fromPattern) > errorOfInstrumental))
   {
     estimate.line = lines.instrumentalLine;
     estimate.covariance = dispersion * lines.instrumentalLine.covariance;
