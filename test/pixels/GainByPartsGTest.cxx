@@ -207,6 +207,32 @@ TEST(SensorNoiseGainByParts, DifferencesThatAreNotFoundAreErrors)
   EXPECT_LT(covarianceOf(0.0), 0.2 * std::pow(2.0 * 0.02, 2));
 }
 
+// Without dark areas, a gain and a read noise that change with the time are alike. Cameras change the gain.
+TEST(SensorNoiseGainByParts, UnlikeFramesOfABrightSceneDifferInTheirGain)
+{
+  const auto tilesOf = [](double difference) {
+    std::vector<TileExcess> tiles;
+    for (std::size_t i = 0; i < 64 * FrameGroups; ++i)
+    {
+      TileExcess tile;
+      tile.phase = i % FrameGroups;
+      tile.pixels = 256.0;
+      tile.levelDn = 300.0 + static_cast<double>(37 * (i / FrameGroups) % 101);
+      tile.shotFraction = 1.0 - 10.0 / tile.levelDn;
+      tile.error = 0.02;
+      tile.excess = (tile.phase < FrameGroups / 2 ? -0.5 : 0.5) * difference * tile.shotFraction +
+                    0.02 * std::sin(static_cast<double>(i * i));
+      tiles.push_back(tile);
+    }
+    return tiles;
+  };
+  EXPECT_FALSE(CompareFrameParts(tilesOf(0.0)));
+  const auto found = CompareFrameParts(tilesOf(0.05));
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->partition, Partition::FrameHalves);
+  EXPECT_NEAR(found->excess[1] - found->excess[0], 0.05, 4.0 * 2.0 * found->error[1]);
+}
+
 TEST(SensorNoiseGainByParts, NamesOfPartsDiffer)
 {
   for (const PartitionKind & kind : PartitionTable)

@@ -239,7 +239,9 @@ FindBest(const std::vector<TileExcess> & tiles, Divided divided)
   AddSimplerFits(fits, tiles, scale, limit);
   const auto             any = [](const PartRegression &) { return true; };
   const PartRegression * chosen = FindLowest(fits, tiles, scale, limit, any);
-  if (chosen != nullptr && !DiffersInAll(*chosen) && !IsClearlyDark(*chosen, tiles, scale, limit))
+  // A camera changes its gain from frame to frame, and hardly its read noise alone.
+  const bool isGainOfFrames = chosen != nullptr && divided == Divided::Frames && chosen->gains > 1;
+  if (chosen != nullptr && !isGainOfFrames && !DiffersInAll(*chosen) && !IsClearlyDark(*chosen, tiles, scale, limit))
   {
     chosen = FindLowest(fits, tiles, scale, limit, DiffersInAll);
   }
