@@ -69,6 +69,24 @@ struct FlatMoments
     variance /= pixels;
   }
 };
+
+/** Returns the report of a flat with dark frames whose strips of columns have in turn the gains 1 and 1.03 DN/e-. */
+Report
+ReportOfStrips(std::size_t columns)
+{
+  SimulationSettings settings = FlatCamera();
+  Stack<GreyValue>   flat = Simulate<GreyValue>(settings, Size, Size, FlatScene(Size));
+  settings.camera.gainDnPerElectron = 1.03;
+  const Stack<GreyValue> other = Simulate<GreyValue>(settings, Size, Size, FlatScene(Size));
+  for (std::size_t i = 0; i < flat.pixels.size(); ++i)
+  {
+    if (i % Size / columns % 2 == 1)
+    {
+      flat.pixels[i] = other.pixels[i];
+    }
+  }
+  return Measure(flat, WithDarkFrames(DarkFramesOf(settings, Size))).GetReport();
+}
 } // namespace
 
 TEST(SensorNoiseDarkPoint, FlatAndDarkFramesArePhotonTransfer)
@@ -92,22 +110,19 @@ TEST(SensorNoiseDarkPoint, FlatAndDarkFramesArePhotonTransfer)
   EXPECT_FALSE(HasWarning(report, WarningCode::IntensityRangeTooSmall));
 }
 
-// Two amplifiers of a flat differ in gain by 3 %. Their levels alone have twice the slope of the gain, and dark frames
-// show it.
+// All that differs in a flat is the gain of its two amplifiers. The dark frames determine the gain.
+TEST(SensorNoiseDarkPoint, StepBetweenTheAmplifiersOfAFlatIsNoSignal)
+{
+  const Report report = ReportOfStrips(Size / 2);
+  ASSERT_EQ(report.gain.status, EstimateStatus::Identified) << MakeText(report);
+  EXPECT_NEAR(*report.gain.value, 1.015, 4.0 * *report.gain.standardError); // 4 standard errors: once in 16,000
+  EXPECT_LT(*report.gain.standardError, 0.005);
+}
+
+// Strips may be of the scene. Their levels alone have twice the slope of the gain, and dark frames show it.
 TEST(SensorNoiseDarkPoint, LevelsOfAFlatThatContradictTheDarkFramesHaveNoGain)
 {
-  SimulationSettings settings = FlatCamera();
-  Stack<GreyValue>   flat = Simulate<GreyValue>(settings, Size, Size, FlatScene(Size));
-  settings.camera.gainDnPerElectron = 1.03;
-  const Stack<GreyValue> other = Simulate<GreyValue>(settings, Size, Size, FlatScene(Size));
-  for (std::size_t i = 0; i < flat.pixels.size(); ++i)
-  {
-    if (i % Size >= Size / 2)
-    {
-      flat.pixels[i] = other.pixels[i];
-    }
-  }
-  const Report report = Measure(flat, WithDarkFrames(DarkFramesOf(settings, Size))).GetReport();
+  const Report report = ReportOfStrips(Size / 8);
   EXPECT_EQ(report.gain.status, EstimateStatus::Failed) << MakeText(report);
   EXPECT_TRUE(HasWarning(report, WarningCode::VarianceNotAffine)) << MakeText(report);
 }
