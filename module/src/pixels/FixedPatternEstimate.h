@@ -35,8 +35,8 @@ struct FixedPatternEstimate
   /** Largest fraction of levelVarianceDn2 by a pattern of gain or efficiency, its error included [1]. */
   double gainFraction{ 0.0 };
   double offsetFraction{ 0.0 }; ///< largest fraction of levelVarianceDn2 by a pattern of offset, its error included [1]
-  /** Covariance of the levels with the steps between parts of the sensor, over levelVarianceDn2 [1]. It changes the
-   * slope as the other fractions do, but neighbours have it in common. */
+  /** Covariance of the levels with the steps between parts of the sensor, over levelVarianceDn2, at most 1 [1]. It
+   * changes the slope as the other fractions do, but neighbours have it in common. */
   double stepFraction{ 0.0 };
 
   /** Returns the largest variance of the pixels' offsets [DN^2]. */
@@ -88,8 +88,8 @@ EstimateFixedPattern(const ReferenceFrame & frame,
                      double                 blackDn,
                      const ParallelFor &    parallelFor);
 
-/** Returns stepFraction of FixedPatternEstimate for the pixels of \a data, whose variance follows \a line and whose
- * levels vary by \a levelVarianceDn2. \a blackDn is as in EstimateFixedPattern().
+/** Returns stepFraction of FixedPatternEstimate, at most 1, for the pixels of \a data, whose variance follows \a line
+ * and whose levels vary by \a levelVarianceDn2. \a blackDn is as in EstimateFixedPattern().
  *
  * Amplifiers of unlike gain or offset make a step between two columns or rows, along the whole frame. No image of a
  * scene does: optics blur its edges over more than one pixel. A step counts if it is significant, twice as large as at

@@ -40,10 +40,10 @@ DoLinesFit(double phi, double number)
 bool
 AreParallel(const std::vector<TileLines> & tiles, double rest)
 {
-  double       restOfParallels = 0.0;
-  double       number = 0.0;
-  const double responses = tiles.empty() ? 0.0 : static_cast<double>(tiles.front().r1.size());
-  for (std::size_t j = 0; j < static_cast<std::size_t>(responses); ++j)
+  double            restOfParallels = 0.0;
+  double            number = 0.0;
+  const std::size_t responses = tiles.empty() ? 0 : tiles.front().r1.size();
+  for (std::size_t j = 0; j < responses; ++j)
   {
     double w = 0.0;
     double slopes = 0.0;
@@ -59,7 +59,7 @@ AreParallel(const std::vector<TileLines> & tiles, double rest)
     }
     restOfParallels += squares - slopes * slopes / w;
   }
-  const double free = number - responses;
+  const double free = number - static_cast<double>(responses);
   return free > 1.0 && DoLinesFit(restOfParallels / free, number) &&
          rest - restOfParallels > Significance.severalTests * std::sqrt(4.0 * number);
 }

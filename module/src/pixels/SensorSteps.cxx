@@ -30,7 +30,7 @@ struct BoundarySums
   std::size_t         boundaries;
   std::vector<double> differences; ///< sums of the differences of the levels [DN]
   std::vector<double> signals;     ///< sums of the mean signals [DN]
-  std::vector<double> pairs;
+  std::vector<double> pairs;       ///< numbers of pairs
 
   explicit BoundarySums(std::size_t count)
     : boundaries(count)
@@ -101,10 +101,15 @@ struct SensorStep
   double      size;     ///< relative to the signal [1]
 };
 
-/** Returns the step that no other boundary has. Null: there is none. */
+/** Returns the step that no other boundary has, of boundaries with \a across pairs of pixels each. Null: there is none.
+ */
 std::optional<SensorStep>
 FindStep(const BoundarySums & sums, std::size_t across)
 {
+  if (sums.boundaries < 2)
+  {
+    return std::nullopt;
+  }
   const double        fewest = InPattern.leastPairs * static_cast<double>(across);
   std::vector<double> steps;
   for (std::size_t b = 0; b < sums.boundaries; ++b)
@@ -177,7 +182,8 @@ FractionOfSensorSteps(const VarianceData &  data,
       products += weight * pattern * x;
     }
   }
-  return std::abs(products - patterns * levels / w) / (w * std::max(smallestDivisor, levelVarianceDn2));
+  const double covariance = std::abs(products - patterns * levels / w) / w;
+  return covariance < levelVarianceDn2 ? covariance / levelVarianceDn2 : 1.0;
 }
 
 } // namespace sensornoise
