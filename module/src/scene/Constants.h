@@ -104,8 +104,8 @@ struct SceneConstants
   double leastIlluminationFraction{ 0.8 };
   double largestModulation{ 0.1 };
   /** Number of neighbouring pixels that change together up to which a region is noise and no object, and least number
-   * of cells whose median is compared [1]. Independent pixels have 1, and chance adds 0.3 in 10 cells of 20 frames. An object
-   * has as many as it covers. */
+   * of cells whose median is compared [1]. Independent pixels have 1, and chance adds 0.3 in 10 cells of 20 frames. An
+   * object has as many as it covers. */
   double      mostPixelsTogether{ 2.0 };
   std::size_t fewestCellsOfRegion{ 9 };
   /** Least fraction of pixels outside of the region [1]. If fewer are left, the whole frame moves, and all pixels are
