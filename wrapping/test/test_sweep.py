@@ -5,6 +5,7 @@
 import json
 import pickle
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 import itk
@@ -280,6 +281,22 @@ def recorded(tmp_path):
     return write
 
 
+def assert_alike(found, expected):
+    """Asserts that two records differ by rounding alone: tool and package may be compiled with other versions of Eigen,
+    which sum in another order."""
+    if isinstance(expected, Mapping):
+        assert found.keys() == expected.keys()
+        for name in expected:
+            assert_alike(found[name], expected[name])
+    elif isinstance(expected, list | tuple):
+        for own, other in zip(found, expected, strict=True):
+            assert_alike(own, other)
+    elif isinstance(expected, float):
+        assert found == pytest.approx(expected, rel=1e-9, abs=1e-9)
+    else:
+        assert found == expected
+
+
 def test_a_table_gives_the_record_of_the_tool(camera, tool, tmp_path):
     table = tmp_path / "camera" / "list.csv"
     rows = [f"{iso:g};iso{iso:g}/light.mha;iso{iso:g}/dark/*.mha" for iso in ISO_SPEEDS[:2]]
@@ -292,9 +309,10 @@ def test_a_table_gives_the_record_of_the_tool(camera, tool, tmp_path):
     )
     expected = sn.Passport.from_json(tmp_path / "t.json")
     for name in ("setting", "gain_line", "findings"):
-        assert found[name] == expected[name], name
+        assert_alike(found[name], expected[name])
     for entry, other in zip(found["settings"], expected["settings"], strict=True):
-        assert (entry["setting"], entry["channels"]) == (other["setting"], other["channels"])
+        assert entry["setting"] == other["setting"]
+        assert_alike(entry["channels"], other["channels"])
 
 
 @pytest.mark.parametrize(
