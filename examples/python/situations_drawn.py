@@ -16,6 +16,11 @@ from situations_shared import AROUND, gaussian, interpolated, mixed_in_time, nei
 Y, X = np.indices(SHAPE)
 
 
+def one_half(random):
+    """Returns a mask (y, x) of the left or of the upper half of the frame."""
+    return 2 * X // SHAPE[1] == 0 if random.random() < 0.5 else 2 * Y // SHAPE[0] == 0
+
+
 def plain(random, camera):
     """Returns a burst without a defect."""
     return burst(camera, exposed(random, camera))
@@ -33,6 +38,31 @@ def two_amplifiers(random, camera):
     """Returns a burst of a sensor whose even and odd rows have gains that differ by 3 to 30 %."""
     gains = camera.gain * (1 + random.choice([0.03, 0.1, 0.3]) * (Y % 2 - 0.5))
     return burst(camera, exposed(random, camera, gain=gains), gain=gains.mean())
+
+
+def half_noisier(random, camera):
+    """Returns a burst of a sensor whose one half has 1.3 to 3 times the read noise of the other half."""
+    half = one_half(random)
+    read_noise = camera.read_noise * np.where(half, logarithmic(random, 1.3, 3.0), 1.0)
+    return burst(camera, exposed(random, camera, read_noise=read_noise), read_noise=np.sqrt(np.mean(read_noise**2)))
+
+
+def flat_halves(random, camera):
+    """Returns a flat field of a sensor whose halves have gains that differ by 0.5 to 6 %, without dark frames."""
+    half = one_half(random)
+    gains = camera.gain * (1 + logarithmic(random, 0.005, 0.06) * (half - 0.5))
+    rates = factors_of(random, camera)[:, None, None] * np.full(SHAPE, camera.electrons.max())
+    return burst(camera, exposed(random, camera, rates, gain=gains), gain=gains.mean(), offset=None, read_noise=None)
+
+
+def steady_light(random, camera):
+    """Returns a burst with a spot of light that does not flicker, of 3 to 50 % of the brightest pixel. The offset is
+    not compared: it includes light that is the same everywhere."""
+    strength = logarithmic(random, 0.03, 0.5)
+    x, y = random.uniform(0.2, 0.8, 2)
+    spot = np.exp(-((X / SHAPE[1] - x) ** 2 + (Y / SHAPE[0] - y) ** 2) / 0.15)
+    light = factors_of(random, camera)[:, None, None] * camera.electrons + strength * camera.electrons.max() * spot
+    return burst(camera, exposed(random, camera, light / (1 + strength)), offset=None)
 
 
 def offset_drifts(random, camera):
@@ -201,6 +231,8 @@ KINDS = {
         plain,
         column_amplifiers,
         two_amplifiers,
+        half_noisier,
+        steady_light,
         offset_drifts,
         unlit,
         crosstalk,
@@ -214,7 +246,7 @@ KINDS = {
         dark_frames,
         other_dark_frames,
     ),
-    MAY_REFUSE: (blurred, averaged_in_time, gain_changes, transients, two_ranges),
+    MAY_REFUSE: (flat_halves, blurred, averaged_in_time, gain_changes, transients, two_ranges),
     MUST_REFUSE: (other_frame_rate, median_filtered),
 }
 
