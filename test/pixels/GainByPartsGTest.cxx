@@ -124,6 +124,30 @@ TEST(SensorNoiseGainByParts, RatiosAreOfThePartsToTheirMeanAndNotToTheLine)
   }
 }
 
+TEST(SensorNoiseGainByParts, TheirMeanIsOverThePixelsThatAreGiven)
+{
+  const FrameGeometry       geometry{ 64, 16, 1 };
+  std::vector<std::uint8_t> mask(geometry.Pixels());
+  for (std::size_t p = 0; p < mask.size(); ++p)
+  {
+    mask[p] = p % 64 < 32 || p % 2 == 0 ? 1 : 0; // twice as many on the left
+  }
+  PartGains halves;
+  halves.partition = Partition::LeftRight;
+  halves.excess = { -0.1, 0.1 };
+  halves.dark = { -0.5, 0.5 };
+  const auto ratios = [&] {
+    return std::vector<double>{ halves.RatioAt(0.2, 0.5, 0, 0.4, 0.0), halves.RatioAt(0.8, 0.5, 0, 0.4, 0.0) };
+  };
+  const std::vector<double> before = ratios();
+  halves.CentreOn(mask, geometry);
+  // The mean over the pixels is 0, and the halves differ by as much as before.
+  EXPECT_NEAR(2.0 * halves.excess[0] + halves.excess[1], 0.0, 1e-12);
+  EXPECT_NEAR(2.0 * halves.dark[0] + halves.dark[1], 0.0, 1e-12);
+  EXPECT_NEAR(halves.meanDark, -0.5 / 3.0, 1e-12);
+  EXPECT_NEAR(ratios()[1] / ratios()[0], before[1] / before[0], 1e-12);
+}
+
 TEST(SensorNoiseGainByParts, ReadNoiseThatGrowsAcrossTheFrameIsASmoothFieldAndNoGain)
 {
   const auto        darkAt = [](const TileExcess & tile) { return 0.8 * (tile.x + tile.y * tile.y - 5.0 / 6.0); };

@@ -182,6 +182,10 @@ struct SensorNoise_EXPORT PartGains
   Eigen::MatrixXd darkCovariance;
   Eigen::VectorXd meanOfTerms; ///< mean over the pixels of the terms that these coefficients are multiplied by [1]
 
+  /** Makes the mean that \a excess and \a dark are relative to the mean over the pixels of \a mask. Nothing is done for
+   * a smooth field. */
+  void
+  CentreOn(const std::vector<std::uint8_t> & mask, const FrameGeometry & geometry);
   /** Adds to \a sums, 2 x coefficients, the terms that the coefficients of dark are multiplied by at a place, each
    * times both \a weights. The place is given as in RatioAt(). */
   void

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace sensornoise
@@ -57,6 +59,34 @@ PartGains::RatioAt(double x, double y, std::size_t phase, double shotFraction, d
   const double more =
     shotFraction * (1.0 + meanExcess) * at(field, excess) + (1.0 - shotFraction) * at(darkField, dark);
   return std::max(InCommon.leastVarianceRatio, 1.0 + more / std::max(InCommon.leastVarianceRatio, mean));
+}
+
+void
+PartGains::CentreOn(const std::vector<std::uint8_t> & mask, const FrameGeometry & geometry)
+{
+  if (partition == Partition::SmoothField)
+  {
+    return;
+  }
+  std::vector<double> counts(excess.size(), 0.0);
+  for (std::size_t p = 0; p < mask.size(); ++p)
+  {
+    const std::size_t column = p % geometry.width;
+    const std::size_t row = p / geometry.width;
+    const double      x = (static_cast<double>(column) + 0.5) / static_cast<double>(geometry.width);
+    const double      y = (static_cast<double>(row) + 0.5) / static_cast<double>(geometry.height);
+    counts[PartOf(partition, x, y, PhaseOf(column, row))] += mask[p] != 0 ? 1.0 : 0.0;
+  }
+  const double all = std::max(1.0, std::accumulate(counts.begin(), counts.end(), 0.0));
+  const double ofGains = std::inner_product(counts.begin(), counts.end(), excess.begin(), 0.0) / all;
+  const double ofDark = std::inner_product(counts.begin(), counts.end(), dark.begin(), 0.0) / all;
+  for (std::size_t k = 0; k < excess.size(); ++k)
+  {
+    excess[k] = (1.0 + excess[k]) / (1.0 + ofGains) - 1.0;
+    dark[k] -= ofDark;
+  }
+  meanExcess = (1.0 + meanExcess) * (1.0 + ofGains) - 1.0;
+  meanDark += ofDark;
 }
 
 void

@@ -181,11 +181,13 @@ struct LineOfParts
 };
 
 /** Divides the variance by the ratios of parts whose gains differ much, so that their pixels are not rejected, and fits
- * the line of \a drawn again. Returns \a drawn unless most pixels then follow the line: other causes of differences
+ * the line of \a drawn again. The line is of the mean over the \a usable pixels, as a half of the sensor may have fewer
+ * flat ones. Returns \a drawn unless most pixels then follow the line: other causes of differences
  * between parts, such as a non-linear response, are left to the fit. */
 LineOfParts
 CorrectForParts(FittedLine                        drawn,
                 const PartReference &             reference,
+                const std::vector<std::uint8_t> & usable,
                 const std::vector<std::uint8_t> & mask,
                 const ParallelFor &               parallelFor)
 {
@@ -201,7 +203,14 @@ CorrectForParts(FittedLine                        drawn,
   {
     return { std::move(drawn), std::nullopt };
   }
-  const ReferenceFrame &  frame = drawn.projected.GetFrame();
+  const ReferenceFrame & frame = drawn.projected.GetFrame();
+  for (auto * const own : { &parts.places, &parts.phases })
+  {
+    if (*own)
+    {
+      (*own)->CentreOn(usable, frame.geometry);
+    }
+  }
   const ProjectedVariance divided =
     drawn.projected.WithRatios(MapOfRatios(parts, frame.mean, frame.geometry, reference, parallelFor));
   FittedLine again = FitFixedPointLine(divided, mask, drawn.line, parallelFor);
@@ -276,7 +285,7 @@ SelectStaticPixels(const ProjectedSquares &          squares,
   if (mayDivide && drawn.line.isDetermined)
   {
     const PartReference reference{ drawn.line, premises.blackDn, premises.varianceInflation };
-    LineOfParts         ofParts = CorrectForParts(std::move(drawn), reference, found.mask, parallelFor);
+    LineOfParts         ofParts = CorrectForParts(std::move(drawn), reference, usable, found.mask, parallelFor);
     drawn = std::move(ofParts.drawn);
     dividedBy = std::move(ofParts.dividedBy);
   }
