@@ -27,8 +27,8 @@ struct ReferenceFrame;
  * Levels that differ because of the illumination raise the variance by the gain. Levels that differ because of PRNU
  * raise it by twice the gain, and levels that differ because of DSNU do not raise it. A fraction s of the levels'
  * variance that is pattern therefore changes the slope by -s to +s of the gain. Patterns are measured where the scene
- * is flattest: elsewhere the differences from pixel to pixel are signal. Between parts of the sensor only
- * steps are identifiable. A pattern that repeats over long distances is not. */
+ * is flattest: elsewhere the differences from pixel to pixel are signal. Between parts of the sensor only steps are
+ * identifiable. A pattern that repeats over long distances is not. */
 struct FixedPatternEstimate
 {
   double levelVarianceDn2{ 0.0 }; ///< weighted variance of the levels without the noise of their means [DN^2]

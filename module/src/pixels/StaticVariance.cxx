@@ -182,8 +182,8 @@ struct LineOfParts
 
 /** Divides the variance by the ratios of parts whose gains differ much, so that their pixels are not rejected, and fits
  * the line of \a drawn again. The line is of the mean over the \a usable pixels, as a half of the sensor may have fewer
- * flat ones. Returns \a drawn unless most pixels then follow the line: other causes of differences
- * between parts, such as a non-linear response, are left to the fit. */
+ * flat ones. Returns \a drawn unless most pixels then follow the line: other causes of differences between parts, such
+ * as a non-linear response, are left to the fit. */
 LineOfParts
 CorrectForParts(FittedLine                        drawn,
                 const PartReference &             reference,
@@ -191,25 +191,22 @@ CorrectForParts(FittedLine                        drawn,
                 const std::vector<std::uint8_t> & mask,
                 const ParallelFor &               parallelFor)
 {
-  GainByParts parts = CompareParts(TilesOfMeasured(drawn.projected, reference, mask, parallelFor));
+  GainByParts            parts = CompareParts(TilesOfMeasured(drawn.projected, reference, mask, parallelFor));
+  const ReferenceFrame & frame = drawn.projected.GetFrame();
   for (auto * const own : { &parts.places, &parts.phases })
   {
     if (*own && !(*own)->DifferMuch())
     {
       own->reset();
     }
-  }
-  if (parts.Larger() == nullptr)
-  {
-    return { std::move(drawn), std::nullopt };
-  }
-  const ReferenceFrame & frame = drawn.projected.GetFrame();
-  for (auto * const own : { &parts.places, &parts.phases })
-  {
     if (*own)
     {
       (*own)->CentreOn(usable, frame.geometry);
     }
+  }
+  if (parts.Larger() == nullptr)
+  {
+    return { std::move(drawn), std::nullopt };
   }
   const ProjectedVariance divided =
     drawn.projected.WithRatios(MapOfRatios(parts, frame.mean, frame.geometry, reference, parallelFor));
