@@ -17,22 +17,18 @@ if(UNIX AND NOT APPLE)
   set(CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}") # the tools find a shared library that was installed with them
 endif()
 
-# The whole of the distribution's ITK wants the development files of every library that it was built with;
-# these modules are all that the filters, the tools and the tests use.
+# The whole of the distribution's ITK wants the development files of every library that it was built with, and programs would
+# load these libraries. These modules are all that the filters, the tools and the tests use: of the formats, those that the
+# tools write. Frames are read without ITK.
 set(_modules ITKCommon ITKEigen3 ITKIOImageBase)
 if(SensorNoise_BUILD_EXAMPLES OR BUILD_TESTING)
-  list(APPEND _modules ITKImageIO ITKImageFeature ITKImageFilterBase ITKImageGrid ITKImageStatistics ITKTestKernel)
+  list(APPEND _modules ITKIOMeta ITKIONRRD ITKIOPNG ITKIOTIFF ITKImageFeature ITKImageFilterBase ITKImageGrid
+       ITKImageStatistics)
 endif()
 find_package(ITK 5.2.1 REQUIRED COMPONENTS ${_modules})
-if(TARGET ITK::ITKCommonModule)
-  # The targets of ITK 6 have its header folders. A program that links ITK::ITKImageIO registers the formats.
-  set(ITK_LIBRARIES ${ITK_INTERFACE_LIBRARIES})
-  if("ImageIO" IN_LIST ITK_FACTORY_LIST)
-    itk_generate_factory_registration(ImageIO)
-    list(APPEND ITK_LIBRARIES ITK::ITKImageIO)
-  endif()
-else()
-  include(${ITK_USE_FILE})
+include(cmake/RegisterFormats.cmake)
+sensornoise_register_formats()
+if(NOT TARGET ITK::ITKCommonModule)
   include(cmake/ClangHeaders.cmake)
   find_package(ZLIB REQUIRED) # the same as ITK's: the module ITKZLIB of an installed ITK may stand for the system's
 endif()

@@ -101,7 +101,8 @@ TEST_F(SensorNoiseFrameFilesTruncation, ATruncatedFileAmongGoodOnesIsRefused)
     fs::resize_file(files[2], extension == ".tif" ? 70 : fs::file_size(files[2]) - 1);
     OpeningIsRefusedWith(files, { "frame_2" + extension });
   }
-  OpeningIsRefusedWith({ WriteFrame<unsigned short>("other.vtk") }, { "other.vtk", "cannot be checked" });
+  OpeningIsRefusedWith({ WriteText("other.vtk", "# vtk DataFile Version 3.0\n") },
+                       { "other.vtk", "cannot be checked" });
 }
 
 TEST_F(SensorNoiseFrameFilesTruncation, AChangeAfterOpeningIsNoticed)
