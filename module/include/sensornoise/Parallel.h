@@ -98,25 +98,33 @@ SumOverBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction func
   });
 }
 
-/** Returns \a size sums over \a count pixels, folded as above. function(begin, end, double * sums) adds the terms of a
- * block. */
+/** Largest number of parts of a map whose sums are held at the same time where there may be thousands of sums. Chosen
+ * empirically: enough to share them out evenly to 16 threads. */
+inline constexpr std::size_t MostSummedParts = 64;
+
+/** Returns \a size sums over \a count pixels, folded as above, but part by part: at most MostSummedParts parts of whole
+ * blocks. function(begin, end, double * sums) adds the terms of a block. */
 template <typename TFunction>
 std::vector<double>
 SumBlocks(std::size_t count, const ParallelFor & parallelFor, std::size_t size, TFunction function)
 {
-  std::vector<std::vector<double>> parts((count + PixelsPerBlock - 1) / PixelsPerBlock);
-  ForBlocks(count, parallelFor, [&](std::size_t begin, std::size_t end) {
+  const std::size_t                blocks = (count + PixelsPerBlock - 1) / PixelsPerBlock;
+  const std::size_t                pixelsOfPart = (blocks + MostSummedParts - 1) / MostSummedParts * PixelsPerBlock;
+  const std::size_t                numberOfParts = count > 0 ? (count + pixelsOfPart - 1) / pixelsOfPart : 0;
+  std::vector<std::vector<double>> parts(numberOfParts);
+  parallelFor(numberOfParts, [&](std::size_t k) {
     std::vector<double> sums(size, 0.0);
-    function(begin, end, sums.data());
-    parts[begin / PixelsPerBlock] = std::move(sums);
+    const std::size_t   end = std::min(count, (k + 1) * pixelsOfPart);
+    for (std::size_t begin = k * pixelsOfPart; begin < end; begin += PixelsPerBlock)
+    {
+      function(begin, std::min(end, begin + PixelsPerBlock), sums.data());
+    }
+    parts[k] = std::move(sums);
   });
   std::vector<double> total(size, 0.0);
   for (const auto & part : parts)
   {
-    for (std::size_t k = 0; k < size; ++k)
-    {
-      total[k] += part[k];
-    }
+    std::transform(part.begin(), part.end(), total.begin(), total.begin(), std::plus<>());
   }
   return total;
 }
