@@ -35,7 +35,9 @@ struct Lines
     fit.Iterate(8);
     fit.FillErrors();
     all = fit.GetLine();
-    instrumental = FitInstrumental(fit, maps.Data(), maps.frame);
+    InstrumentalFit fitted = FitInstrumental(fit, maps.Data(), maps.frame);
+    fitted.line.covariance *= WideningOfInstrumental(fitted, fit, maps.Data(), maps.frame);
+    instrumental = fitted.line;
   }
   /** Returns the fraction of a component of the variance of the levels [1]. */
   double

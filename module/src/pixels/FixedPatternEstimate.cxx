@@ -244,39 +244,7 @@ EstimateFixedPattern(const ReferenceFrame & frame,
   return pattern;
 }
 
-namespace
-{
-/** Returns the factor by which the variance of a slope is larger than for independent pixels, whose squared scores have
- * the sum \a squares [1]. A pattern of columns or rows correlates the scores of their pixels: then whole columns or
- * rows are independent. So are the cells of the frame where objects twinkle. scoreOf(p, weighed) returns the score of a
- * pixel. */
-template <typename TScore>
-double
-WideningByLikeness(const VarianceFit & fit, const FrameGeometry & geometry, double squares, TScore scoreOf)
-{
-  const std::size_t width = geometry.width;
-  const std::size_t lines = width + geometry.height;
-  const ScoreCells  cells(geometry);
-  const auto        alike =
-    fit.SumWeighed(lines + cells.Count(), [&](std::size_t p, const VarianceFit::Weighed & weighed, double * sums) {
-      const double score = scoreOf(p, weighed);
-      sums[p % width] += score;
-      sums[width + p / width] += score;
-      sums[lines + cells.Of(p)] += score;
-    });
-  const auto   squaresOf = [&](auto first, auto last) { return std::inner_product(first, last, first, 0.0); };
-  const auto   middle = alike.begin() + static_cast<std::ptrdiff_t>(width);
-  const auto   end = alike.begin() + static_cast<std::ptrdiff_t>(lines);
-  const double most = std::max(squaresOf(alike.begin(), middle), squaresOf(middle, end));
-  if (squaresOf(end, alike.end()) > most) // a pattern is alike within cells, too, but more so along its lines
-  {
-    return WideningOfExcess({ end, alike.end() }, squares);
-  }
-  return most > InPattern.leastLikeness * squares ? most / squares : 1.0;
-}
-} // namespace
-
-VarianceLine
+InstrumentalFit
 FitInstrumental(const VarianceFit & fit, const VarianceData & data, const ReferenceFrame & frame)
 {
   // Sums of the weight times x and v, the mean and the variance above the line at its pivot, and z, the mean of the
@@ -291,9 +259,10 @@ FitInstrumental(const VarianceFit & fit, const VarianceData & data, const Refere
     WZV,
     Sums
   };
-  VarianceLine instrumental = fit.GetLine();
-  const double pivot = instrumental.pivotDn;
-  const auto   diagonalOf = [&](std::size_t p) {
+  InstrumentalFit found{ fit.GetLine() };
+  VarianceLine &  instrumental = found.line;
+  const double    pivot = instrumental.pivotDn;
+  const auto      diagonalOf = [&](std::size_t p) {
     return DiagonalMean(frame.mean.data(), frame.geometry.width, p) - pivot;
   };
   const auto   s = fit.SumWeighed<Sums>([&](std::size_t p, const VarianceFit::Weighed & weighed, auto & sums) {
@@ -315,13 +284,13 @@ FitInstrumental(const VarianceFit & fit, const VarianceData & data, const Refere
   instrumental.isDetermined = common > 0.0;
   if (!instrumental.isDetermined)
   {
-    return instrumental;
+    return found;
   }
   instrumental.gain = (s[WZV] - zMean * s[WV]) / common;
   instrumental.pivotDn = pivot + s[WX] / s[W];
   instrumental.intercept = s[WV] / s[W] - instrumental.gain * instrumental.pivotDn;
   // Sums of the squared scores, for the sandwich covariance; and of the squared products of x and z.
-  const auto   squares = fit.SumWeighed<4>([&](std::size_t p, const VarianceFit::Weighed & weighed, auto & sums) {
+  const auto      squares = fit.SumWeighed<4>([&](std::size_t p, const VarianceFit::Weighed & weighed, auto & sums) {
     if (HasDiagonals(frame.usable.data(), frame.geometry.width, p))
     {
       const auto [w, value] = weighed;
@@ -334,22 +303,51 @@ FitInstrumental(const VarianceFit & fit, const VarianceData & data, const Refere
       sums[3] += product * product;
     }
   });
-  const double widening = WideningByLikeness(fit, frame.geometry, squares[0], [&](std::size_t p, const auto & weighed) {
-    const auto [w, value] = weighed;
-    return HasDiagonals(frame.usable.data(), frame.geometry.width, p)
-             ? w * (value - instrumental.intercept - instrumental.gain * data.mean[p]) * (diagonalOf(p) - zMean)
-             : 0.0;
-  });
   Eigen::Matrix2d atPivot;
   atPivot << squares[0] / (common * common), squares[1] / (common * s[W]), squares[1] / (common * s[W]),
     squares[2] / (s[W] * s[W]);
   Eigen::Matrix2d toIntercept;
   toIntercept << 1.0, 0.0, -instrumental.pivotDn, 1.0;
-  instrumental.covariance = widening * toIntercept * atPivot * toIntercept.transpose();
+  instrumental.covariance = toIntercept * atPivot * toIntercept.transpose();
   // The mean of a ratio by a weak instrument does not exist: Staiger & Stock 1997 demand F > 10.
   instrumental.isDetermined = common * common > InCommon.strongEvidence * squares[3] &&
                               std::isfinite(instrumental.gain) && instrumental.covariance.allFinite();
-  return instrumental;
+  found.instrumentMean = zMean;
+  found.squaredScores = squares[0];
+  return found;
+}
+
+double
+WideningOfInstrumental(const InstrumentalFit & instrumental,
+                       const VarianceFit &     fit,
+                       const VarianceData &    data,
+                       const ReferenceFrame &  frame)
+{
+  const VarianceLine & line = instrumental.line;
+  const double         instrumentDn = fit.GetLine().pivotDn + instrumental.instrumentMean;
+  const std::size_t    width = frame.geometry.width;
+  const std::size_t    lines = width + frame.geometry.height;
+  const ScoreCells     cells(frame.geometry);
+  const auto           alike =
+    fit.SumWeighed(lines + cells.Count(), [&](std::size_t p, const VarianceFit::Weighed & weighed, double * sums) {
+      if (HasDiagonals(frame.usable.data(), width, p))
+      {
+        const double residual = weighed.value - line.intercept - line.gain * data.mean[p];
+        const double score = weighed.weight * residual * (DiagonalMean(frame.mean.data(), width, p) - instrumentDn);
+        sums[p % width] += score;
+        sums[width + p / width] += score;
+        sums[lines + cells.Of(p)] += score;
+      }
+    });
+  const auto   squaresOf = [&](auto first, auto last) { return std::inner_product(first, last, first, 0.0); };
+  const auto   middle = alike.begin() + static_cast<std::ptrdiff_t>(width);
+  const auto   end = alike.begin() + static_cast<std::ptrdiff_t>(lines);
+  const double most = std::max(squaresOf(alike.begin(), middle), squaresOf(middle, end));
+  if (squaresOf(end, alike.end()) > most) // a pattern is alike within cells, too, but more so along its lines
+  {
+    return WideningOfExcess({ end, alike.end() }, instrumental.squaredScores);
+  }
+  return most > InPattern.leastLikeness * instrumental.squaredScores ? most / instrumental.squaredScores : 1.0;
 }
 
 } // namespace sensornoise

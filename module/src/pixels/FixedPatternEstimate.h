@@ -102,6 +102,14 @@ FractionOfSensorSteps(const VarianceData &  data,
                       double                levelVarianceDn2,
                       const ParallelFor &   parallelFor);
 
+/** Variance line by instrumental variables. */
+struct InstrumentalFit
+{
+  VarianceLine line;                  ///< not determined if the instrument is weak
+  double       instrumentMean{ 0.0 }; ///< <z>, less the pivot of the fit [DN]
+  double       squaredScores{ 0.0 };  ///< sum of the squared scores of the slope
+};
+
 /** Fits the variance line by instrumental variables. The instrument of a pixel's mean x is z, the mean of its diagonal
  * neighbours:
  *
@@ -110,10 +118,20 @@ FractionOfSensorSteps(const VarianceData &  data,
  * Only the signal is common to x and z. Gains, efficiencies and offsets that differ from pixel to pixel, row to row or
  * column to column do not bias this gain (see FixedPatternEstimate), and neither does the noise of the means. Detail as
  * fine as a pixel does not contribute, which costs precision. Weights and trimmed pixels are taken from \a fit. The
- * pivot is the weighted mean of x, the covariance is the sandwich estimate. The line is not determined if the
- * instrument is weak, as where the signal of pixels differs no more than the noise of their means. */
-SensorNoise_EXPORT VarianceLine
+ * pivot is the weighted mean of x. The covariance is the sandwich estimate for independent pixels, see
+ * WideningOfInstrumental(). The line is not determined if the instrument is weak, as where the signal of pixels differs
+ * no more than the noise of their means. */
+SensorNoise_EXPORT InstrumentalFit
 FitInstrumental(const VarianceFit & fit, const VarianceData & data, const ReferenceFrame & frame);
+
+/** Returns the factor by which the covariance of FitInstrumental() is larger where the deviations of pixels are alike
+ * [1]. A pattern of columns or rows correlates the scores of their pixels: then whole columns or rows are independent.
+ * So are the cells of the frame where objects twinkle. */
+SensorNoise_EXPORT double
+WideningOfInstrumental(const InstrumentalFit & instrumental,
+                       const VarianceFit &     fit,
+                       const VarianceData &    data,
+                       const ReferenceFrame &  frame);
 
 /** Returns whether the slope of \a line, of the pixels' own levels, contradicts the slope of FitInstrumental(). Then
  * levels of single pixels depend on more than the scene: a pixel with telegraph noise is both brighter and noisier.
