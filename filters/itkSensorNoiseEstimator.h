@@ -243,7 +243,7 @@ public:
   }
 
   /** Largest memory of the estimate in addition to one chunk of a stack that is not in memory [bytes] (Refined only).
-   * Default 0: as much as needed, which is 48 bytes for each pixel of a frame, or 12, and 4 more for each temporal
+   * Default 0: as much as needed, which is 48 bytes for each pixel of a frame, or 10, and 4 more for each temporal
    * component of illumination and motion that is found, if these are more. Large changes of the illumination at 16 bits
    * need 8 for each component. Floating-point pixels need 52, or 20 and 8 for each component. With a smaller limit the
    * stack is read more often, with the same result. This does not apply to a stack that is in memory and is not a

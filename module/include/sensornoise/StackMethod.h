@@ -219,7 +219,7 @@ public:
  * equal frames.
  *
  * The result has the same bits for any number of threads and any chunks. The method needs 20 kB per frame, 32 MiB, and
- * 48 bytes per pixel. If 12 bytes per pixel, and 4 per pixel and component of illumination and motion (2 to 20 are
+ * 48 bytes per pixel. If 10 bytes per pixel, and 4 per pixel and component of illumination and motion (2 to 20 are
  * found), are more, it needs these instead. Large changes of the illumination at 16 bits need 8 bytes per component.
  * Floating-point pixels need 52 bytes, or 20 and 8 per component. A stack that cannot be measured gives a report whose
  * quantities have `failed`, with a warning that names the reason. Wrong use throws std::invalid_argument. */

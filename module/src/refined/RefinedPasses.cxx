@@ -99,7 +99,7 @@ RefinedPasses<TPixel>::AddDistinct(const std::vector<Plane> & planes,
     }
     else if (method.m_Projections)
     {
-      method.PackMeans(count, parallelFor);
+      method.PackMaps(count, parallelFor);
       projected.push_back({ &*method.m_Projections, place, &method.m_Scene->frame });
     }
     else
@@ -119,13 +119,30 @@ RefinedPasses<TPixel>::AddDistinct(const std::vector<Plane> & planes,
 
 template <typename TPixel>
 void
-RefinedPasses<TPixel>::PackMeans(std::size_t count, const ParallelFor & parallelFor)
+RefinedPasses<TPixel>::PackMaps(std::size_t count, const ParallelFor & parallelFor)
 {
   ReferenceFrame & frame = m_Scene->frame;
   const bool       isFirst = !m_Noise && frame.packedMean.IsEmpty(); // no pass of the illumination alone
   if (std::is_integral_v<TPixel> && isFirst && m_Projections->HoldsSums(count, frame.frames))
   {
     frame.packedMean.Pack(frame.mean, frame.frames, TemporalMaps<TPixel>::Centre, parallelFor);
+    if (!frame.packedMean.IsEmpty())
+    {
+      std::exchange(frame.usable, {});
+    }
+  }
+}
+
+template <typename TPixel>
+void
+RefinedPasses<TPixel>::UnpackMaps()
+{
+  ReferenceFrame & frame = m_Scene->frame;
+  if (!frame.packedMean.IsEmpty())
+  {
+    ReleaseFreedMemory(); // frees the memory of the sums
+    frame.packedMean.Unpack(frame.mean, m_ParallelFor);
+    frame.usable = MaskOfUsed(m_Scene->pixelUse);
   }
 }
 
@@ -299,6 +316,7 @@ RefinedPasses<TPixel>::MakeScene(StackMaps maps, std::optional<StrongChange> str
   }
   m_FrameSums = std::make_unique<FrameSums>(MakeSceneRegressors(*m_Scene, made.outliers, m_ParallelFor), m_ParallelFor);
   m_FrameSums->SetLayout(m_Layout);
+  ReleaseFreedMemory(); // the first pass has released its maps
 }
 
 template <typename TPixel>
@@ -355,11 +373,7 @@ RefinedPasses<TPixel>::EndProjections()
   }
   else
   {
-    if (!m_Scene->frame.packedMean.IsEmpty())
-    {
-      ReleaseFreedMemory(); // frees the memory of the sums
-      m_Scene->frame.packedMean.Unpack(m_Scene->frame.mean, m_ParallelFor);
-    }
+    this->UnpackMaps();
     this->MeasureNoise();
     const double most = m_Noise->frames.areFramesEqual ? InMoments.largestOtherGroup : InMoments.largestLeftOutFraction;
     if (this->RestartWithoutFrames(m_Noise->frames.unlike, FrameFault::OtherNoise, most))
@@ -458,7 +472,7 @@ template <typename TPixel>
 void
 RefinedPasses<TPixel>::MakeReport()
 {
-  m_Scene->frame.packedMean.Unpack(m_Scene->frame.mean, m_ParallelFor);
+  this->UnpackMaps();
   m_Scene->frame.variance.Widen(m_ParallelFor);
   m_CorrectedVariance.Widen(m_ParallelFor);
   m_Report = m_FailureReason ? MakeFailedReport(m_Settings, *m_Scene, this->GetPixelUse(), *m_FailureReason)

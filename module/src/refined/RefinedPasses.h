@@ -46,7 +46,7 @@ namespace sensornoise
  * repeat the values of a frame's original.
  *
  * The results are identical for any number of threads and any chunks. Memory: 48 bytes for each pixel (52 for
- * floating-point frames), or in the third pass 12 (20) bytes, and 4 or 8 more for each temporal component that is found
+ * floating-point frames), or in the third pass 10 (20) bytes, and 4 or 8 more for each temporal component that is found
  * (2 to 20); 20 kB for each frame, and 32 MiB, see MemoryNeed. A stack that
  * cannot be measured (NothingToMeasure) has a report whose quantities are `failed`, with a warning that gives the
  * reason. Wrong use throws std::invalid_argument. May be moved, also between and within passes. */
@@ -192,10 +192,13 @@ private:
               const TPixel *             frames,
               std::size_t                count,
               const ParallelFor &        parallelFor) const override;
-  /** Packs the means if sums of the third pass are held when \a count frames are added: it does not need the means
-   * before its end. */
+  /** Packs the means, and releases the mask of the usable pixels, if sums of the third pass are held when \a count
+   * frames are added. The pass needs both at its end only. */
   void
-  PackMeans(std::size_t count, const ParallelFor & parallelFor);
+  PackMaps(std::size_t count, const ParallelFor & parallelFor);
+  /** Makes the maps that PackMaps() has packed. */
+  void
+  UnpackMaps();
   void
   ForgetOwnSums() override;
   void

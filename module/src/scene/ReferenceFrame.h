@@ -63,7 +63,7 @@ struct ReferenceFrame
   PixelMap            variance;      ///< unbiased variance over time, flicker and motion included [DN^2]; NaN: unknown
   /** 1: the pixel and its 8 neighbours are valid, it varies, and it is StencilMargin pixels from the border. */
   std::vector<std::uint8_t> usable;
-  PackedMeans               packedMean; ///< `mean` while the third pass holds its sums; else empty
+  PackedMeans               packedMean; ///< `mean` while the third pass holds its sums, without `usable`; else empty
 
   /** Returns the means of \a pixels pixels from pixel \a first on [DN]: \a buffer, or a part of `mean`. */
   const double *

@@ -178,7 +178,7 @@ def estimate_sensor_noise(
     memory_limit : int, optional
         Largest memory of the estimate beside the frames [bytes], for example 4 * 10**9. Frames that are read a few at a
         time are read more often if the estimate would need more memory, with the same result. "refined" needs 48 bytes
-        a pixel of a frame, or 12 and 4 for each temporal component of illumination and motion that it finds (8: large
+        a pixel of a frame, or 10 and 4 for each temporal component of illumination and motion that it finds (8: large
         changes of the illumination) if these are more. Floating point needs 52, or 20 and 8. "published" needs 40. The
         limit has to be at least 64 bytes a pixel
         (40), 20 kB a frame and 32 MiB. Default: no limit.
