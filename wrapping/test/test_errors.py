@@ -10,7 +10,7 @@ import itk
 import itk_sensornoise
 import numpy as np
 import pytest
-from itk_sensornoise._errors import itk_errors
+from itk_sensornoise._errors import cause_of, itk_errors
 from itk_sensornoise.distributed._task import reason_of
 
 STACK = np.arange(6 * 8 * 9, dtype=np.uint16).reshape(6, 8, 9)
@@ -160,3 +160,16 @@ def test_errors_travel_and_have_their_sentence_in_tables():
             call()
         again = pickle.loads(pickle.dumps(caught.value))
         assert type(again) is type(caught.value) and str(again) == str(caught.value) == reason_of(again)
+
+
+@pytest.mark.parametrize(
+    "place",
+    [
+        "/source/itkName.hxx:71:\nITK ERROR: Name(0x55f0c1): ",  # ITK 5
+        "/source/itkName.hxx:71: in 'unknown':\nITK ERROR: Name(0x55f0c1): ",  # ITK 6
+        "/source/itkName.hxx:71: in 'unknown':\nITK ERROR Name(94520722603808): ",  # a macro of ITK 6
+    ],
+)
+def test_the_place_of_an_exception_is_left_out(place: str) -> None:
+    sentence = "2 value(s) are NaN: 3 were expected (4): none"
+    assert cause_of(RuntimeError(place + sentence)) == sentence

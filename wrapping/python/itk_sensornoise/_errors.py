@@ -11,8 +11,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 # "file:line:", then, unless the error is about files, "ITK ERROR: Class(address): "; the sentence follows.
-_PLACE = re.compile(r"\A[^\n]*:\d+:\n")
-_CLASS = re.compile(r"\A\s*(?:ITK ERROR|itk::ERROR): [^\n]*?\(0x[0-9a-f]+\): ")
+# ITK 6 has "file:line: in 'function':" before it, and sometimes "ITK ERROR Class(address): " with a decimal address.
+_PLACE = re.compile(r"\A[^\n]*:\d+:(?: in '[^'\n]*':)?\n")
+_CLASS = re.compile(r"\A\s*(?:ITK ERROR|itk::ERROR):? [^\n]*?\((?:0x[0-9a-f]+|\d+)\): ")
 # SWIG's words for an argument that does not fit, and for one that fits none of several functions of one name.
 _ARGUMENT = re.compile(r"\Ain method '[^']*', argument \d+ of type '([^']*)'")
 _OVERLOADED = "Wrong number or type of arguments"
