@@ -98,8 +98,8 @@ SumOverBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction func
   });
 }
 
-/** Largest number of parts of a map whose sums are held at the same time where there may be thousands of sums. Chosen
- * empirically: enough to share them out evenly to 16 threads. */
+/** Largest number of parts of a map whose sums are held at the same time where there may be thousands of sums. With 64,
+ * each of 16 threads has four parts. */
 inline constexpr std::size_t MostSummedParts = 64;
 
 /** Returns \a size sums over \a count pixels, folded as above, but part by part: at most MostSummedParts parts of whole
