@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "helpers/EstimateToolTestHelper.h"
 
+#include "itkVersion.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -149,7 +151,9 @@ TEST_F(EstimateFailureTool, AFullDiskLeavesNothing)
   EXPECT_EQ(RunCommand(tool + "--json r.json"), 2);
   SaysInOneSentence({ "cannot write r.json" });
   EXPECT_EQ(RunCommand(tool + "--maps maps"), 2);
-  EXPECT_NE(m_Message.find("cannot write maps/mean.mha: the disk may be full"), std::string::npos) << m_Message;
+  // ITK 5 does not notice it, ITK 6 does.
+  const std::string reason = ITK_VERSION_MAJOR < 6 ? "the disk may be full" : "File cannot be written";
+  EXPECT_NE(m_Message.find("cannot write maps/mean.mha: " + reason), std::string::npos) << m_Message;
   EXPECT_EQ(FilesLeft(), (std::set<std::string>{ "s.mha" }));
 }
 
