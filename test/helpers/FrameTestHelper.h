@@ -10,6 +10,7 @@
 #include "scene/ReferenceFrame.h"
 #include "series/FrameSums.h"
 #include "series/FrameRegressors.h"
+#include "series/RegressorBand.h"
 
 #include <array>
 #include <cmath>
@@ -24,6 +25,11 @@
 
 namespace sensornoise::test
 {
+
+/** Largest relative error by the rounding of single precision: of a product of six rounded numbers, and of a sum of such
+ * products by RegressorBand. */
+inline const double RoundingOfProducts = 6.0 * std::exp2(-24.0);
+inline const double RoundingOfSums = RoundingOfProducts + PixelsOfSingleSum * std::exp2(-24.0);
 
 /** Returns a map of waves of all directions and lengths above 5 pixels, from about 400 to 1,600. */
 inline std::vector<double>

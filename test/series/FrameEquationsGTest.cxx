@@ -118,8 +118,8 @@ TEST(SensorNoiseFrameEquations, EqualsDenseWeightedLeastSquares)
       const auto            row = static_cast<Eigen::Index>(t);
       const Eigen::VectorXd all = equations.gram.ldlt().solve(equations.right.row(row).transpose());
       const Eigen::Vector2d illumination = equations.illumination.ldlt().solve(equations.response.row(row).transpose());
-      EXPECT_LT((all - expected).norm(), 1e-9 * expected.norm()) << t;
-      EXPECT_LT((illumination - expected.head<2>()).norm(), 1e-9 * expected.norm()) << t;
+      EXPECT_LT((all - expected).norm(), 1e-6 * expected.norm()) << t;
+      EXPECT_LT((illumination - expected.head<2>()).norm(), 1e-6 * expected.norm()) << t;
     }
   }
 }
@@ -135,11 +135,11 @@ TEST(SensorNoiseFrameEquations, FindsWhatNoiseFreeFramesAreMadeOf)
     const Eigen::VectorXd fit =
       equations.gram.ldlt().solve(equations.right.row(static_cast<Eigen::Index>(t)).transpose());
     const FrameChange & change = changes[t];
-    EXPECT_NEAR(fit(0), change.level + change.slope * frames.model.centreDn, 1e-7) << t;
-    EXPECT_NEAR(fit(1), change.slope, 1e-10) << t;
+    EXPECT_NEAR(fit(0), change.level + change.slope * frames.model.centreDn, 1e-4) << t;
+    EXPECT_NEAR(fit(1), change.slope, 1e-7) << t;
     for (std::size_t k = 0; k < NumberOfStencils; ++k)
     {
-      EXPECT_NEAR(fit(static_cast<Eigen::Index>(2 + k)), change.motion[k], 1e-9) << t << ' ' << k;
+      EXPECT_NEAR(fit(static_cast<Eigen::Index>(2 + k)), change.motion[k], 3e-5) << t << ' ' << k;
     }
   }
 }

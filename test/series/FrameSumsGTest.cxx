@@ -85,7 +85,7 @@ TEST(SensorNoiseFrameSums, ClassSumsEqualBruteForce)
     }
     for (std::size_t c = 0; c < GradientClasses; ++c)
     {
-      EXPECT_TRUE(((sums.GetClassSums(t, c) - sum[c]).array().abs() <= 1e-13 * size[c].array()).all()) << t << ' ' << c;
+      EXPECT_TRUE(((sums.GetClassSums(t, c) - sum[c]).array().abs() <= RoundingOfSums * size[c].array()).all()) << t << ' ' << c;
     }
   }
 }
@@ -110,7 +110,7 @@ TEST(SensorNoiseFrameSums, ClassGramsEqualBruteForce)
   {
     const Eigen::VectorXd unit = gram[c].diagonal().cwiseSqrt();
     const Eigen::MatrixXd error = (sums.GetClassGram(c) - gram[c]).cwiseQuotient(unit * unit.transpose());
-    EXPECT_LT(error.cwiseAbs().maxCoeff(), 1e-12) << c;
+    EXPECT_LT(error.cwiseAbs().maxCoeff(), RoundingOfProducts) << c;
     EXPECT_GT(count[c], 0u) << c;
   }
 }
@@ -120,6 +120,7 @@ TEST(SensorNoiseFrameSums, InstrumentsEqualBruteForce)
   const FrameSums       sums = Frames().Sums();
   constexpr std::size_t t = 3;
   Eigen::Vector2d       sum = Eigen::Vector2d::Zero();
+  Eigen::Vector2d       size = Eigen::Vector2d::Zero();
   Eigen::MatrixXd       gram = Eigen::MatrixXd::Zero(2, FrameColumns);
   for (std::size_t p = 0; p < Frames().Pixels(); ++p)
   {
@@ -127,13 +128,15 @@ TEST(SensorNoiseFrameSums, InstrumentsEqualBruteForce)
     {
       const ShiftInstruments & own = sums.GetRegressors().GetInstruments();
       const Eigen::Vector2d    instruments(double{ own.x[p] } * own.weight[p], double{ own.y[p] } * own.weight[p]);
-      sum += (Frames().Frame(t)[p] - Frames().reference.mean[p]) * instruments;
+      const Eigen::Vector2d    term = (Frames().Frame(t)[p] - Frames().reference.mean[p]) * instruments;
+      sum += term;
+      size += term.cwiseAbs();
       gram += instruments * Frames().ColumnsOf(p).transpose();
     }
   }
-  EXPECT_NEAR(sums.GetInstrumentSums(t)[0], sum(0), 1e-10 * sum.norm());
-  EXPECT_NEAR(sums.GetInstrumentSums(t)[1], sum(1), 1e-10 * sum.norm());
-  EXPECT_LT((sums.GetInstrumentGram() - gram).norm(), 1e-11 * gram.norm());
+  EXPECT_NEAR(sums.GetInstrumentSums(t)[0], sum(0), RoundingOfSums * size(0));
+  EXPECT_NEAR(sums.GetInstrumentSums(t)[1], sum(1), RoundingOfSums * size(1));
+  EXPECT_LT((sums.GetInstrumentGram() - gram).norm(), RoundingOfProducts * gram.norm());
 }
 
 TEST(SensorNoiseFrameSums, CellsPartTheWholeFrame)

@@ -16,16 +16,16 @@ using namespace sensornoise;
 // All compilers and processors compute the same bits: plain loops, loops for AVX2, and one product after the other.
 TEST(SensorNoiseGroupProducts, AreTheSameAnywhere)
 {
-  constexpr std::size_t                         pixels = 97;
-  CounterSeededRandom                           random(46);
-  std::vector<FrameRegressors::WeightedColumns> columns(pixels);
-  std::vector<double>                           series(FramesTogether * pixels);
-  std::vector<std::uint32_t>                    order(pixels);
+  constexpr std::size_t pixels = PixelsOfSingleSum + 97;
+  CounterSeededRandom        random(46);
+  std::vector<SingleColumns> columns(pixels);
+  std::vector<float>         series(FramesTogether * pixels);
+  std::vector<std::uint32_t> order(pixels);
   for (auto & ofPixel : columns)
   {
-    std::generate(ofPixel.begin(), ofPixel.end(), [&] { return random.Normal(); });
+    std::generate(ofPixel.begin(), ofPixel.end(), [&] { return static_cast<float>(random.Normal()); });
   }
-  std::generate(series.begin(), series.end(), [&] { return 100.0 * random.Normal(); });
+  std::generate(series.begin(), series.end(), [&] { return static_cast<float>(100.0 * random.Normal()); });
   std::iota(order.rbegin(), order.rend(), 0U);
   std::size_t unlikeFused = 0;
   for (const std::size_t end : { std::size_t{ 5 }, std::size_t{ 6 }, std::size_t{ 18 }, pixels })
@@ -37,12 +37,19 @@ TEST(SensorNoiseGroupProducts, AreTheSameAnywhere)
     {
       for (std::size_t c = 0; c < expected[k].size(); ++c)
       {
-        for (std::size_t i = of.begin; i < of.end; ++i)
+        for (std::size_t begin = of.begin; begin < of.end; begin += PixelsOfSingleSum)
         {
-          const double          value = series[k * pixels + order[i]];
-          const volatile double product = columns[i][c] * value; // rounded, whatever the compiler may do
-          expected[k][c] += product;
-          fused[k][c] = std::fma(columns[i][c], value, fused[k][c]);
+          float sum = 0.0F;
+          float fusedSum = 0.0F;
+          for (std::size_t i = begin; i < std::min(of.end, begin + PixelsOfSingleSum); ++i)
+          {
+            const float          value = series[k * pixels + order[i]];
+            const volatile float product = columns[i][c] * value; // rounded, whatever the compiler may do
+            sum += product;
+            fusedSum = std::fma(columns[i][c], value, fusedSum);
+          }
+          expected[k][c] += sum;
+          fused[k][c] += fusedSum;
         }
         unlikeFused += expected[k][c] != fused[k][c] ? 1 : 0;
       }

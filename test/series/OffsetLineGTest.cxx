@@ -202,7 +202,7 @@ TEST(SensorNoiseOffsetLine, FramesWithMotionLieOnOneLine)
   const FrameSums       sums = frames.Sums();
   const auto            line = FitOffsetLine(sums, {});
   ASSERT_TRUE(line);
-  EXPECT_NEAR(line->offset + sums.GetRegressors().GetModel().centreDn, 120.0, 1e-5);
+  EXPECT_NEAR(line->offset + sums.GetRegressors().GetModel().centreDn, 120.0, 1e-3);
   EXPECT_LT(line->lastClass, GradientClasses);
 }
 
@@ -238,7 +238,7 @@ TEST(SensorNoiseOffsetLine, RampDeterminesTheFlickerAtAnyLevel)
     EXPECT_FALSE(line->DeterminesOffset()) << across;
     for (std::size_t t = 0; t < changes.size(); ++t)
     {
-      EXPECT_NEAR(line->gamma[t], changes[t].slope, 1e-9) << across << ' ' << t;
+      EXPECT_NEAR(line->gamma[t], changes[t].slope, 1e-6) << across << ' ' << t;
     }
   }
 }

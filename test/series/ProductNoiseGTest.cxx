@@ -69,7 +69,7 @@ TEST(SensorNoiseProductNoise, IsTheGramMatrixWhereTheWeightsAreRight)
   for (std::size_t c = 0; c < GradientClasses; ++c)
   {
     const FrameSums::ClassMatrix & gram = sums.GetClassGram(c);
-    EXPECT_LT((covariance[c] - 3.0 * gram).norm(), 1e-12 * gram.norm()) << c;
+    EXPECT_LT((covariance[c] - 3.0 * gram).norm(), 3.0 * RoundingOfProducts * gram.norm()) << c;
   }
 }
 
@@ -79,7 +79,7 @@ TEST(SensorNoiseProductNoise, APixelWithoutAVarianceHasTheModels)
   const FrameSums           sums = frames.Sums();
   const std::vector<double> unknown(frames.Pixels(), std::numeric_limits<double>::quiet_NaN());
   const auto                covariance = CovarianceOfProducts(sums.GetRegressors(), unknown, SerialFor);
-  EXPECT_LT((covariance[0] - sums.GetClassGram(0)).norm(), 1e-12 * sums.GetClassGram(0).norm());
+  EXPECT_LT((covariance[0] - sums.GetClassGram(0)).norm(), RoundingOfProducts * sums.GetClassGram(0).norm());
 }
 
 TEST(SensorNoiseProductNoise, EquationsHaveTheCovarianceOfTheirRightHandSide)

@@ -115,10 +115,10 @@ struct FrameSums::Batch
         {
           const TPixel * const frame = layout.SideBySide(
             frames + (t + k) * layout.frame, band.First(), band.First() + band.Pixels(), buffer.data());
-          double * const series = band.Series(k);
-          CallWithAvx2([&] {
-            std::transform(frame, frame + band.Pixels(), mean, series, [](TPixel value, double expected) {
-              return static_cast<double>(value) - expected;
+          float * const series = band.Series(k);
+          CallWithAvx2([&, inverse = 1.0 / band.UnitDn()] {
+            std::transform(frame, frame + band.Pixels(), mean, series, [inverse](TPixel value, double expected) {
+              return static_cast<float>(inverse * (static_cast<double>(value) - expected));
             });
           });
         }

@@ -287,6 +287,10 @@ FrameSums::TakeColumns(const std::vector<ColumnSums> & ofCellRows)
         columns.ofInstruments[block];
     }
   }
+  for (ClassMatrix & gram : m_ClassGram) // the factors of both halves are rounded differently
+  {
+    gram = (0.5 * (gram + gram.transpose())).eval();
+  }
   m_HasColumns = true;
 }
 

@@ -5,14 +5,14 @@
 #include "base/Simd.h"
 #include "base/Stencils.h"
 #include "series/Constants.h"
-#include "base/Eigen.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <numeric>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -21,39 +21,48 @@ namespace sensornoise
 
 namespace
 {
+constexpr std::size_t Columns = std::tuple_size_v<SingleColumns>;
+
+/** Adds sums of single precision, sums[series][column], to the sums of a group. */
+void
+AddTo(GroupSums & sums, const float * ofBlock)
+{
+  for (std::size_t k = 0; k < FramesTogether; ++k)
+  {
+    for (std::size_t j = 0; j < Columns; ++j)
+    {
+      sums[k][j] += static_cast<double>(ofBlock[k * Columns + j]);
+    }
+  }
+}
+
 #if defined(SENSORNOISE_AVX2)
-/** Does the same as MultiplyGroupAnywhere() with AVX2 vectors of four: the products and sums are the same, in the same
+/** Does the same as MultiplyGroupAnywhere() with AVX2 vectors of eight: the products and sums are the same, in the same
  * order, and so are the bits. The target has no fused multiplication and addition, which would round differently. */
 __attribute__((target("avx2"))) void
 MultiplyGroupAvx2(const GroupFactors & of, GroupSums & sums)
 {
   // The attributes stand behind the name: Clang drops the alignment where they stand behind the type.
-  using Four [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-  constexpr std::size_t part = 2; // vectors of columns: with four series their sums take half of the registers
-  for (std::size_t first = 0; first < sums[0].size(); first += 4 * part)
+  using Eight [[gnu::vector_size(32), gnu::aligned(4), gnu::may_alias]] = float;
+  constexpr std::size_t parts = Columns / 8; // vectors of columns: their sums with four series stay in registers
+  sums = {};
+  for (std::size_t begin = of.begin; begin < of.end; begin += PixelsOfSingleSum)
   {
-    Four sum[FramesTogether][part] = {};
-    for (std::size_t i = of.begin; i < of.end; ++i)
+    const std::size_t end = std::min(of.end, begin + PixelsOfSingleSum);
+    Eight             sum[FramesTogether][parts] = {};
+    for (std::size_t i = begin; i < end; ++i)
     {
-      const Four * const   columns = reinterpret_cast<const Four *>(of.columns[i].data() + first);
-      const double * const values = of.series + of.order[i];
+      const Eight * const columns = reinterpret_cast<const Eight *>(of.columns[i].data());
+      const float * const values = of.series + of.order[i];
       for (std::size_t k = 0; k < FramesTogether; ++k)
       {
-        for (std::size_t j = 0; j < part; ++j)
+        for (std::size_t j = 0; j < parts; ++j)
         {
           sum[k][j] += columns[j] * values[k * of.pixels];
         }
       }
     }
-    for (std::size_t k = 0; k < FramesTogether; ++k)
-    {
-      // Not std::copy_n(): the arguments of a template have no such alignment.
-      Four * const places = reinterpret_cast<Four *>(sums[k].data() + first);
-      for (std::size_t j = 0; j < part; ++j)
-      {
-        places[j] = sum[k][j];
-      }
-    }
+    AddTo(sums, reinterpret_cast<const float *>(sum));
   }
 }
 #endif
@@ -70,26 +79,27 @@ FindMultiplyGroup()
 }
 } // namespace
 
-/** The sums are computed for a few columns at a time, so that they stay in registers. */
 void
 MultiplyGroupAnywhere(const GroupFactors & of, GroupSums & sums)
 {
-  constexpr std::size_t part = 4;
-  using Columns = Eigen::Matrix<double, part, 1>;
-  for (std::size_t first = 0; first < sums[0].size(); first += part)
+  sums = {};
+  for (std::size_t begin = of.begin; begin < of.end; begin += PixelsOfSingleSum)
   {
-    Eigen::Matrix<double, part, FramesTogether> sum;
-    sum.setZero();
-    for (std::size_t i = of.begin; i < of.end; ++i)
+    const std::size_t end = std::min(of.end, begin + PixelsOfSingleSum);
+    float             sum[FramesTogether * Columns] = {};
+    for (std::size_t i = begin; i < end; ++i)
     {
-      const double * const                           v = of.series + of.order[i];
-      const Eigen::Matrix<double, 1, FramesTogether> values(v[0], v[of.pixels], v[2 * of.pixels], v[3 * of.pixels]);
-      sum.noalias() += Eigen::Map<const Columns>(of.columns[i].data() + first) * values;
+      const float * const columns = of.columns[i].data();
+      const float * const values = of.series + of.order[i];
+      for (std::size_t k = 0; k < FramesTogether; ++k)
+      {
+        for (std::size_t j = 0; j < Columns; ++j)
+        {
+          sum[k * Columns + j] += columns[j] * values[k * of.pixels];
+        }
+      }
     }
-    for (std::size_t k = 0; k < FramesTogether; ++k)
-    {
-      Eigen::Map<Columns>(sums[k].data() + first) = sum.col(static_cast<Eigen::Index>(k));
-    }
+    AddTo(sums, sum);
   }
 }
 
@@ -102,32 +112,41 @@ MultiplyGroup(const GroupFactors & of, GroupSums & sums)
 
 namespace
 {
-/** Computes the derivatives of MotionStencils() at \a count pixels from \a mean on. Each fills a row of \a rows; the
- * rows are \a stride numbers apart. The derivatives are computed one after the other, so that each loop is vectorized.
- */
+/** Computes the derivatives of MotionStencils() at \a count pixels from \a mean on, times \a factor. Each fills a row
+ * of \a rows; the rows are \a stride numbers apart. The derivatives are computed one after the other, so that each loop
+ * is vectorized. */
 template <std::size_t... VStencils>
 void
 FillDerivatives(const double * mean,
                 std::size_t    width,
                 std::size_t    count,
-                double *       rows,
+                double         factor,
+                float *        rows,
                 std::size_t    stride,
                 std::index_sequence<VStencils...>)
 {
   const auto fill = [&](auto stencil) {
-    double * const row = rows + stencil * stride;
+    float * const row = rows + stencil * stride;
     for (std::size_t i = 0; i < count; ++i)
     {
-      row[i] = std::get<stencil>(ApplyStencils(mean, width, i));
+      row[i] = static_cast<float>(factor * std::get<stencil>(ApplyStencils(mean, width, i)));
     }
   };
   (fill(std::integral_constant<std::size_t, VStencils>()), ...);
+}
+
+/** Returns the power of 2 near the standard deviation of the noise in the middle of the levels [DN]. */
+double
+UnitOf(const InitialNoiseModel & model)
+{
+  return std::exp2(std::floor(0.5 * std::log2(model.NoiseVariance(model.centreDn))));
 }
 } // namespace
 
 RegressorBand::RegressorBand(const FrameRegressors & regressors, std::size_t cells)
   : m_Regressors(regressors)
   , m_Cells(cells)
+  , m_UnitDn(UnitOf(regressors.GetModel()))
 {}
 
 /** Calls function(pixel of the band, group) for the used pixels, row by row. */
@@ -159,8 +178,9 @@ RegressorBand::MoveTo(std::size_t firstRow, std::size_t rows)
   const std::size_t width = m_Regressors.GetFrame().geometry.width;
   m_First = firstRow * width;
   m_Pixels = rows * width;
-  m_Rows.resize(NumberOfRows * m_Pixels);
-  m_Series.resize(Together * m_Pixels);
+  m_Stride = m_Pixels + Gap;
+  m_Rows.resize(NumberOfRows * m_Stride);
+  m_Series.resize(Together * m_Stride);
   this->FindOrder();
   CallWithAvx2([this] {
     this->FillValues();
@@ -199,8 +219,10 @@ RegressorBand::FillValues()
   const ReferenceFrame & frame = m_Regressors.GetFrame();
   const double * const   mean = frame.mean.data() + m_First;
   const double           centreDn = m_Regressors.GetModel().centreDn;
-  std::fill_n(this->RowOf(0), m_Pixels, 1.0);
-  std::transform(mean, mean + m_Pixels, this->RowOf(1), [centreDn](double level) { return level - centreDn; });
+  const double           inverse = 1.0 / m_UnitDn;
+  std::fill_n(this->RowOf(0), m_Pixels, static_cast<float>(inverse));
+  std::transform(
+    mean, mean + m_Pixels, this->RowOf(1), [=](double level) { return static_cast<float>(inverse * (level - centreDn)); });
   const std::size_t width = frame.geometry.width;
   const std::size_t border = StencilMargin * width;
   const std::size_t first = std::max(border, m_First);
@@ -210,8 +232,9 @@ RegressorBand::FillValues()
     FillDerivatives(frame.mean.data() + first,
                     width,
                     last - first,
+                    inverse,
                     this->RowOf(2) + (first - m_First),
-                    m_Pixels,
+                    m_Stride,
                     std::make_index_sequence<NumberOfStencils>());
   }
 }
@@ -223,22 +246,25 @@ RegressorBand::FillWeights()
   const InitialNoiseModel  model = m_Regressors.GetModel(); // a copy: it cannot alias the numbers written below
   const ShiftInstruments & instruments = m_Regressors.GetInstruments();
   const float * const      level = m_Regressors.GetFrame().neighbourMean.data() + m_First;
-  const double * const     gx = this->RowOf(2 + StencilX);
-  const double * const     gy = this->RowOf(2 + StencilY);
-  const float * const      weight = instruments.weight.data() + m_First;
-  double * const           ofPixel = this->RowOf(Weight);
-  double * const           ofCell = this->RowOf(CellWeight);
+  const float * const      gx = this->RowOf(2 + StencilX);
+  const float * const      gy = this->RowOf(2 + StencilY);
+  float * const            ofPixel = this->RowOf(Weight);
+  float * const            ofCell = this->RowOf(CellWeight);
+  const double             inverse = 1.0 / (m_UnitDn * m_UnitDn);
   // Motion that the derivatives do not explain is noise in the local changes of the illumination.
-  const double motionLeft = InSeries.motionLeftInCells;
+  const auto motionX = static_cast<float>(InSeries.motionLeftInCells * model.vibrationXPixels2);
+  const auto motionY = static_cast<float>(InSeries.motionLeftInCells * model.vibrationYPixels2);
   for (std::size_t i = 0; i < m_Pixels; ++i)
   {
-    const double noise = model.NoiseVariance(level[i]);
-    ofPixel[i] = 1.0 / noise;
-    ofCell[i] = 1.0 / (noise + motionLeft * model.MotionVariance(gx[i], gy[i]));
+    const auto noise = static_cast<float>(inverse * model.NoiseVariance(level[i]));
+    ofPixel[i] = 1.0F / noise;
+    ofCell[i] = 1.0F / (noise + motionX * gx[i] * gx[i] + motionY * gy[i] * gy[i]);
   }
-  const auto weigh = [&](const std::vector<float> & instrument, double * weighted) {
+  const auto weigh = [&, unit = m_UnitDn](const std::vector<float> & instrument, float * weighted) {
     const float * const own = instrument.data() + m_First;
-    std::transform(own, own + m_Pixels, weight, weighted, std::multiplies<double>());
+    std::transform(own, own + m_Pixels, instruments.weight.data() + m_First, weighted, [unit](double value, double weight) {
+      return static_cast<float>(unit * value * weight);
+    });
   };
   weigh(instruments.x, this->RowOf(InstrumentX));
   weigh(instruments.y, this->RowOf(InstrumentY));
@@ -248,30 +274,55 @@ RegressorBand::FillWeights()
 void
 RegressorBand::FillColumns()
 {
-  const std::size_t pixels = m_Pixels;
+  const std::size_t stride = m_Stride; // a copy: it cannot alias the columns
   for (std::size_t place = 0; place < m_Order.size(); ++place)
   {
-    const double * const               own = m_Rows.data() + m_Order[place];
-    const double                       weight = own[Weight * pixels];
-    const double                       ofCell = own[CellWeight * pixels];
-    FrameRegressors::WeightedColumns & columns = m_Columns[place];
+    const float * const own = m_Rows.data() + m_Order[place];
+    const float         weight = own[Weight * stride];
+    const float         ofCell = own[CellWeight * stride];
+    SingleColumns &     columns = m_Columns[place];
     for (std::size_t k = 0; k < FrameColumns; ++k)
     {
-      columns[k] = weight * own[k * pixels];
+      columns[k] = weight * own[k * stride];
     }
-    columns[FrameColumns] = own[InstrumentX * pixels];
-    columns[FrameColumns + 1] = own[InstrumentY * pixels];
-    columns[FrameColumns + FrameRegressors::Instruments] = ofCell;
-    columns[FrameColumns + FrameRegressors::Instruments + 1] = ofCell * own[pixels];
-    columns[FrameRegressors::Columns] = 0.0;
+    columns[FrameColumns] = own[InstrumentX * stride];
+    columns[FrameColumns + 1] = own[InstrumentY * stride];
+    columns[FrameColumns + FrameRegressors::Instruments] = ofCell * own[0];
+    columns[FrameColumns + FrameRegressors::Instruments + 1] = ofCell * own[stride];
+    columns[FrameRegressors::Columns] = 0.0F;
   }
 }
 
+const std::vector<RegressorBand::Sums> &
+RegressorBand::MultiplyByValues(std::size_t first)
+{
+  for (std::size_t g = 0; g < m_Groups.size(); ++g)
+  {
+    for (std::size_t k = 0; k < Together; ++k)
+    {
+      CallWithAvx2([&, group = m_Groups[g], values = this->RowOf(first + k)] {
+        FrameRegressors::WeightedColumns sum{};
+        for (std::size_t i = group.begin; i < group.end; ++i)
+        {
+          const double value = values[m_Order[i]];
+          for (std::size_t j = 0; j < Columns; ++j)
+          {
+            sum[j] += value * static_cast<double>(m_Columns[i][j]);
+          }
+        }
+        m_Sums[g][k] = sum;
+      });
+    }
+  }
+  return m_Sums;
+}
+
 void
-RegressorBand::MultiplyGroupBy(std::size_t group, const double * series)
+RegressorBand::MultiplyGroupBy(std::size_t group)
 {
   const Group & pixels = m_Groups[group];
-  MultiplyGroup({ m_Columns.data(), m_Order.data(), series, m_Pixels, pixels.begin, pixels.end }, m_Sums[group]);
+  MultiplyGroup({ m_Columns.data(), m_Order.data(), m_Series.data(), m_Stride, pixels.begin, pixels.end },
+                m_Sums[group]);
 }
 
 } // namespace sensornoise
