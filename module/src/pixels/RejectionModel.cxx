@@ -328,17 +328,21 @@ FindQuietPixels(const ProjectedVariance &         projected,
   }
   // No pixel has more signal than its level above the darkest one.
   const double darkestDn = QuantileOf(std::move(levels), InCommon.darkestQuantile);
+  // The ratio that chance does not make is the larger, the more degrees of freedom there are.
+  const double mostDof = static_cast<double>(projected.GetFrame().frames);
+  const double byChance = 0.5 * std::erfc(Significance.severalTests / std::sqrt(2.0));
+  const double largest = std::min(InPixels.largestQuietVariance, ChiSquareQuantile(byChance, mostDof) / mostDof);
   const auto   isQuiet = [&](std::size_t p) {
     const double level =
       std::min<double>(data.mean[p], data.neighbourMean[p]); // beside an edge, neighbours may be brighter
     const double shotDn2 = line.gain * (level - darkestDn);
     const double variance = data.variance[p];
-    if (data.mask[p] == 0 || !(variance < InPixels.largestQuietVariance * shotDn2))
+    if (data.mask[p] == 0 || !(variance < largest * shotDn2))
     {
       return false;
     }
     const double dof = line.EffectiveDof(data.dof[p], line.At(level));
-    return dof > 0.0 && NormalQuantile(ChiSquareCdf(dof * variance / shotDn2, dof)) < -Significance.severalTests;
+    return dof > 0.0 && ChiSquareCdf(dof * variance / shotDn2, dof) < byChance;
   };
   std::vector<std::uint8_t> quiet(data.pixels);
   ForPixels(data.pixels, parallelFor, [&](std::size_t p) { quiet[p] = isQuiet(p) ? 1 : 0; });
