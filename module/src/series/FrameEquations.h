@@ -42,7 +42,7 @@ struct SensorNoise_EXPORT FrameEquations
   Eigen::Matrix2d  illumination;       ///< Gram matrix of columns 0 and 1, the motion partialled out (Schur complement)
   Eigen::MatrixX2d response;           ///< right-hand sides of columns 0 and 1, the motion partialled out, frames x 2
   /** Whether a level that all pixels have in common cannot be distinguished from motion: the scene is a ramp, with the
-   * same derivatives everywhere. Then `light` and `response` hold column 1 alone, all else partialled out. */
+   * same derivatives everywhere. Then `illumination` and `response` hold column 1 alone, all else partialled out. */
   bool isLevelMotion{ false };
 
   /** Returns the place of a column among the active columns. */

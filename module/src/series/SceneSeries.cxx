@@ -178,16 +178,27 @@ WithoutSquaresOfShifts(const FrameSums &      sums,
   return found.squaresOfShifts.cols() > 0 ? FitOffsetLine(sums, noise, {}, found.squaresOfShifts).value_or(line) : line;
 }
 
-/** Returns whether the flicker is significant by the covariance of the products that the raw variances give. The
- * initial model may be wrong, most where few pixels have signal; without flicker, the raw variances are right. */
+/** Returns whether the flicker of \a found is significant by the covariance of the products that the raw variances give,
+ * too. The initial model may be wrong, most where few pixels have signal; without flicker, the raw variances are right.
+ * True if \a rawNoise is empty. */
 bool
 IsSignificantByRawNoise(const FrameSums &                           sums,
                         RegressorNoise                              noise,
                         const std::vector<FrameSums::ClassMatrix> & rawNoise,
-                        std::size_t                                 lastClass)
+                        const SceneSeries &                         found)
 {
+  if (rawNoise.empty())
+  {
+    return true;
+  }
   noise.ofProducts = rawNoise;
-  const std::optional<OffsetLine> line = FitOffsetLine(MakeFrameEquations(sums, noise, lastClass));
+  FrameEquations          equations = MakeFrameEquations(sums, noise, found.line.lastClass);
+  const Eigen::MatrixXd & squares = found.squaresOfShifts;
+  if (squares.cols() > 0)
+  {
+    equations.response -= squares * (squares.transpose() * equations.response);
+  }
+  const std::optional<OffsetLine> line = FitOffsetLine(equations);
   return line && line->flickerZ > Significance.everyPixel;
 }
 } // namespace
@@ -268,7 +279,7 @@ FindSceneSeries(const FrameSums &                           sums,
   const bool isPrecise =
     found.line.standardError < InCommon.largestRelativeError * std::max(0.0, -found.line.offset) || !changesStrongly;
   found.isOffsetIdentifiable =
-    found.line.DeterminesOffset() && isPrecise && IsSignificantByRawNoise(sums, noise, rawNoise, found.line.lastClass);
+    found.line.DeterminesOffset() && isPrecise && IsSignificantByRawNoise(sums, noise, rawNoise, found);
   const bool   hasLevels = found.line.contrast > InSeries.leastContrast;
   const double fallbackDn = hasLevels ? model.darkestDn : std::min(blackDn, model.darkestDn);
   found.offset = found.isOffsetIdentifiable ? found.line.offset : knownOffsetDn.value_or(fallbackDn) - model.centreDn;
