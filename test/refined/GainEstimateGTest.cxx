@@ -220,3 +220,18 @@ TEST(SensorNoiseGainEstimate, ItsSizeIsTheScaleOrWhatItsOwnErrorLeaves)
   estimate.covariance(0, 0) = 0.5 * 0.5;
   EXPECT_EQ(estimate.Size(), 0.002);
 }
+
+// The error of the correlation is the same in the lines of pixels and of frames: their mean has it, too.
+TEST(SensorNoiseGainEstimate, ACommonErrorIsNotAveraged)
+{
+  Found         found;
+  SensorLines   lines = LinesOf(found.variance);
+  VarianceCurve frames = found.variance.curve;
+  frames.line = LineOf(1.0, 0.002);
+  lines.fromFrames = frames;
+  lines.covarianceOfCorrelation(0, 0) = 0.01 * 0.01;
+  const GainEstimate estimate =
+    EstimateGain({ found.settings, found.scene, found.series, found.variance, found.reestimated, found.corrected, OffsetDn },
+                 lines);
+  EXPECT_NEAR(estimate.StandardError(), std::hypot(0.002 / std::sqrt(2.0), 0.01), 1e-9);
+}

@@ -241,8 +241,9 @@ EstimateOfFrames(const VarianceCurve &   frames,
   return estimate;
 }
 
-/** Combines the slopes by pixels and by frames, which are independent. The variance at the pivot is taken from the more
- * precise estimate. If either shows a non-linear response, the more precise one is used alone. */
+/** Combines the slopes by pixels and by frames. Their sampling noise is independent, and the error of the correlation is
+ * the same in both. The variance at the pivot is taken from the more precise estimate. If either shows a non-linear
+ * response, the more precise one is used alone. */
 void
 CombineWithFrames(GainEstimate & estimate, const SensorLines & lines, double blackDn, double varianceInflation)
 {
@@ -258,13 +259,16 @@ CombineWithFrames(GainEstimate & estimate, const SensorLines & lines, double bla
   }
   const bool   isNonlinear = estimate.IsNonlinear() || other.IsNonlinear();
   const double difference = other.line.gain - estimate.line.gain;
-  const double expected = std::pow(estimate.StandardError(), 2) + std::pow(other.StandardError(), 2);
+  const Eigen::Matrix2d & common = lines.covarianceOfCorrelation;
+  const double            expected =
+    std::pow(estimate.StandardError(), 2) + std::pow(other.StandardError(), 2) - 2.0 * common(0, 0);
   if (!isNonlinear)
   {
-    const Eigen::Vector2d step = estimate.covariance.col(0) / expected;
+    const Eigen::Matrix2d own = estimate.covariance - common;
+    const Eigen::Vector2d step = own.col(0) / expected;
     estimate.line.gain += step(0) * difference;
     estimate.line.intercept += step(1) * difference;
-    estimate.covariance -= step * estimate.covariance.row(0);
+    estimate.covariance -= step * own.row(0);
   }
   if (difference * difference > Significance.hint * Significance.hint * expected)
   {

@@ -90,7 +90,6 @@ public:
     sensor.covariance = line.covariance * (factor * factor);
     sensor.curvature = line.curvature * factor + m_Mean.ofSquare;
     sensor.curvatureSd = line.curvatureSd * factor;
-    sensor.weightSum = line.weightSum / (factor * factor);
     sensor.noiseDispersionDn4 = line.noiseDispersionDn4 * factor * factor;
     return sensor;
   }
