@@ -295,3 +295,13 @@ TEST(SensorNoiseDnRange, FloatingPointDataHaveOnlyWhatIsGiven)
   EXPECT_EQ(range.clipSource, "given");
   EXPECT_TRUE(range.IsClipped(10.0, 4095.0));
 }
+
+TEST(SensorNoiseDnRange, AStepBelowOneHasTheClipLevelsOfStepOne)
+{
+  Extremes extremes = PixelsAtEveryNumber(100, 3400, 1, 40);
+  extremes.AddPixels(200, 3350, 3400);
+  DnSettings settings;
+  settings.quantisationStepDn = 0.5;
+  settings.bitDepth = 14;
+  EXPECT_EQ(extremes.Find(settings).clipHighDn, 3400.0);
+}

@@ -169,13 +169,20 @@ SetBitDepth(std::int32_t highest, double step, const DnSettings & settings, DnRa
   return top;
 }
 
+/** Returns the distance of two digital numbers, at least 1, that a quantization step is [DN]. */
+std::int32_t
+StrideOf(double step)
+{
+  return std::max<std::int32_t>(1, static_cast<std::int32_t>(step));
+}
+
 } // namespace
 
 std::int32_t
 FindEndOfDnRange(const DnHistogram & extremes, bool isHigh, double step)
 {
   std::vector<std::int32_t> valuesDn = extremes.Occupied();
-  const auto                stride = std::max<std::int32_t>(1, static_cast<std::int32_t>(step));
+  const std::int32_t        stride = StrideOf(step);
   if (isHigh)
   {
     std::reverse(valuesDn.begin(), valuesDn.end());
@@ -224,7 +231,7 @@ IsClipEnd(const Extremes & extremes, bool isHigh, double step, const Quantisatio
     return IsClipEvidence(extremes.typicalVarianceDn2, steps.StepAt(end), depth) &&
            CompandedClipLevel(histogram, extremes.occupied, end, isHigh);
   }
-  const auto stride = static_cast<std::int32_t>(step);
+  const std::int32_t stride = StrideOf(step);
   return IsClipEvidence(extremes.typicalVarianceDn2, step, depth) &&
          IsSaturationLevel(histogram, end, isHigh ? -stride : stride);
 }
