@@ -161,3 +161,16 @@ TEST(SensorNoiseFullWells, BecomeTheUpperClipLevelOfTheScene)
     EXPECT_NEAR(scene.model.slopeDn, GainDn, 0.05); // slope of the pixels that are not full
   }
 }
+
+TEST(SensorNoiseFullWells, DeadPixelsDoNotHideThem)
+{
+  StackMaps maps = MapsOf(1200.0, 10.0);
+  for (std::size_t p = 0; p < 4 * Geometry.width; ++p)
+  {
+    maps.mean[p] = 0.0;
+    maps.variance[p] = 0.0;
+  }
+  const auto wells = FindFullWells(maps, Geometry);
+  ASSERT_TRUE(wells);
+  EXPECT_NEAR(wells->levelDn, 1200.0, 5.0);
+}

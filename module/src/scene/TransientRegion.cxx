@@ -350,7 +350,8 @@ FindTransientRegion(const ReferenceFrame &            frame,
   region = Close(region, cells);
   const auto staticPixels =
     std::count_if(pixels.begin(), pixels.end(), [&](std::size_t p) { return region[cells.CellOfPixel(p)] == 0; });
-  if (static_cast<double>(staticPixels) < InScene.leastStaticFraction * static_cast<double>(pixels.size()))
+  if (static_cast<double>(staticPixels) < InScene.leastStaticFraction * static_cast<double>(pixels.size()) ||
+      static_cast<std::size_t>(staticPixels) < InScene.fewestPixels) // the model is fitted to them
   {
     return {};
   }
