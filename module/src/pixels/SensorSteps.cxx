@@ -23,6 +23,8 @@ namespace
 {
 /** Number of groups into which the pixels beside a boundary are divided. */
 constexpr std::size_t Groups = 16;
+/** Number of boundaries whose steps are compared, at least: their median size is then known to 30 %. */
+constexpr std::size_t FewestBoundaries = 16;
 
 /** Sums over the pairs of pixels on either side of each boundary between two columns or two rows, for each group. */
 struct BoundarySums
@@ -106,24 +108,29 @@ struct SensorStep
 std::optional<SensorStep>
 FindStep(const BoundarySums & sums, std::size_t across)
 {
-  if (sums.boundaries < 2)
-  {
-    return std::nullopt;
-  }
-  const double        fewest = InPattern.leastPairs * static_cast<double>(across);
-  std::vector<double> steps;
+  const double             fewest = InPattern.leastPairs * static_cast<double>(across);
+  std::vector<double>      steps;
+  std::vector<std::size_t> known; // the boundaries of the steps
   for (std::size_t b = 0; b < sums.boundaries; ++b)
   {
     const double signal = sums.Total(sums.signals, b);
-    const bool   isKnown = signal > 0.0 && sums.Total(sums.pairs, b) > fewest;
-    steps.push_back(isKnown ? sums.Total(sums.differences, b) / signal : 0.0);
+    if (signal > 0.0 && sums.Total(sums.pairs, b) > fewest)
+    {
+      steps.push_back(sums.Total(sums.differences, b) / signal);
+      known.push_back(b);
+    }
+  }
+  if (known.size() < FewestBoundaries)
+  {
+    return std::nullopt;
   }
   const double        usual = QuantileOf(steps, 0.5);
   std::vector<double> sizes;
   std::transform(
     steps.begin(), steps.end(), std::back_inserter(sizes), [usual](double own) { return std::abs(own - usual); });
   const auto   largest = std::max_element(sizes.begin(), sizes.end());
-  const auto   boundary = static_cast<std::size_t>(largest - sizes.begin());
+  const auto   place = static_cast<std::size_t>(largest - sizes.begin());
+  const auto   boundary = known[place];
   const double size = *largest;
   *largest = 0.0;
   const double chance = Significance.manyTests * QuantileOf(sizes, 0.5) / MedianOfNormal;
@@ -132,7 +139,7 @@ FindStep(const BoundarySums & sums, std::size_t across)
   {
     return std::nullopt;
   }
-  const double        step = steps[boundary] - usual;
+  const double        step = steps[place] - usual;
   std::vector<double> fractions; // each group's part of the step
   for (std::size_t k = 0; k < Groups; ++k)
   {
