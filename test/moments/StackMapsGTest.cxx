@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "moments/StackMaps.h"
 #include "sensornoise/Parallel.h"
+#include "base/PixelLayout.h"
 #include "sensornoise/Settings.h"
 #include "moments/StackMoments.h"
 #include "helpers/StackTestHelper.h"
@@ -245,4 +246,64 @@ TEST(SensorNoiseStackMaps, ScaledNumbersHaveTheirStep)
   }
   EXPECT_NEAR(MapsOf(scaled).summary.dnRange.quantisationStepDn, 1.0 / 65535.0, 1e-9);
   EXPECT_EQ(MapsOf(noisy).summary.dnRange.quantisationStepDn, 0.0);
+}
+
+TEST(SensorNoiseStackMaps, NumbersWithoutAGridHaveNoStep)
+{
+  const Stack<std::uint16_t> greyValues = StackBetween(std::nullopt, std::nullopt);
+  Stack<float>               coarse{ greyValues.width, greyValues.height, greyValues.frames, {} };
+  for (const std::uint16_t value : greyValues.pixels) // steps of 1/16 are the last digits at 10^6
+  {
+    coarse.pixels.push_back(1e6F + 1e-3F * static_cast<float>(value));
+  }
+  EXPECT_EQ(MapsOf(coarse).summary.dnRange.quantisationStepDn, 0.0);
+  for (const float stray : { 1e30F, -1e9F })
+  {
+    Stack<float> scaled = coarse;
+    for (std::size_t i = 0; i < greyValues.pixels.size(); ++i)
+    {
+      scaled.pixels[i] = static_cast<float>(greyValues.pixels[i]) + 0.001F * static_cast<float>(i % 997);
+    }
+    for (std::size_t t = 0; t < Frames; ++t)
+    {
+      scaled.pixels[t * Width * Height] = stray; // pixel 0, which is sampled
+    }
+    EXPECT_EQ(MapsOf(scaled).summary.dnRange.quantisationStepDn, 0.0) << stray;
+  }
+}
+
+TEST(SensorNoiseStackMaps, MaskedPixelsHaveNoPartInTheSummary)
+{
+  Stack<std::uint16_t>      stack = StackBetween(std::nullopt, 2000.0);
+  std::vector<std::uint8_t> mask(Width * Height, 1);
+  std::fill(mask.begin(), mask.begin() + Width * Height / 2, std::uint8_t{ 0 });
+  const auto mapsOf = [&] {
+    StackMoments<std::uint16_t> sums(Width * Height, Frames);
+    sums.AddFrames(stack.Frame(0), 0, Frames, SerialFor);
+    return MakeStackMaps<std::uint16_t>(sums.Take(), {}, SerialFor, mask);
+  };
+  const StackSummary before = mapsOf().summary;
+  for (std::size_t i = 0; i < stack.pixels.size(); ++i)
+  {
+    const std::size_t p = i % (Width * Height);
+    stack.pixels[i] = mask[p] == 0 ? std::uint16_t{ 4095 } : stack.pixels[i];
+  }
+  const StackSummary after = mapsOf().summary;
+  EXPECT_EQ(before.dnRange.clipHighDn, 2000.0);
+  EXPECT_EQ(after.dnRange.clipHighDn, before.dnRange.clipHighDn);
+  EXPECT_EQ(after.clipped, before.clipped);
+  EXPECT_EQ(after.dnRange.bitDepth, before.dnRange.bitDepth);
+}
+
+TEST(SensorNoiseStackMaps, FrameMeansAreOfFinitePixelsThatAreMeasured)
+{
+  std::vector<float> frame{ 10.0F, 20.0F, std::numeric_limits<float>::quiet_NaN(), 1000.0F };
+  for (const bool isMasked : { false, true })
+  {
+    const std::vector<std::uint8_t> mask{ 1, 1, 1, static_cast<std::uint8_t>(isMasked ? 0 : 1) };
+    StackMoments<float>             sums(frame.size(), 1);
+    StackMoments<float>::AddFrames(
+      { { &sums, PixelLayout::OfPixels(frame.size(), frame.size()), mask.data() } }, frame.data(), 0, 1, SerialFor);
+    EXPECT_EQ(sums.GetFrameMeans()[0], isMasked ? 15.0 : 1030.0 / 3.0);
+  }
 }

@@ -33,6 +33,8 @@ constexpr std::array<KindOfSeries, KurtosisSums::Kinds> KindsOfSeries{
  * series begins. Where a series extends beyond the end of a row or of the tile, its sums have no meaning. */
 struct PowerSums
 {
+  double unitDn2{ 1.0 }; ///< unit of the squares, near the noise variance: single precision holds the fourth powers then
+
   /** One cache line longer than a tile: sums a power of two apart would compete for the same places in the cache. */
   using OfPixels = std::array<float, SampleTiles::Side * SampleTiles::Side + 16>;
   std::array<OfPixels, KurtosisSums::Kinds> squares;
@@ -60,8 +62,11 @@ SumPowers(const NoiseResiduals & residuals, std::size_t i, PowerSums & sums)
   constexpr std::size_t padded = size + 8 * VSide; // a series may begin at the last pixel
   constexpr std::size_t together = 4;              // frames: the sums are loaded and stored a quarter as often
   const std::size_t     frames = residuals.GetTiles().frames;
+  const float * const   weight = residuals.WeightOf(i);
+  const float           largest = *std::max_element(weight, weight + size);
+  const double          factor = largest > 0.0F ? std::exp2(std::round(0.5 * std::log2(largest))) : 1.0; // exact
   std::vector<float>    values(together * padded, 0.0F);
-  CallWithAvx2([&] {
+  CallWithAvx2([&, multiplier = static_cast<float>(factor)] {
     PowerSums own{}; // no pointer can point into it, so that the loop over pixels is vectorized
     for (std::size_t first = 0; first < frames; first += together)
     {
@@ -69,8 +74,15 @@ SumPowers(const NoiseResiduals & residuals, std::size_t i, PowerSums & sums)
       for (std::size_t k = 0; k < together; ++k)
       {
         const float * frame = residuals.OfTile(i) + (first + k) * size;
-        k < count ? std::copy(frame, frame + size, values.data() + k * padded)
-                  : std::fill_n(values.data() + k * padded, size, 0.0F);
+        float * const to = values.data() + k * padded;
+        if (k < count)
+        {
+          std::transform(frame, frame + size, to, [multiplier](float value) { return multiplier * value; });
+        }
+        else
+        {
+          std::fill_n(to, size, 0.0F);
+        }
       }
       const float * const begin = values.data();
       for (std::size_t p = 0; p < size; ++p)
@@ -89,6 +101,7 @@ SumPowers(const NoiseResiduals & residuals, std::size_t i, PowerSums & sums)
     }
     sums = own;
   });
+  sums.unitDn2 = 1.0 / (factor * factor);
 }
 
 /** Number of consecutive pixels with a weight, from each pixel of a tile on: along x and along y. */
@@ -153,7 +166,7 @@ CountTail(const NoiseResiduals & residuals,
     {
       scale[p] = std::sqrt(weight[p]);
       pixels += 1.0;
-      energy += static_cast<double>(powers.squares[0][p]) * weight[p];
+      energy += static_cast<double>(powers.squares[0][p]) * powers.unitDn2 * weight[p];
     }
   }
   const Eigen::MatrixXd & basis = residuals.GetBasis();
@@ -232,7 +245,7 @@ KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKur
     for (std::size_t p = 0; p < side * side; ++p)
     {
       // Differences of pixels that are copies of each other contain rounding errors only.
-      if (powers.squares[kind][p] * weight[p] > least && taken.Hold(p, KindsOfSeries[kind], side))
+      if (powers.squares[kind][p] * powers.unitDn2 * weight[p] > least && taken.Hold(p, KindsOfSeries[kind], side))
       {
         const double square = powers.squares[kind][p];
         sums.series[kind] += 1.0;

@@ -93,18 +93,19 @@ RunSums
 SumUsable(const TPixel * from, const std::uint8_t * mask, std::size_t count)
 {
   RunSums sums;
-  double  last = std::numeric_limits<double>::quiet_NaN();
+  double  last = std::numeric_limits<double>::quiet_NaN(); // level of the pixel before, if it counts
   for (std::size_t i = 0; i < count; ++i)
   {
     const auto level = static_cast<double>(from[i]);
-    if (std::isfinite(level) && (mask == nullptr || mask[i] != 0))
+    const bool counts = std::isfinite(level) && (mask == nullptr || mask[i] != 0);
+    if (counts)
     {
       sums.sum += level;
       sums.pixels += 1.0;
       sums.steps += std::isfinite(last) ? (level - last) * (level - last) : 0.0;
       sums.pairs += std::isfinite(last) ? 1.0 : 0.0;
-      last = level;
     }
+    last = counts ? level : std::numeric_limits<double>::quiet_NaN();
   }
   return sums;
 }
@@ -160,14 +161,27 @@ FrameThumbnails::FrameThumbnails(const FrameGeometry &             geometry,
   m_UniformFractions.resize(frames, 0.0);
 }
 
+std::vector<double>
+FrameThumbnails::PixelsOfCells() const
+{
+  std::vector<double> pixels(m_Cells, 0.0);
+  for (const Run & run : m_Runs)
+  {
+    for (std::size_t p = run.begin; p < run.end; ++p)
+    {
+      pixels[run.cell] += m_Mask.empty() || m_Mask[p] != 0 ? 1.0 : 0.0;
+    }
+  }
+  return pixels;
+}
+
 double
 FrameThumbnails::PixelsOfCell() const
 {
-  const auto pixels =
-    std::accumulate(m_Runs.begin(), m_Runs.end(), std::size_t{ 0 }, [](std::size_t sum, const Run & run) {
-      return sum + run.end - run.begin;
-    });
-  return static_cast<double>(pixels) / static_cast<double>(m_Cells);
+  const std::vector<double> pixels = this->PixelsOfCells();
+  const auto                empty = std::count(pixels.begin(), pixels.end(), 0.0);
+  return std::accumulate(pixels.begin(), pixels.end(), 0.0) /
+         std::max(1.0, static_cast<double>(m_Cells) - static_cast<double>(empty));
 }
 
 std::vector<bool>
@@ -318,11 +332,10 @@ FrameThumbnails::FindCellVariances(const std::vector<std::size_t> & frames) cons
       }
     }
   }
-  std::vector<double>      pixels(m_Cells, 0.0);
-  std::vector<std::size_t> middle(m_Cells, 0);
+  const std::vector<double> pixels = this->PixelsOfCells();
+  std::vector<std::size_t>  middle(m_Cells, 0);
   for (const Run & run : m_Runs)
   {
-    pixels[run.cell] += static_cast<double>(run.end - run.begin);
     middle[run.cell] = (run.begin + run.end) / 2;
   }
   std::vector<CellVariance> variances;

@@ -108,7 +108,7 @@ public:
   {
     return m_Cells;
   }
-  /** Returns the mean number of sampled pixels of a cell. */
+  /** Returns the mean number of sampled pixels of a cell that has any. */
   double
   PixelsOfCell() const;
   /** Mean of a cell in frame \a t [DN]; NaN: it has no finite pixel. */
@@ -148,6 +148,10 @@ private:
 
   MeanFrame
   FindMeanFrame(const std::vector<std::size_t> & frames) const;
+
+  /** Returns the number of sampled pixels of each cell. */
+  std::vector<double>
+  PixelsOfCells() const;
 
   /** A part of a row of a cell. */
   struct Run

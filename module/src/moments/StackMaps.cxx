@@ -56,7 +56,7 @@ struct StackEnds
   {
     for (std::size_t p = begin; p < end; ++p)
     {
-      if (maps.IsFinite(p))
+      if (maps.IsMeasured(p))
       {
         low.Add(-maps.GetMinimum(p), 1);
         high.Add(maps.GetMaximum(p), 1);
@@ -84,7 +84,7 @@ MedianDepth(const TemporalMaps<TPixel> & maps, OutermostLevels::End end, const S
   std::vector<double> depths;
   for (std::size_t p = 0; p < maps.GetNumberOfPixels(); ++p)
   {
-    if (level.outwards == (isHigh ? maps.GetMaximum(p) : -maps.GetMinimum(p)) && maps.IsFinite(p))
+    if (level.outwards == (isHigh ? maps.GetMaximum(p) : -maps.GetMinimum(p)) && maps.IsMeasured(p))
     {
       const double distanceDn = level.outwards - (isHigh ? maps.mean[p] : -maps.mean[p]);
       depths.push_back(maps.variance[p] > 0.0 ? distanceDn / std::sqrt(maps.variance[p]) : 0.0);
@@ -100,7 +100,7 @@ LevelsAt(OutermostLevels::End end, const TemporalMaps<TPixel> & maps)
 {
   OutermostLevels levels(end);
   const auto      add = [&](std::size_t p) {
-    if (maps.IsFinite(p))
+    if (maps.IsMeasured(p))
     {
       levels.Add(end == OutermostLevels::End::High ? maps.GetMaximum(p) : maps.GetMinimum(p));
     }
@@ -133,7 +133,7 @@ TypicalVariance(const TemporalMaps<TPixel> & maps)
   std::vector<double> variances;
   for (std::size_t p = 0; p < pixels; p += std::max<std::size_t>(1, pixels / 8192))
   {
-    if (maps.IsFinite(p) && maps.variance[p] > 0.0)
+    if (maps.IsMeasured(p) && maps.variance[p] > 0.0)
     {
       variances.push_back(maps.variance[p]);
     }
@@ -153,7 +153,7 @@ FindDnRangeOfIntegers(const TemporalMaps<TPixel> & maps, const DnSettings & sett
     DnHistogram & extremes = isHigh == 1 ? maxima : minima;
     for (std::size_t p = 0; p < maps.GetNumberOfPixels(); ++p)
     {
-      if (maps.IsFinite(p))
+      if (maps.IsMeasured(p))
       {
         extremes.Add(isHigh == 1 ? maps.GetMaximum(p) : maps.GetMinimum(p));
       }
@@ -190,7 +190,7 @@ FindStepOfFloating(const TemporalMaps<TPixel> & maps)
   std::vector<double> levels;
   for (std::size_t p = 0; p < pixels; p += std::max<std::size_t>(1, pixels / 8192))
   {
-    if (maps.IsFinite(p))
+    if (maps.IsMeasured(p))
     {
       levels.push_back(maps.GetMinimum(p));
     }
@@ -203,16 +203,24 @@ FindStepOfFloating(const TemporalMaps<TPixel> & maps)
   }
   const double digits = std::numeric_limits<TPixel>::epsilon() * std::max(std::abs(levels.front()), levels.back());
   const double range = levels.back() - levels.front();
-  double       least = range;
+  std::vector<double> spacings; // of which the digits leave something
   for (std::size_t i = 1; i < levels.size(); ++i)
   {
     const double spacing = levels[i] - levels[i - 1];
-    least = spacing > InMoments.leastStepInDigits * digits ? std::min(least, spacing) : least;
+    if (spacing > InMoments.leastStepInDigits * digits)
+    {
+      spacings.push_back(spacing);
+    }
   }
-  double steps = 0.0; // counted from level to level, because the digits round the smallest spacing
-  for (std::size_t i = 1; i < levels.size(); ++i)
+  if (spacings.size() + 1 < InMoments.fewestLevelsOfGrid)
   {
-    steps += std::round((levels[i] - levels[i - 1]) / least);
+    return 0.0;
+  }
+  const double least = *std::min_element(spacings.begin(), spacings.end());
+  double       steps = 0.0; // counted from level to level, because the digits round the smallest spacing
+  for (const double spacing : spacings)
+  {
+    steps += std::round(spacing / least);
   }
   const double step = range / steps;
   const bool   isGrid = std::all_of(levels.begin(), levels.end(), [&](double level) {
@@ -297,14 +305,15 @@ SummariseStack(const TemporalMaps<TPixel> & maps,
     StackSummary & count = counts[begin / PixelsPerBlock];
     for (std::size_t p = begin; p < end; ++p)
     {
-      const bool finite = maps.IsFinite(p);
-      const bool isLow = finite && summary.dnRange.IsClippedLow(maps.GetMinimum(p));
-      const bool isHigh = finite && summary.dnRange.IsClippedHigh(maps.GetMaximum(p));
+      const bool        finite = maps.IsFinite(p);
+      const bool        isLow = finite && summary.dnRange.IsClippedLow(maps.GetMinimum(p));
+      const bool        isHigh = finite && summary.dnRange.IsClippedHigh(maps.GetMaximum(p));
+      const std::size_t one = maps.mask == nullptr || maps.mask[p] != 0 ? 1 : 0;
       valid[p] = finite && !isLow && !isHigh ? 1 : 0;
-      count.clipped += isLow || isHigh ? 1 : 0;
-      count.clippedLow += isLow ? 1 : 0;
-      count.clippedHigh += isHigh ? 1 : 0;
-      count.notFinite += finite ? 0 : 1;
+      count.clipped += isLow || isHigh ? one : 0;
+      count.clippedLow += isLow ? one : 0;
+      count.clippedHigh += isHigh ? one : 0;
+      count.notFinite += finite ? 0 : one;
     }
   });
   for (const StackSummary & count : counts)
@@ -319,10 +328,15 @@ SummariseStack(const TemporalMaps<TPixel> & maps,
 
 template <typename TPixel>
 StackMaps
-MakeStackMaps(TemporalMoments<TPixel> moments, const DnSettings & settings, const ParallelFor & parallelFor)
+MakeStackMaps(TemporalMoments<TPixel>           moments,
+              const DnSettings &                settings,
+              const ParallelFor &               parallelFor,
+              const std::vector<std::uint8_t> & mask)
 {
   TemporalMaps<TPixel> ofStack = moments.TakeMaps(parallelFor);
   StackMaps            maps;
+  const bool           hasMeasured = std::any_of(mask.begin(), mask.end(), [](std::uint8_t own) { return own != 0; });
+  ofStack.mask = hasMeasured ? mask.data() : nullptr; // without any, the report says what the whole frames are
   maps.valid.resize(ofStack.GetNumberOfPixels());
   maps.summary = SummariseStack(ofStack, settings, parallelFor, maps.valid.data());
   maps.mean = std::move(ofStack.mean);
@@ -338,7 +352,7 @@ SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 
 #define SensorNoise_INSTANTIATE(TPixel)                        \
   template SensorNoise_EXPORT StackMaps MakeStackMaps<TPixel>( \
-    TemporalMoments<TPixel>, const DnSettings &, const ParallelFor &)
+    TemporalMoments<TPixel>, const DnSettings &, const ParallelFor &, const std::vector<std::uint8_t> &)
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 #undef SensorNoise_INSTANTIATE
 

@@ -151,30 +151,52 @@ FrameFingerprints::FindDistinct() const
 namespace
 {
 
-/** Returns the sum of the finite pixels among \a count pixels, at most a block of fingerprints: 32 bits hold the sum of
- * its integers. */
+/** Sum of some pixels, and their number. */
+struct PixelSum
+{
+  double sum{ 0.0 };
+  double pixels{ 0.0 };
+
+  PixelSum &
+  operator+=(const PixelSum & other)
+  {
+    sum += other.sum;
+    pixels += other.pixels;
+    return *this;
+  }
+};
+
+/** Returns the sum of the pixels that are finite, and nonzero in \a mask if that is not null, among \a count pixels, at
+ * most a block of fingerprints: 32 bits hold the sum of its integers. */
 template <typename TPixel>
-double
-SumOfPixels(const TPixel * pixels, std::size_t count)
+PixelSum
+SumOfPixels(const TPixel * pixels, const std::uint8_t * mask, std::size_t count)
 {
   if constexpr (std::is_integral_v<TPixel>)
   {
-    static_assert(FingerprintBlockBytes <= 32768 && sizeof(TPixel) <= 2);
-    std::int32_t sum = 0;
-    CallWithAvx2([&] {
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        sum += pixels[i];
-      }
-    });
-    return sum;
+    if (mask == nullptr)
+    {
+      static_assert(FingerprintBlockBytes <= 32768 && sizeof(TPixel) <= 2);
+      std::int32_t sum = 0;
+      CallWithAvx2([&] {
+        for (std::size_t i = 0; i < count; ++i)
+        {
+          sum += pixels[i];
+        }
+      });
+      return { static_cast<double>(sum), static_cast<double>(count) };
+    }
   }
-  else
+  PixelSum all;
+  for (std::size_t i = 0; i < count; ++i)
   {
-    return std::accumulate(pixels, pixels + count, 0.0, [](double sum, TPixel value) {
-      return std::isfinite(value) ? sum + static_cast<double>(value) : sum;
-    });
+    const auto value = static_cast<double>(pixels[i]);
+    if (std::isfinite(value) && (mask == nullptr || mask[i] != 0))
+    {
+      all += { value, 1.0 };
+    }
   }
+  return all;
 }
 
 /** Mean and fingerprint of a frame of a plane. */
@@ -186,37 +208,41 @@ struct MeanAndFingerprint
 
 /** Computes the mean and the fingerprint of every frame of every plane. The order is by plane, then by frame. Each
  * pixel is loaded into the cache once. */
-template <typename TPixel>
+template <typename TPixel, typename TPlane>
 std::vector<MeanAndFingerprint>
-FindMeansAndFingerprints(const std::vector<PixelLayout> & planes,
-                         std::size_t                      pixels,
-                         const TPixel *                   frames,
-                         std::size_t                      count,
-                         const ParallelFor &              parallelFor)
+FindMeansAndFingerprints(const std::vector<TPlane> & planes,
+                         std::size_t                 pixels,
+                         const TPixel *              frames,
+                         std::size_t                 count,
+                         const ParallelFor &         parallelFor)
 {
   constexpr std::size_t         blockPixels = FingerprintBlockBytes / sizeof(TPixel);
   const std::size_t             blocks = NumberOfFingerprintBlocks(pixels * sizeof(TPixel));
-  std::vector<double>           sums(planes.size() * count * blocks);
+  std::vector<PixelSum>         sums(planes.size() * count * blocks);
   std::vector<BytesFingerprint> fingerprints(sums.size());
   parallelFor(count * blocks, [&](std::size_t i) {
-    std::vector<TPixel> buffer(planes.front().AreSideBySide() ? 0 : blockPixels);
+    std::vector<TPixel> buffer(planes.front().layout.AreSideBySide() ? 0 : blockPixels);
     const std::size_t   begin = i % blocks * blockPixels;
     const std::size_t   end = std::min(pixels, begin + blockPixels);
     for (std::size_t plane = 0; plane < planes.size(); ++plane)
     {
-      const PixelLayout &  layout = planes[plane];
-      const TPixel * const block = layout.SideBySide(frames + i / blocks * layout.frame, begin, end, buffer.data());
+      const PixelLayout &        layout = planes[plane].layout;
+      const std::uint8_t * const mask = planes[plane].mask;
+      const TPixel * const       block = layout.SideBySide(frames + i / blocks * layout.frame, begin, end, buffer.data());
       fingerprints[plane * count * blocks + i] = FingerprintOfBlock(block, (end - begin) * sizeof(TPixel));
-      sums[plane * count * blocks + i] = SumOfPixels(block, end - begin);
+      sums[plane * count * blocks + i] = SumOfPixels(block, mask == nullptr ? mask : mask + begin, end - begin);
     }
   });
   std::vector<MeanAndFingerprint> found;
   for (std::size_t i = 0; i < sums.size(); i += blocks)
   {
-    const double * const           sum = sums.data() + i;
     const BytesFingerprint * const block = fingerprints.data() + i;
-    found.push_back({ std::accumulate(sum, sum + blocks, 0.0) / static_cast<double>(pixels),
-                      FingerprintOfBlocks(block, block + blocks) });
+    PixelSum                       all;
+    for (std::size_t b = 0; b < blocks; ++b)
+    {
+      all += sums[i + b];
+    }
+    found.push_back({ all.sum / std::max(1.0, all.pixels), FingerprintOfBlocks(block, block + blocks) });
   }
   return found;
 }
@@ -239,14 +265,8 @@ StackMoments<TPixel>::AddFrames(const std::vector<Plane> & planes,
                                 std::size_t                count,
                                 const ParallelFor &        parallelFor)
 {
-  std::vector<PixelLayout> layouts;
-  layouts.reserve(planes.size());
-  for (const Plane & plane : planes)
-  {
-    layouts.push_back(plane.layout);
-  }
   const std::size_t  pixels = planes.front().moments->m_Pixels;
-  const auto         found = FindMeansAndFingerprints(layouts, pixels, frames, count, parallelFor);
+  const auto         found = FindMeansAndFingerprints(planes, pixels, frames, count, parallelFor);
   std::vector<Plane> together;
   for (std::size_t i = 0; i < planes.size(); ++i)
   {

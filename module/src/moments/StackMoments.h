@@ -111,14 +111,16 @@ public:
   void
   AddFrames(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor)
   {
-    AddFrames({ { this, PixelLayout::OfPixels(m_Pixels, m_Pixels) } }, frames, first, count, parallelFor);
+    AddFrames({ { this, PixelLayout::OfPixels(m_Pixels, m_Pixels), nullptr } }, frames, first, count, parallelFor);
   }
 
-  /** The moments of one of the planes of a mosaic, and the layout of its pixels. */
+  /** The moments of one of the planes of a mosaic, the layout of its pixels, and its mask, which is 0 at the pixels that
+   * the means of the frames leave out; null: they leave out none. */
   struct Plane
   {
-    StackMoments * moments;
-    PixelLayout    layout;
+    StackMoments *       moments;
+    PixelLayout          layout;
+    const std::uint8_t * mask{ nullptr };
   };
   /** Adds the frames to all \a planes, of one size. A row is read for all planes while it is in the cache. */
   static void
@@ -160,7 +162,7 @@ public:
   TemporalMoments<TPixel>
   Take();
 
-  /** Means of all frames, also of the frames that were not summed [DN]. */
+  /** Means over the finite pixels of all frames, also of the frames that were not summed [DN]. */
   const std::vector<double> &
   GetFrameMeans() const
   {

@@ -94,12 +94,12 @@ StackPasses<TPixel>::AddToMoments(const std::vector<StackPasses *> & planes,
     first = plane->m_InPass.Add(count);
     if (isFirst)
     {
-      moments.push_back({ &plane->m_Moments, plane->m_Layout });
+      moments.push_back({ &plane->m_Moments, plane->m_Layout, plane->MaskOrNull() });
       plane->m_Thumbnails.AddFrames(frames, plane->m_Layout, first, count, parallelFor);
       continue;
     }
     plane->m_Distinct.ForRuns(first, count, [&, at = first](std::size_t begin, std::size_t number) {
-      StackMoments<TPixel>::AddFrames({ { &plane->m_Moments, plane->m_Layout } },
+      StackMoments<TPixel>::AddFrames({ { &plane->m_Moments, plane->m_Layout, plane->MaskOrNull() } },
                                       frames + (begin - at) * plane->m_Layout.frame,
                                       begin,
                                       number,

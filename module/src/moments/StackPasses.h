@@ -212,6 +212,13 @@ protected:
                        FrameFault                       fault,
                        double                           largestFraction = InMoments.largestLeftOutFraction);
 
+  /** Returns the mask of the user; null: there is none. */
+  const std::uint8_t *
+  MaskOrNull() const
+  {
+    return m_UserMask.empty() ? nullptr : m_UserMask.data();
+  }
+
   /** Returns whether the current pass sums moments. */
   bool
   IsOfMoments() const

@@ -33,6 +33,7 @@ struct TemporalMaps
                                 ///< mean is not
   std::vector<Extreme> minimum; ///< lowest value over time, minus Centre [DN]
   std::vector<Extreme> maximum; ///< highest value over time, minus Centre [DN]
+  const std::uint8_t * mask{ nullptr }; ///< 0 at the pixels that are not measured; null: all are
 
   std::size_t
   GetNumberOfPixels() const
@@ -44,6 +45,12 @@ struct TemporalMaps
   IsFinite(std::size_t p) const
   {
     return std::is_integral_v<TPixel> || std::isfinite(mean[p]);
+  }
+  /** Returns whether pixel \a p is to be measured, and was finite in every frame. */
+  bool
+  IsMeasured(std::size_t p) const
+  {
+    return this->IsFinite(p) && (mask == nullptr || mask[p] != 0);
   }
   /** Lowest and highest value of pixel \a p over time [DN]; frames where it is NaN are ignored. */
   double

@@ -139,7 +139,7 @@ template <typename TPixel>
 PublishedScene
 PublishedPasses<TPixel>::EndMoments()
 {
-  StackMaps      maps = MakeStackMaps<TPixel>(m_Moments.Take(), m_Settings.dnSettings, m_ParallelFor);
+  StackMaps      maps = MakeStackMaps<TPixel>(m_Moments.Take(), m_Settings.dnSettings, m_ParallelFor, m_UserMask);
   PublishedScene scene;
   scene.summary = maps.summary;
   scene.mean = std::move(maps.mean);

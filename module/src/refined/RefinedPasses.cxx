@@ -4,6 +4,7 @@
 
 #include "base/BinaryStream.h"
 #include "base/FreeMemory.h"
+#include "base/Text.h"
 #include "sensornoise/FrameGeometry.h"
 #include "moments/Constants.h"
 #include "moments/DarkFrames.h"
@@ -255,7 +256,7 @@ template <typename TPixel>
 void
 RefinedPasses<TPixel>::EndMoments()
 {
-  StackMaps                 maps = MakeStackMaps<TPixel>(m_Moments.Take(), m_Settings.dnSettings, m_ParallelFor);
+  StackMaps                 maps = MakeStackMaps<TPixel>(m_Moments.Take(), m_Settings.dnSettings, m_ParallelFor, m_UserMask);
   const std::vector<double> levels = m_Distinct.OfDistinct(m_Moments.GetFrameMeans());
   m_ExposureFit = FitExposures(m_Settings.exposures, m_Thumbnails, m_Distinct.Counted(), maps);
   const bool isStrong = m_Thumbnails.FindIlluminationChange(m_Distinct.Counted()) > InMoments.strongIlluminationChange;
@@ -287,6 +288,28 @@ RefinedPasses<TPixel>::NoiseOfDarkestFrame() const
   return m_Thumbnails.NoiseOf(counted[static_cast<std::size_t>(darkest)]) * m_Thumbnails.PixelsOfCell();
 }
 
+namespace
+{
+/** Limits of the standard deviation of the noise of floating-point frames [unit of the frames]. Chosen for the noise
+ * correlation, which sums squares of up to 256 values of six standard deviations in single precision: they are within
+ * its range, from 1e-38 to 3e38. */
+constexpr double SmallestNoise = 1e-16;
+constexpr double LargestNoise = 1e16;
+
+/** Throws NothingToMeasure if the noise is too small or too large for the unit of the frames. */
+void
+RequireUnitOfFrames(const InitialNoiseModel & model)
+{
+  const double noise = std::sqrt(model.NoiseVariance(model.centreDn));
+  if (noise < SmallestNoise || noise > LargestNoise)
+  {
+    throw NothingToMeasure("the standard deviation of the noise is " + Text(noise) +
+                           " in the unit of the frames; expected 1e-16 to 1e+16. Multiply the frames by a constant, such as " +
+                           Text(std::pow(10.0, -std::floor(std::log10(noise)))));
+  }
+}
+} // namespace
+
 template <typename TPixel>
 void
 RefinedPasses<TPixel>::MakeScene(StackMaps maps, std::optional<StrongChange> strongChange)
@@ -307,6 +330,7 @@ RefinedPasses<TPixel>::MakeScene(StackMaps maps, std::optional<StrongChange> str
   }
   if (std::is_floating_point_v<TPixel>)
   {
+    RequireUnitOfFrames(m_Scene->model);
     m_Settings.RequireOffsetWithin(1000.0 * LargestMeanDn(m_Scene->frame.mean),
                                    "1000 times the largest level of the frames");
   }

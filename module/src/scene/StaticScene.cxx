@@ -219,14 +219,14 @@ LeaveOutBorder(std::vector<std::uint8_t> & valid, const MaskedBorder & border, c
 /** Marks the pixels that may be saturated as not valid, so that they are no neighbours of other pixels. The level of
  * the wells becomes the upper clip level. */
 void
-LeaveOutFullWells(StackMaps & maps, const FullWells & wells)
+LeaveOutFullWells(StackMaps & maps, const FullWells & wells, const std::vector<std::uint8_t> & userMask)
 {
   std::size_t pixels = 0;
   for (std::size_t p = 0; p < maps.valid.size(); ++p)
   {
     const bool isFull = maps.valid[p] != 0 && maps.mean[p] > wells.firstLevelDn;
     maps.valid[p] = isFull ? 0 : maps.valid[p];
-    pixels += isFull ? 1 : 0;
+    pixels += isFull && (userMask.empty() || userMask[p] != 0) ? 1 : 0;
   }
   maps.summary.clipped += pixels;
   maps.summary.clippedHigh += pixels;
@@ -234,6 +234,16 @@ LeaveOutFullWells(StackMaps & maps, const FullWells & wells)
   const double step = dnRange.quantisationStepDn;
   dnRange.clipHighDn = step > 0.0 ? step * std::round(wells.levelDn / step) : wells.levelDn;
   dnRange.SetClipSources(dnRange.GetLowClipSource(), "full wells");
+}
+
+/** Sets to 0 what is 0 in \a userMask, which may be empty. */
+void
+ApplyMask(const std::vector<std::uint8_t> & userMask, std::vector<std::uint8_t> & map)
+{
+  for (std::size_t p = 0; p < userMask.size(); ++p)
+  {
+    map[p] = userMask[p] == 0 ? 0 : map[p];
+  }
 }
 
 /** Sets the use of the pixels of the masked border, and of the pixels beside it, which have no centred difference. */
@@ -291,24 +301,28 @@ MakeStaticScene(StackMaps                         maps,
   SceneAndOutliers            made;
   StaticScene &               scene = made.scene;
   scene.changesStrongly = strongChange.has_value();
+  // Border and full wells are those of the pixels that are measured, but the others may serve as their neighbours.
+  std::vector<std::uint8_t> withMasked = userMask.empty() ? std::vector<std::uint8_t>() : valid;
+  ApplyMask(userMask, valid);
   scene.border = FindMaskedBorder(maps.mean, valid, geometry);
   LeaveOutBorder(valid, scene.border, geometry);
   scene.fullWells = FindFullWells(maps, geometry);
+  if (!withMasked.empty())
+  {
+    valid = std::move(withMasked);
+    LeaveOutBorder(valid, scene.border, geometry);
+  }
   if (scene.fullWells)
   {
-    LeaveOutFullWells(maps, *scene.fullWells);
+    LeaveOutFullWells(maps, *scene.fullWells, userMask);
   }
   scene.summary = maps.summary;
   scene.frame =
     MakeReferenceFrame(std::move(maps.mean), std::move(maps.variance), valid, geometry, frames, parallelFor);
   scene.pixelUse = FindPixelUse(scene.frame, valid, userMask, parallelFor);
   MarkBorder(scene);
-  // After the reference frame: a masked pixel may serve as a neighbour.
-  for (std::size_t p = 0; p < userMask.size(); ++p)
-  {
-    valid[p] = userMask[p] == 0 ? 0 : valid[p];
-    scene.frame.usable[p] = userMask[p] == 0 ? 0 : scene.frame.usable[p];
-  }
+  ApplyMask(userMask, valid);
+  ApplyMask(userMask, scene.frame.usable);
   scene.valid = static_cast<std::size_t>(std::count(valid.begin(), valid.end(), std::uint8_t{ 1 }));
   try
   {
