@@ -53,6 +53,7 @@ MapFiles::NamesIn(const fs::path & folder, bool hasDark)
 }
 
 MapFiles::MapFiles(const fs::path & folder, bool hasDark)
+  : m_Folder(folder)
 {
   std::error_code error;
   fs::path        path = folder;
@@ -90,6 +91,23 @@ MapFiles::~MapFiles()
 }
 
 void
+MapFiles::RemoveOldCalibration() const
+{
+  const std::vector<std::string> names = NamesIn(m_Folder, true);
+  for (std::size_t i = m_Written; i < names.size(); ++i)
+  {
+    std::error_code error;
+    fs::remove(names[i], error);
+    if (error)
+    {
+      throw std::runtime_error("cannot remove " + names[i] +
+                               " (--maps), which an earlier estimate wrote: " + error.message() +
+                               "; expected a folder without it. Remove it, or write to another folder");
+    }
+  }
+}
+
+void
 MapFiles::WriteCalibration(const IntervalMap & offset, const IntervalMap & readNoise)
 {
   m_Written = 4;
@@ -110,6 +128,7 @@ MapFiles::Write(const MapType *      mean,
   WriteMap(correctedVariance, m_Files[2]);
   WriteMap(pixelUse, m_Files[3]);
   m_Written = std::max<std::size_t>(m_Written, 4);
+  RemoveOldCalibration();
   for (std::size_t i = 0; i < m_Written; ++i)
   {
     m_Files[i].Commit();

@@ -33,7 +33,8 @@ public:
     const MapType * high;
   };
 
-  /** Returns the names of the files. With \a hasDark they include the maps of the calibration. */
+  /** Returns the names of the files. With \a hasDark they include the maps of the calibration, which are removed from
+   * the folder where none are written. */
   static std::vector<std::string>
   NamesIn(const std::filesystem::path & folder, bool hasDark);
 
@@ -53,6 +54,11 @@ public:
   WriteCalibration(const IntervalMap & offset, const IntervalMap & readNoise);
 
 private:
+  /** Removes the maps of the calibration of an earlier estimate, which are of other pixels. */
+  void
+  RemoveOldCalibration() const;
+
+  std::filesystem::path              m_Folder;
   std::vector<std::filesystem::path> m_Made; // folders that were made, the outermost first
   std::deque<SignalCleanup>          m_AtSignal;
   std::deque<PendingFile>            m_Files; // files of the maps, in the order of NamesIn()

@@ -136,7 +136,7 @@ RequireOutputsApart(const EstimateOptions & options)
   }
   if (!options.maps.empty())
   {
-    for (const std::string & map : MapFiles::NamesIn(options.maps, !options.dark.empty()))
+    for (const std::string & map : MapFiles::NamesIn(options.maps, true))
     {
       files.Write(map, "--maps");
     }

@@ -140,3 +140,44 @@ TEST_F(MapExport, AReportWithoutMapsIsRefused)
   noise.maps.readNoiseDn.pop_back();
   EXPECT_THROW(ExportNoise("maps", { noise }), ExportError);
 }
+
+// The maps have 3 x 2 pixels, and offsets from 0 to 201 DN.
+TEST_F(MapExport, MapsOfOtherFramesAreRefused)
+{
+  const auto isRefused = [](const CameraNoise & noise, const std::vector<std::string> & parts) {
+    try
+    {
+      ExportNoise("maps", { noise });
+      ADD_FAILURE() << "was exported";
+    }
+    catch (const ExportError & error)
+    {
+      for (const std::string & part : parts)
+      {
+        EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << part << " is not in: " << error.what();
+      }
+    }
+  };
+  m_Report.numbers["/width"] = 3;
+  m_Report.numbers["/height"] = 2;
+  EXPECT_EQ(ExportNoise("maps", { NoiseWithMaps() }).files.size(), 5U);
+  m_Report.numbers["/height"] = 3;
+  isRefused(NoiseWithMaps(), { "3 x 2 pixels", "report.json have 3 x 3 pixels", "--dark", "--maps" });
+  m_Report.numbers["/height"] = 2;
+  SetQuantity("/offset", 250.0);
+  isRefused(NoiseWithMaps(), { "0 to 201 DN", "offset of 250 DN" });
+  m_Report.numbers["/offset/standard_error"] = 20.0;
+  EXPECT_NO_THROW(ExportNoise("maps", { NoiseWithMaps() }));
+}
+
+// The planes of 3 x 2 pixels have 1 x 1 pixel each: the last column belongs to none.
+TEST_F(MapExport, MapsOfAMosaicHaveTwiceTheSizeOfItsPlanes)
+{
+  MakeMosaic();
+  m_Report.numbers["/channels/0/width"] = 1;
+  m_Report.numbers["/channels/0/height"] = 1;
+  EXPECT_EQ(ExportNoise("maps", { NoiseWithMaps() }).files.size(), 2U);
+  m_Report.numbers["/channels/0/width"] = 3;
+  m_Report.numbers["/channels/0/height"] = 2;
+  EXPECT_THROW(ExportNoise("maps", { NoiseWithMaps() }), ExportError);
+}

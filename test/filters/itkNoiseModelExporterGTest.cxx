@@ -84,12 +84,12 @@ TEST_F(NoiseModelExporter, TakesMaps)
   map->SetRegions(itk::Size<2>{ { 2, 1 } });
   EXPECT_THROW(exporter->SetMaps(map, map), itk::ExceptionObject) << "no pixels";
   map->Allocate();
-  map->SetPixel({ { 0, 0 } }, 3.0);
-  map->SetPixel({ { 1, 0 } }, 4.0);
+  map->SetPixel({ { 0, 0 } }, 64.0);
+  map->SetPixel({ { 1, 0 } }, 65.0);
   exporter->SetMaps(map, map);
   exporter->Export("maps");
   sensornoise::CameraNoise expected = sensornoise::ReadCameraNoise(m_Report);
-  expected.maps = { 2, 1, { 3.0, 4.0 }, { 3.0, 4.0 } };
+  expected.maps = { 2, 1, { 64.0, 65.0 }, { 64.0, 65.0 } };
   const auto made = sensornoise::ExportNoise("maps", { expected });
   ASSERT_EQ(exporter->GetNumberOfFiles(), made.files.size());
   for (unsigned int i = 0; i < exporter->GetNumberOfFiles(); ++i)

@@ -117,6 +117,24 @@ TEST_F(EstimateDarkTool, MapsHoldOffsetAndReadNoiseOfEachPixel)
   }
 }
 
+TEST_F(EstimateDarkTool, MapsOfAnEarlierEstimateAreRemoved)
+{
+  const std::string stack = Write("s.mha", MakeBurst().GetPointer());
+  Write("d.mha", MakeDark(12).GetPointer());
+  const std::string one = WriteList<unsigned short>(MakeDark(1), ".tif").front();
+  for (const std::string & later : { stack + " --maps m", stack + " --maps m --dark " + one })
+  {
+    ReportOf(stack + " --maps m --dark d.mha");
+    ASSERT_EQ(FilesLeft().count("m/pixel_read_noise_high.mha"), 1u);
+    ReportOf(later);
+    EXPECT_EQ(FilesLeft().count("m/mean.mha"), 1u);
+    for (const std::string & file : FilesLeft())
+    {
+      EXPECT_TRUE(file == "m/pixel_use.mha" || file.rfind("m/pixel_", 0) == std::string::npos) << file;
+    }
+  }
+}
+
 TEST_F(EstimateDarkTool, AnOffsetThatIsGivenStandsInsideItsLimits)
 {
   const std::string    stack = Write("s.mha", MakeBurst().GetPointer());

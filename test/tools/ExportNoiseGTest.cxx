@@ -101,6 +101,10 @@ TEST_F(ExportToolTest, WritesTheMapsOfAFolderIntoAFolder)
   EXPECT_EQ(Read<MapType>(Path("out/SERIAL_off.tiff"))->GetPixel({ { 2, 1 } }), 64.0);
   EXPECT_EQ(Read<MapType>(Path("out/SERIAL_var.tiff"))->GetPixel({ { 2, 1 } }), 2.25);
   EXPECT_EQ(Read<MapType>(Path("out/variance_ms.tif"))->GetPixel({ { 2, 1 } }), 9.0);
+  m_Report["width"] = 128;
+  m_Report["height"] = 96;
+  WriteText("report.json", m_Report.dump());
+  IsRefusedBy("report.json --format maps --maps maps --output out", { "3 x 2 pixels", "report.json have 128 x 96" }, 3);
 }
 
 TEST_F(ExportToolTest, RefusesWithASentence)

@@ -91,6 +91,7 @@ TEST_F(OutputFilesTool, WhatIsReadIsNotWritten)
   LeavesAll(m_Tool + "s.mha --json dark.json --dark d.mha", { "dark.json", "the dark frame d.mha" });
   fs::copy(Path("d.mha"), Path("maps/pixel_offset.mha"));
   LeavesAll(m_Tool + "d.mha --maps maps --dark maps/pixel_offset.mha", { "maps/pixel_offset.mha (--maps)", "same" });
+  LeavesAll(m_Tool + "maps/pixel_offset.mha --maps maps", { "maps/pixel_offset.mha (--maps)", "same" });
 }
 
 TEST_F(OutputFilesTool, PixelsOfAHeaderAreNotWritten)

@@ -90,6 +90,8 @@ struct CameraNoise
   std::optional<double>       isoSpeed;
   std::optional<double>       exposureSeconds; ///< exposure time [s]
   std::optional<unsigned int> bitDepth;        ///< bit depth of the digital numbers [bit]
+  std::size_t                 width{ 0 };      ///< columns that were measured, of each plane of a mosaic; 0: not known
+  std::size_t                 height{ 0 };     ///< rows that were measured, of each plane of a mosaic; 0: not known
   double                      analogueGain{ 1.0 };
   std::optional<double>       maxAnalogueIso;
   double                      excessNoiseFactor{ 1.0 }; ///< F [1]: the slope of the sensor's variance is F times g

@@ -149,6 +149,46 @@ SquaresOf(const std::vector<double> & values, double factor)
   return squares;
 }
 
+bool
+IsMosaic(const CameraNoise & noise)
+{
+  return std::any_of(
+    noise.channels.begin(), noise.channels.end(), [](const ChannelNoise & each) { return each.channel != "mono"; });
+}
+
+/** Throws ExportError unless the maps are of the pixels of the report: of its size, or of twice its size where its
+ * channels are the planes of a mosaic, and with the offset of each channel among the offsets of the pixels. */
+void
+RequireMapsOfReport(const CameraNoise & noise)
+{
+  const NoiseMaps & maps = noise.maps;
+  const char *      advice = "expected the maps of the same estimate. Estimate again, with --dark, --json and --maps.";
+  const std::size_t planes = IsMosaic(noise) ? 2 : 1;
+  const auto        size = [planes](std::size_t width, std::size_t height) {
+    return std::to_string(planes * width) + " x " + std::to_string(planes * height) + " pixels";
+  };
+  if (noise.width != 0 && noise.height != 0 &&
+      (maps.width / planes != noise.width || maps.height / planes != noise.height))
+  {
+    throw ExportError("the maps have " + std::to_string(maps.width) + " x " + std::to_string(maps.height) +
+                      " pixels, and the frames of the report " + noise.name + " have " +
+                      size(noise.width, noise.height) + "; " + advice);
+  }
+  const auto [lowest, highest] = std::minmax_element(maps.offsetDn.begin(), maps.offsetDn.end());
+  for (const ChannelNoise & channel : noise.channels)
+  {
+    constexpr double mostErrors = 4.0; // standard errors of an offset that still agrees
+    const double     tolerance = mostErrors * channel.offset.standardError.value_or(0.0);
+    if (channel.offset.value &&
+        (*channel.offset.value < *lowest - tolerance || *channel.offset.value > *highest + tolerance))
+    {
+      throw ExportError("the map of the offset has " + Text(*lowest) + " to " + Text(*highest) +
+                        " DN, and the report " + noise.name + " has an offset of " + Text(*channel.offset.value) +
+                        " DN; " + advice);
+    }
+  }
+}
+
 /** Returns the exposure as PYME writes it into the names of maps, "10ms"; "ms" if it is not known. */
 std::string
 ExposureInName(const CameraNoise & noise)
@@ -200,6 +240,7 @@ ExportMaps(const CameraNoise & noise)
                       " has no maps of the offset and the read noise of its pixels. Estimate with dark frames (--dark) "
                       "and --maps, and give the folder (--maps).");
   }
+  RequireMapsOfReport(noise);
   const auto tiff = [&maps](const std::vector<double> & values) { return FloatTiff(values, maps.width, maps.height); };
   const auto matrix = [&maps](const char * name, const std::vector<double> & values) {
     return MatMatrix(name, values, maps.width, maps.height);

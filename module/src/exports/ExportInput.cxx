@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -70,6 +72,14 @@ ChannelAt(const StoredReport & report, const std::string & at)
   return channel;
 }
 
+/** Returns the columns or rows that were measured, which are numbers of 31 bits; 0: the report does not have them. */
+std::size_t
+SizeAt(const StoredReport & report, const std::string & pointer)
+{
+  const double size = NumberAt(report, pointer).value_or(0.0);
+  return size >= 1.0 && size <= INT32_MAX ? static_cast<std::size_t>(size) : 0;
+}
+
 void
 ReadCameraSettings(const StoredReport & report, CameraNoise & noise)
 {
@@ -85,6 +95,8 @@ ReadCameraSettings(const StoredReport & report, CameraNoise & noise)
     either(noise.exposureSeconds, "exposure_seconds");
     noise.excessNoiseFactor =
       NumberAt(report, std::string(at) + "/settings/excess_noise_factor").value_or(noise.excessNoiseFactor);
+    noise.width = std::max(noise.width, SizeAt(report, std::string(at) + "/width"));
+    noise.height = std::max(noise.height, SizeAt(report, std::string(at) + "/height"));
     noise.camera = noise.camera.empty() ? TextAt(report, camera + "name") : noise.camera;
     for (const std::string & pointer : { camera + "bit_depth", std::string(at) + "/bit_depth" })
     {
