@@ -181,3 +181,16 @@ TEST_F(MapExport, MapsOfAMosaicHaveTwiceTheSizeOfItsPlanes)
   m_Report.numbers["/channels/0/height"] = 2;
   EXPECT_THROW(ExportNoise("maps", { NoiseWithMaps() }), ExportError);
 }
+
+// The maps are of the pixels of all planes, and the gain of the channel is the gain of one plane.
+TEST_F(MapExport, AChannelOfAMosaicHasNoFilesInElectrons)
+{
+  MakeMosaic();
+  ExportSettings settings;
+  settings.channel = "G1";
+  CameraNoise noise = ReadCameraNoise(m_Report, settings);
+  noise.maps = NoiseWithMaps().maps;
+  const NoiseExport made = ExportNoise("maps", { noise });
+  EXPECT_EQ(made.files.size(), 2U);
+  EXPECT_NE(made.note.find("no files for PYME and SMAP"), std::string::npos) << made.note;
+}

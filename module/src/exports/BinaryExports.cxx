@@ -249,7 +249,7 @@ ExportMaps(const CameraNoise & noise)
   NoiseExport               made;
   made.files = { { "SERIAL_off.tiff", tiff(maps.offsetDn) }, { "SERIAL_var.tiff", tiff(variances) } };
   made.note = "navigate: replace SERIAL by the serial number of the camera.";
-  if (noise.channels.size() != 1 || !noise.channels.front().gain.value)
+  if (noise.channels.size() != 1 || IsMosaic(noise) || !noise.channels.front().gain.value)
   {
     made.note += " There are no files for PYME and SMAP, which need one gain of all pixels.";
     return made;
