@@ -4,6 +4,7 @@
 
 #include "sensornoise/Version.h"
 #include "tools/EstimateOptions.h"
+#include "tools/OptionHints.h"
 
 #include <limits>
 
@@ -15,6 +16,27 @@ CLI::Option *
 AddText(CLI::App & app, const std::string & name, std::string & text, const char * type, const std::string & words)
 {
   return app.add_option(name, text, words)->type_name(type);
+}
+
+/** Returns the bytes of a size such as 4G. Throws CLI::ValidationError for other texts. */
+std::string
+BytesOfSize(const std::string & text)
+{
+  std::string bytes = text;
+  std::string reason = ReasonNotWhole(text.substr(0, 1));
+  try
+  {
+    reason += CLI::AsSizeValue(true)(bytes);
+  }
+  catch (const CLI::ValidationError & error)
+  {
+    reason += error.what();
+  }
+  if (!reason.empty())
+  {
+    throw CLI::ValidationError("it is \"" + text + "\"; expected a whole number of bytes, for example 4G or 500M");
+  }
+  return bytes;
 }
 
 void
@@ -46,9 +68,11 @@ AddInputOptions(CLI::App & app, EstimateOptions & options, EstimateTexts & texts
     .add_option("--channel",
                 options.choice.channel,
                 "the channel that is measured, from 0, where a TIFF of OME or ImageJ has several")
+    ->check(ReasonNotWhole)
     ->type_name("N")
     ->group("Input");
   app.add_option("--plane", options.choice.plane, "the same, of the planes (Z, slices)")
+    ->check(ReasonNotWhole)
     ->type_name("N")
     ->group("Input");
   AddText(app, "--frames", texts.frames, "A:B", "only the frames A, A+1, ... B-1, counted from 0")->group("Input");
@@ -233,7 +257,7 @@ AddOtherOptions(CLI::App & app, EstimateOptions & options)
       options.memoryLimit,
       "most memory for the estimate, for instance 4G [bytes]: the stack is read more often where it would need "
       "more, with the same result")
-    ->transform(CLI::AsSizeValue(true))
+    ->transform(BytesOfSize)
     ->type_name("SIZE")
     ->group("Other");
   app.add_option("--threads", options.threads, "number of threads; else all")

@@ -17,6 +17,11 @@ namespace sensornoise::tools
 std::string
 UnknownOption(const CLI::App & app, const std::string & word);
 
+/** Returns "" for a whole number of 0 or more, else the reason why the text is none. It is a check of CLI11, which
+ * reads -1 as the largest number. */
+std::string
+ReasonNotWhole(const std::string & text);
+
 /** Throws CLI::ValidationError if the value of an option is empty, or is another option, as in "--json --quiet". */
 void
 RequireValues(const CLI::App & app);

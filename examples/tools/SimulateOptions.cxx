@@ -4,6 +4,7 @@
 
 #include "sensornoise/Version.h"
 #include "tools/HelpText.h"
+#include "tools/OptionHints.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -57,7 +58,7 @@ SimulateOptions::Parse(int argc, char ** argv)
     ->delimiter(',')
     ->expected(2)
     ->default_str("");
-  app.add_option("--seed", seed, "Seed of the noise; the scene stays the same");
+  app.add_option("--seed", seed, "Seed of the noise; the scene stays the same")->check(ReasonNotWhole);
   flaws.AddTo(app);
   app.set_version_flag("--version", std::string("simulate-sensor-noise ") + GetModuleVersion());
   try

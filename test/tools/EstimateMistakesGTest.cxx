@@ -74,6 +74,14 @@ TEST_F(EstimateMistakes, FormsOfNumbersAreSaid)
   IsAnswered(stack + " --offset 100+-1", { "expected VALUE or VALUE,ERROR" });
   IsAnswered(stack + " --clip 4095,0", { "--clip: the clip levels are 4095 and 0 DN", "low < high" });
   IsAnswered(stack + " --memory-limit 4", { "the memory limit is 4 bytes" });
+  for (const std::string size : { "-1", "4Q", "4.5G", "99999999999G", "G" })
+  {
+    IsAnswered(stack + " --memory-limit " + size, { "--memory-limit: it is \"" + size, "for example 4G" });
+  }
+  for (const std::string option : { "--channel", "--plane" })
+  {
+    IsAnswered(stack + " " + option + " -1", { option + ": it is \"-1\"; expected a whole number of 0 or more" });
+  }
 }
 
 TEST_F(EstimateMistakes, AThumbnailAmongFramesAndAnEmptyFileAreNamed)

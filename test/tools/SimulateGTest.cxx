@@ -295,6 +295,7 @@ TEST_F(SimulateTool, WrongUseIsRefusedInOneSentenceAndLeavesNothing)
   ExpectError("--output s.mha --reference moon", "neither target, bars, texture or flat nor a file");
   ExpectError("--output s.mha --frames 0", "expected at least 1");
   ExpectError("--output s.mha --frames many", "--frames");
+  ExpectError("--output s.mha --seed -1", "--seed: it is \"-1\"; expected a whole number of 0 or more");
   ExpectError("--output s.mha --bit-depth 17", "the pixel type holds at most 16 bits");
   ExpectError("--output s.mha --vibration-sd 0.1", "--vibration-sd");
   ExpectError("--output s.mha --clip 100,50", "expected the low one below the high one");
