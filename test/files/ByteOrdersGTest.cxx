@@ -38,6 +38,14 @@ FrameOf(double levelDn, double noiseDn, double slopeDn)
   return bytes;
 }
 
+/** Returns the end of a text behind \a words; "none" if it does not have them. */
+std::string
+PartBehind(const std::string & text, const std::string & words)
+{
+  const std::size_t at = text.find(words);
+  return at == std::string::npos ? "none" : text.substr(at + words.size());
+}
+
 class ByteOrdersOfRaw : public FrameFileTest
 {
 protected:
@@ -59,6 +67,17 @@ TEST_F(ByteOrdersOfRaw, SwappedBytesAreNamedWithTheTypeToUse)
     EXPECT_NE(WarningOf(frame, "uint16be").find("--raw 64x64:uint16le"), std::string::npos);
     EXPECT_NE(WarningOf(frame, "int16be").find("--raw 64x64:int16le"), std::string::npos);
   }
+}
+
+TEST_F(ByteOrdersOfRaw, TheLayoutToUseKeepsTheBytesBesideThePixels)
+{
+  const std::string frame = FrameOf(1000.0, 20.0, 40.0);
+  const std::string skipped(16, '\0');
+  const std::string at = "--raw 64x64:uint16le";
+  EXPECT_EQ(PartBehind(WarningOf(frame, "uint16be:0:0"), at), "");
+  EXPECT_EQ(PartBehind(WarningOf(skipped + frame, "uint16be:16"), at), ":16");
+  EXPECT_EQ(PartBehind(WarningOf(frame + skipped, "uint16be:0:0:16"), at), ":0:0:16");
+  EXPECT_EQ(PartBehind(WarningOf(skipped + frame + "four", "uint16be:16:128:0:4"), at), ":16:128:0:4");
 }
 
 TEST_F(ByteOrdersOfRaw, SignedNoiseAboutZeroIsInOrder)

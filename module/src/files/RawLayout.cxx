@@ -205,6 +205,20 @@ ReadCount(const std::string & text, const std::string & what, const std::string 
   return *number;
 }
 
+/** Returns ":SKIP:ROW:GAP:END" of a layout, up to the last number that is not 0. */
+std::string
+BytesBesidePixels(const RawLayout & layout)
+{
+  std::string text;
+  std::string upToLast;
+  for (const std::uint64_t bytes : { layout.skipBytes, layout.rowBytes, layout.gapBytes, layout.endBytes })
+  {
+    text += ":" + std::to_string(bytes);
+    upToLast = bytes != 0 ? text : upToLast;
+  }
+  return upToLast;
+}
+
 /** Returns a warning if the bytes of 16-bit pixels seem swapped in the first frame; else "". */
 std::string
 WarningOfByteOrder(FileBytes & bytes, const RawLayout & layout)
@@ -229,7 +243,7 @@ WarningOfByteOrder(FileBytes & bytes, const RawLayout & layout)
   const std::string type = pixel == FramePixel::Short ? "int16" : "uint16";
   return "its bytes look swapped, as neighbouring pixels differ far less in the other order. Use the type " + type +
          (isBig ? "le" : "be") + ": --raw " + std::to_string(layout.width) + "x" + std::to_string(layout.height) + ":" +
-         type + (isBig ? "le" : "be");
+         type + (isBig ? "le" : "be") + BytesBesidePixels(layout);
 }
 
 /** Format of raw frames. It is not in the table of formats, because nothing identifies such a file. */
