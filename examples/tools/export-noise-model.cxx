@@ -23,6 +23,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace
@@ -71,6 +72,21 @@ ReadSettings(const ExportOptions & options, std::string & note)
   return settings;
 }
 
+/** Returns the bytes of a DNG file with a noise profile. Throws std::runtime_error with the name of the file. */
+std::string
+MakeCopy(const std::string & file, const std::vector<std::pair<double, double>> & profile)
+{
+  const std::string bytes = ReadBytes(file);
+  try
+  {
+    return sensornoise::WithNoiseProfile(bytes, profile);
+  }
+  catch (const sensornoise::ExportError & error)
+  {
+    throw std::runtime_error(file + " (--into): " + error.what());
+  }
+}
+
 NoiseExport
 MakeExport(const ExportOptions & options)
 {
@@ -84,8 +100,7 @@ MakeExport(const ExportOptions & options)
   made.note += (made.note.empty() || note.empty() ? "" : " ") + note;
   if (!options.into.empty())
   {
-    const auto profile = sensornoise::NoiseProfileOf(settings.front());
-    made.files = { { options.output, sensornoise::WithNoiseProfile(ReadBytes(options.into), profile) } };
+    made.files = { { options.output, MakeCopy(options.into, sensornoise::NoiseProfileOf(settings.front())) } };
   }
   return made;
 }
@@ -181,7 +196,7 @@ main(int argc, char * argv[])
   catch (const sensornoise::ExportError & error)
   {
     std::cerr << "error: " << ForStandardError(SentenceOf(error)) << '\n';
-    return ExitUnfitReport;
+    return dynamic_cast<const sensornoise::ExportUseError *>(&error) != nullptr ? ExitWrongUse : ExitUnfitReport;
   }
   catch (const std::exception & error)
   {

@@ -86,6 +86,15 @@ TEST_F(LineExports, ALineThatIsNotIdentifiedIsRefused)
   IsRefused("ndsafir", { "variance_slope of -0.1", "above 0" });
 }
 
+TEST_F(LineExports, ALineBeyondAllNumbersIsRefused)
+{
+  this->SetQuantity("/variance_slope", 1e308);
+  for (const char * format : { "dng", "deepinv", "libcamera" })
+  {
+    IsRefused(format, { "report.json", "from 0 (black) to 1 (white)", "finite" });
+  }
+}
+
 TEST_F(LineExports, AMosaicWithoutAChannelIsRefused)
 {
   this->MakeMosaic();

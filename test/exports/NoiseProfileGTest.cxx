@@ -170,6 +170,8 @@ TEST_F(NoiseProfiles, NumbersThatNoProgramTakesAreRefused)
 {
   IsDamaged("", { "no format that is known" });
   IsDamaged("1e-4 2e-7 3", { "3 numbers" });
+  IsDamaged("ObjectType = Image\nElementDataFile = LOCAL\n" + std::string(300, '\0'),
+            { "byte 43 is 0", "no text has", "expected text, JSON, npz or DNG" });
   IsDamaged("c:\n  " + std::string(300, 'a') + ": 1\n", { "a name of 300 bytes" });
   IsDamaged("EGAIN   = nan / e\nRDNOISE = 3 /", { "EGAIN" });
   IsDamaged("c:\n  ElectronsPerCount: -2\n  ADOffset: 1\n  ReadNoise: 1\n", { "ElectronsPerCount = -2", "above 0" });

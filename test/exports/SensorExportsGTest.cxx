@@ -134,6 +134,22 @@ TEST_F(SensorExports, AQuantityThatIsNotIdentifiedIsRefused)
   IsRefused("smap", { "no value of gain", "failed", "warnings" });
 }
 
+TEST_F(SensorExports, NumbersOfNoSensorAreRefused)
+{
+  for (const char * format : { "pyme", "fits", "decode", "lsst" })
+  {
+    this->SetQuantity("/read_noise", -3.0);
+    IsRefused(format, { "report.json", "read_noise of -3 DN", "0 or more" });
+    this->SetQuantity("/read_noise", 1e308); // 2e308 electrons
+    IsRefused(format, { "read_noise of 1e+308 DN", "finite" });
+  }
+  this->SetQuantity("/gain", 1e-320); // 1 / 1e-320 is infinite
+  for (const char * format : { "pyme", "picasso", "smap", "thunderstorm", "emva1288" })
+  {
+    IsRefused(format, { "report.json", "has a gain of", "reciprocal is finite" });
+  }
+}
+
 TEST_F(SensorExports, AMosaicIsExportedByChannel)
 {
   this->MakeMosaic();

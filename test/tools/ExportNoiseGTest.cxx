@@ -84,7 +84,9 @@ TEST_F(ExportToolTest, WritesTheTagIntoACopyOfADngFile)
   IsRefusedBy("report.json --format dng --white 1088 --into photo.dng --output photo.dng", { "photo.dng" }, 2);
   IsRefusedBy("report.json --format dng --white 1088 --into photo.dng", { "--output COPY.dng" }, 2);
   IsRefusedBy("report.json --format fits --into photo.dng --output copy", { "--format dng" }, 2);
-  IsRefusedBy("report.json --format dng --white 1088 --into report.json --output x.dng", { "no classic TIFF" }, 3);
+  IsRefusedBy("report.json --format dng --white 1088 --into report.json --output x.dng",
+              { "report.json (--into)", "no classic TIFF" },
+              2);
 }
 
 TEST_F(ExportToolTest, WritesTheMapsOfAFolderIntoAFolder)
@@ -110,7 +112,12 @@ TEST_F(ExportToolTest, WritesTheMapsOfAFolderIntoAFolder)
 TEST_F(ExportToolTest, RefusesWithASentence)
 {
   IsRefusedBy("report.json --format dng", { "report.json", "no white level", "--white" }, 3);
-  IsRefusedBy("report.json --format moon", { "moon", "expected one of dng" }, 3);
+  IsRefusedBy("report.json --format moon", { "moon", "expected one of dng" }, 2);
+  IsRefusedBy("report.json --format libcamera --analogue-gain 0", { "analogue gain is 0", "above 0" }, 2);
+  IsRefusedBy("report.json --format dng --black nan", { "black or white level is nan", "finite" }, 2);
+  IsRefusedBy("report.json --format dng --white 64", { "white level is 64 DN", "above the black level" }, 2);
+  IsRefusedBy("report.json report.json --format dng", { "2 reports were given", "takes one" }, 2);
+  IsRefusedBy("report.json --format android", { "1 report was given", "2 or more" }, 3);
   IsRefusedBy("report.json", { "--format", "--list" }, 2);
   IsRefusedBy("--format dng", { "REPORT" }, 2);
   IsRefusedBy("report.json --format careamics --white 1088", { "no text", "--output" }, 2);
@@ -120,5 +127,10 @@ TEST_F(ExportToolTest, RefusesWithASentence)
   m_Report["read_noise"]["value"] = nullptr;
   m_Report["read_noise"]["status"] = "upper-limit";
   WriteText("report.json", m_Report.dump());
-  IsRefusedBy("report.json --format fits", { "read_noise", "upper-limit", "--dark" }, 3);
+  IsRefusedBy(
+    "report.json --format fits", { "read_noise", "upper-limit", "quantization", "analogue gain", "ndsafir" }, 3);
+  IsRefusedBy("report.json --format fits", { "more frames, with dark frames (--dark) where there are none" }, 3);
+  m_Report["read_noise"]["status"] = "not-identifiable";
+  WriteText("report.json", m_Report.dump());
+  IsRefusedBy("report.json --format fits", { "read_noise", "not-identifiable", "Give estimate-sensor-noise dark" }, 3);
 }

@@ -28,6 +28,13 @@ public:
   using std::runtime_error::runtime_error;
 };
 
+/** Error: the format, the number of reports or a setting cannot be meant, whatever the reports hold. */
+class SensorNoise_EXPORT ExportUseError : public ExportError
+{
+public:
+  using ExportError::ExportError;
+};
+
 /** The values of a stored report, by their JSON Pointer: "/gain/value", "/channels/0/channel". Values that are null
  * have no entry. */
 struct StoredReport

@@ -36,16 +36,16 @@ struct SensorNumbers
 const ChannelNoise &
 OnlyChannel(const CameraNoise & noise, const std::string & format);
 
-/** The noise model of a channel. Throws ExportError if it is not identified or its slope is not above 0. */
+/** The noise model of a channel. Throws ExportError if it is not identified, or its slope is not above 0 and finite. */
 NoiseModel
 ModelOf(const CameraNoise & noise, const ChannelNoise & channel);
 
 /** The line of a channel between the black and the white level. Throws ExportError if a level is missing, or the
- * variance at the black level is negative. */
+ * variance at the black level is negative, or a number is not finite. */
 NormalisedLine
 NormalisedLineOf(const CameraNoise & noise, const ChannelNoise & channel);
 
-/** The gain of a channel [DN/e-]. Throws ExportError if it is not identified. */
+/** The gain of a channel [DN/e-]. Throws ExportError if it is not identified, or not above 0 and finite. */
 double
 GainOf(const CameraNoise & noise, const ChannelNoise & channel);
 
@@ -53,7 +53,8 @@ GainOf(const CameraNoise & noise, const ChannelNoise & channel);
 double
 OffsetOf(const CameraNoise & noise, const ChannelNoise & channel);
 
-/** Offset, electrons per DN and read noise of a channel. Throws ExportError if one is not identified. */
+/** Offset, electrons per DN and read noise of a channel. Throws ExportError if one is not identified, or not finite, or
+ * the read noise is negative. */
 SensorNumbers
 SensorNumbersOf(const CameraNoise & noise, const ChannelNoise & channel);
 

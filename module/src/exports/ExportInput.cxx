@@ -137,7 +137,7 @@ RequirePositiveSetting(const std::optional<double> & value, const char * name)
 {
   if (value && !(*value > 0.0 && std::isfinite(*value)))
   {
-    throw ExportError(std::string("the ") + name + " is " + Text(*value) + "; expected a finite number above 0");
+    throw ExportUseError(std::string("the ") + name + " is " + Text(*value) + "; expected a finite number above 0");
   }
 }
 
@@ -154,13 +154,18 @@ ApplySettings(const ExportSettings & settings, CameraNoise & noise)
   {
     if (level && !std::isfinite(*level))
     {
-      throw ExportError("the black or white level is " + Text(*level) + "; expected a finite number");
+      throw ExportUseError("the black or white level is " + Text(*level) + "; expected a finite number");
     }
   }
   if (noise.blackLevelDn && noise.whiteLevelDn && !(*noise.whiteLevelDn > *noise.blackLevelDn))
   {
-    throw ExportError("the white level is " + Text(*noise.whiteLevelDn) + " DN and the black level " +
-                      Text(*noise.blackLevelDn) + " DN; expected a white level above the black level");
+    const std::string found = "the white level is " + Text(*noise.whiteLevelDn) + " DN and the black level " +
+                              Text(*noise.blackLevelDn) + " DN; expected a white level above the black level";
+    if (settings.blackLevelDn || settings.whiteLevelDn)
+    {
+      throw ExportUseError(found);
+    }
+    throw ExportError(found);
   }
 }
 } // namespace
@@ -195,6 +200,10 @@ ReadCameraNoise(const StoredReport & report, const ExportSettings & settings)
 namespace
 {
 const char * const giveDark = "Give estimate-sensor-noise dark frames (--dark) or the offset (--offset).";
+const char * const raiseGain =
+  "The read noise is not distinguished from 0 or from the quantization noise. Use a higher analogue gain, or record "
+  "more frames, with dark frames (--dark) where there are none. A format of the variance line, as ndsafir, does not "
+  "need it.";
 const char * const readWarnings = "The warnings of the report say why, and what helps.";
 
 std::string
@@ -221,10 +230,10 @@ RequireIdentified(const CameraNoise &    noise,
 double
 RequirePositive(const CameraNoise & noise, const ChannelNoise & channel, double value, const std::string & path)
 {
-  if (!(value > 0.0))
+  if (!(value > 0.0 && std::isfinite(value) && std::isfinite(1.0 / value)))
   {
     throw ExportError(ReportWords(noise, channel) + " has a " + path + " of " + Text(value) +
-                      "; expected a number above 0");
+                      "; expected a number above 0, whose reciprocal is finite. Use the report as it was written.");
   }
   return value;
 }
@@ -282,7 +291,15 @@ NormalisedLineOf(const CameraNoise & noise, const ChannelNoise & channel)
                       ". Give the level of the camera's dark frames as the black level (--black), or measure with "
                       "dark frames (estimate-sensor-noise --dark).");
   }
-  return { model.varianceSlopeDn / range, darkVariance / (range * range) };
+  const NormalisedLine line{ model.varianceSlopeDn / range, darkVariance / (range * range) };
+  if (!(line.scale > 0.0 && std::isfinite(line.scale) && std::isfinite(line.offset)))
+  {
+    throw ExportError(ReportWords(noise, channel) + " has a variance of " +
+                      WithSigns(Text(line.scale) + " x + " + Text(line.offset)) +
+                      " at the levels x from 0 (black) to 1 (white); expected finite numbers. Use the report as it was "
+                      "written, and levels of the camera (--black, --white).");
+  }
+  return line;
 }
 
 double
@@ -301,7 +318,13 @@ SensorNumbers
 SensorNumbersOf(const CameraNoise & noise, const ChannelNoise & channel)
 {
   const double gain = GainOf(noise, channel);
-  const double readNoise = RequireIdentified(noise, channel, channel.readNoise, "read_noise", giveDark);
+  const char * remedy = channel.readNoise.status == "upper-limit" ? raiseGain : giveDark;
+  const double readNoise = RequireIdentified(noise, channel, channel.readNoise, "read_noise", remedy);
+  if (!(readNoise >= 0.0 && std::isfinite(readNoise / gain)))
+  {
+    throw ExportError(ReportWords(noise, channel) + " has a read_noise of " + Text(readNoise) +
+                      " DN; expected a finite number of electrons, 0 or more. Use the report as it was written.");
+  }
   return { OffsetOf(noise, channel), 1.0 / gain, readNoise / gain };
 }
 

@@ -270,18 +270,23 @@ ExportNoise(const std::string & format, const std::vector<CameraNoise> & setting
     std::find_if(formats.begin(), formats.end(), [&](const ExportFormat & each) { return format == each.name; });
   if (found == formats.end())
   {
-    throw ExportError("the format is \"" + format + "\"; expected one of " + NamesOfFormats());
+    throw ExportUseError("the format is \"" + format + "\"; expected one of " + NamesOfFormats());
   }
   const std::size_t least = found->leastReports;
-  if (settings.size() < least || (!found->takesSeveral && settings.size() > least))
+  const std::string given =
+    (settings.size() == 1 ? "1 report was given; " : std::to_string(settings.size()) + " reports were given; ") +
+    format + " takes ";
+  if (!found->takesSeveral && settings.size() > least)
   {
-    throw ExportError(
-      (settings.size() == 1 ? "1 report was given; " : std::to_string(settings.size()) + " reports were given; ") +
-      format + " takes " +
-      (!found->takesSeveral
-         ? "one. Leave out the reports of other settings."
-         : std::to_string(least) + " or more, each of a different ISO speed. Measure bursts at more ISO "
-                                   "speeds, as estimate-sensor-noise --sweep does."));
+    throw ExportUseError(given + "one. Leave out the reports of other settings.");
+  }
+  if (settings.size() < least)
+  {
+    throw ExportError(given + (!found->takesSeveral
+                                 ? "one. Give the report of a setting."
+                                 : std::to_string(least) +
+                                     " or more, each of a different ISO speed. Measure bursts at more ISO "
+                                     "speeds, as estimate-sensor-noise --sweep does."));
   }
   if (found->takes == ExportTakes::Sensor)
   {

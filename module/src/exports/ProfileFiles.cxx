@@ -232,6 +232,22 @@ InOneLine(std::string text)
   return text;
 }
 
+/** Throws ExportError if the bytes are no text: they have a control byte other than tabulators and ends of lines. */
+void
+RequireText(const std::string & bytes)
+{
+  const auto found = std::find_if(bytes.begin(), bytes.end(), [](char character) {
+    const auto byte = static_cast<unsigned char>(character);
+    return byte < ' ' && (byte < '\t' || byte > '\r');
+  });
+  if (found != bytes.end())
+  {
+    throw ExportError("byte " + std::to_string(found - bytes.begin()) + " is " +
+                      std::to_string(static_cast<unsigned char>(*found)) +
+                      ", which no text has; expected text, JSON, npz or DNG. Give the file of a noise profile.");
+  }
+}
+
 NoiseProfile
 ReadBytes(const std::string & file, const std::string & bytes)
 {
@@ -246,12 +262,17 @@ ReadBytes(const std::string & file, const std::string & bytes)
     return ProfileOfCareamics(bytes);
   }
   const std::string start = WithoutBlanks(bytes.substr(0, 64)); // beginning of the first line
-  const auto        numbers = NumbersOf(InOneLine(bytes));
-  return !start.empty() && start.front() == '<' ? ProfileOfEmva1288(bytes)
-         : has("Camera setup")                  ? ProfileOfThunderstorm(bytes)
-         : has("EGAIN   =")                     ? ProfileOfFits(bytes)
-         : !numbers.empty()                     ? ProfileOfNumbers(numbers)
-                                                : ReadNoiseProfile(ReadYamlValues(file, bytes));
+  if (!start.empty() && start.front() == '<')
+  {
+    return ProfileOfEmva1288(bytes);
+  }
+  if (has("Camera setup") || has("EGAIN   ="))
+  {
+    return has("Camera setup") ? ProfileOfThunderstorm(bytes) : ProfileOfFits(bytes);
+  }
+  RequireText(bytes);
+  const auto numbers = NumbersOf(InOneLine(bytes));
+  return numbers.empty() ? ReadNoiseProfile(ReadYamlValues(file, bytes)) : ProfileOfNumbers(numbers);
 }
 } // namespace
 
