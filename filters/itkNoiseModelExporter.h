@@ -66,8 +66,8 @@ public:
   itkSetMacro(MaxAnalogueIso, double);
   itkGetConstMacro(MaxAnalogueIso, double);
 
-  /** Name of a DNG file, for the format dng. The result is then a copy of this file with the tag NoiseProfile. Default:
-   * empty, the result is text. */
+  /** Name of a DNG file, for the format dng. The result is then a copy of this file with the tag NoiseProfile, by the
+   * black and the white level of the file. Default: empty, the result is text. */
   itkSetMacro(DngFile, std::string);
   itkGetConstReferenceMacro(DngFile, std::string);
 

@@ -103,9 +103,12 @@ def dng_below_preview(bench: Bench) -> tuple[str, float]:
 
     pixels = np.arange(64 * 48, dtype=np.uint16).reshape(48, 64)
     with tifffile.TiffWriter(bench.folder / "preview.dng") as writer:
-        writer.write(np.zeros((8, 8, 3), np.uint8), photometric="rgb", subifds=2, subfiletype=1)
+        version = [(50706, "B", 4, (1, 4, 0, 0), True)]
+        levels = [(50714, "I", 1, int(BLACK), True), (50717, "I", 1, int(WHITE), True)]
+        preview = np.zeros((8, 8, 3), np.uint8)
+        writer.write(preview, photometric="rgb", subifds=2, subfiletype=1, extratags=version)
         writer.write(np.zeros((16, 16, 3), np.uint8), photometric="rgb", subfiletype=1)
-        writer.write(pixels, photometric="minisblack", subfiletype=0)
+        writer.write(pixels, photometric="minisblack", subfiletype=0, extratags=levels)
     with tifffile.TiffFile(bench.export("dng", "--into", "preview.dng")) as file:
         first = file.pages[0]
         other, raw = first.pages

@@ -76,7 +76,8 @@ ExportOptions::Parse(int argc, char ** argv)
   app.add_option(
     "--max-analogue-iso", settings.maxAnalogueIso, "ISO speed above which the gain is digital, for android");
   app.add_option("--maps", maps, "folder of maps that estimate-sensor-noise --dark --maps wrote, for maps");
-  app.add_option("--into", into, "DNG file: --output becomes its copy with the tag NoiseProfile");
+  app.add_option(
+    "--into", into, "DNG file: --output becomes its copy with the tag NoiseProfile, by the levels of the file");
   app.set_version_flag("--version", std::string("export-noise-model ") + GetModuleVersion());
   try
   {

@@ -23,7 +23,6 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace
@@ -72,14 +71,14 @@ ReadSettings(const ExportOptions & options, std::string & note)
   return settings;
 }
 
-/** Returns the bytes of a DNG file with a noise profile. Throws std::runtime_error with the name of the file. */
-std::string
-MakeCopy(const std::string & file, const std::vector<std::pair<double, double>> & profile)
+/** Calls \a work, on the bytes of the DNG file of --into. Throws std::runtime_error with its name if they are none. */
+template <typename TWork>
+auto
+OnDng(const std::string & file, TWork work)
 {
-  const std::string bytes = ReadBytes(file);
   try
   {
-    return sensornoise::WithNoiseProfile(bytes, profile);
+    return work();
   }
   catch (const sensornoise::ExportError & error)
   {
@@ -88,8 +87,14 @@ MakeCopy(const std::string & file, const std::vector<std::pair<double, double>> 
 }
 
 NoiseExport
-MakeExport(const ExportOptions & options)
+MakeExport(ExportOptions options)
 {
+  std::string dng;
+  if (!options.into.empty())
+  {
+    dng = ReadBytes(options.into);
+    OnDng(options.into, [&] { sensornoise::SetLevelsOfDng(dng, options.settings); });
+  }
   std::string              note;
   std::vector<CameraNoise> settings = ReadSettings(options, note);
   if (!options.maps.empty())
@@ -100,7 +105,9 @@ MakeExport(const ExportOptions & options)
   made.note += (made.note.empty() || note.empty() ? "" : " ") + note;
   if (!options.into.empty())
   {
-    made.files = { { options.output, MakeCopy(options.into, sensornoise::NoiseProfileOf(settings.front())) } };
+    const auto profile = sensornoise::NoiseProfileOf(settings.front());
+    made.files = { { options.output,
+                     OnDng(options.into, [&] { return sensornoise::WithNoiseProfile(dng, profile); }) } };
   }
   return made;
 }

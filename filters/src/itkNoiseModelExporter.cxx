@@ -71,6 +71,16 @@ NoiseModelExporter::MakeExport(const std::string & format) const
 {
   sensornoise::ExportSettings settings = this->MakeExportSettings();
   settings.maxAnalogueIso = IfKnown(m_MaxAnalogueIso);
+  std::string dng;
+  if (!m_DngFile.empty())
+  {
+    if (format != "dng")
+    {
+      throw std::invalid_argument("a DNG file was given for the format " + format + "; expected the format dng");
+    }
+    dng = BytesOfDng(m_DngFile);
+    sensornoise::SetLevelsOfDng(dng, settings);
+  }
   std::vector<sensornoise::CameraNoise> noise;
   for (const sensornoise::StoredReport & report : m_Reports)
   {
@@ -83,12 +93,7 @@ NoiseModelExporter::MakeExport(const std::string & format) const
   sensornoise::NoiseExport made = sensornoise::ExportNoise(format, noise);
   if (!m_DngFile.empty())
   {
-    if (format != "dng")
-    {
-      throw std::invalid_argument("a DNG file was given for the format " + format + "; expected the format dng");
-    }
-    const std::string copy =
-      sensornoise::WithNoiseProfile(BytesOfDng(m_DngFile), sensornoise::NoiseProfileOf(noise.front()));
+    const std::string copy = sensornoise::WithNoiseProfile(dng, sensornoise::NoiseProfileOf(noise.front()));
     made.files = { { "noise_profile.dng", copy } };
   }
   return made;

@@ -11,6 +11,7 @@ one file a frame. The files are made by fuzz/frame_files.py, with the standard l
 
 import pathlib
 import re
+import struct
 import sys
 from collections.abc import Callable
 
@@ -90,6 +91,15 @@ def dng(frames: list[bytes], target: str) -> None:
         write(target.format(number), tiff_files.dng("s.dng", frame, 14).data)
 
 
+def dng_levels(frames: list[bytes], target: str) -> None:
+    """Writes a raw file of a camera, 14 bits, of a black level of 100 DN and a white level of 4095 DN."""
+    data = tiff_files.dng("s.dng", frames[0], 14).data
+    for tag, old, level in ((50714, 0, 100), (50717, 16383, 4095)):
+        entry = struct.pack("<HHII", tag, 4, 1, old)
+        data = data.replace(entry, struct.pack("<HHII", tag, 4, 1, level))
+    write(target, data)
+
+
 def png(frames: list[bytes], target: str) -> None:
     """Writes PNG files of 16 bits, one frame a file."""
     for number, frame in enumerate(frames):
@@ -126,7 +136,7 @@ def raspberry(frames: list[bytes], target: str) -> None:
     write(target, bytes(made))
 
 
-KINDS = (tif, hyperstack, ser, ser_bayer, fits, mraw, dng, png, raw, raw_gap, mono12p, raspberry)
+KINDS = (tif, hyperstack, ser, ser_bayer, fits, mraw, dng, dng_levels, png, raw, raw_gap, mono12p, raspberry)
 
 
 def main() -> None:

@@ -263,3 +263,47 @@ TEST(DngTag, OtherAndDamagedFilesAreRefused)
   preview.replace(tiff.Pointers(preview).front(), 4, tiff.Bytes(preview.size() - 1, 4));
   refused(preview, "before the end of its raw directory");
 }
+
+// DNG 1.7: NoiseProfile refers to levels between BlackLevel (50714) and WhiteLevel (50717) of the raw directory.
+TEST(DngTag, LevelsAreTheLevelsOfTheRawDirectory)
+{
+  const auto levelsOf = [](const std::string & file, ExportSettings settings = {}) {
+    SetLevelsOfDng(file, settings);
+    return std::make_pair(settings.blackLevelDn.value(), settings.whiteLevelDn.value());
+  };
+  using Levels = std::pair<double, double>;
+  for (const bool isBigEndian : { false, true })
+  {
+    const TestTiff    tiff{ isBigEndian };
+    const std::string version = tiff.Entry(50706, 1, 4, 0x401);
+    const auto        shortTag = [&](unsigned tag, unsigned value) { // stands first in the field of the value
+      return tiff.Bytes(tag, 2) + tiff.Bytes(3, 2) + tiff.Bytes(1, 4) + tiff.Bytes(value, 2) + tiff.Bytes(0, 2);
+    };
+    const std::string bits = shortTag(258, 14);
+    EXPECT_EQ(levelsOf(tiff.Make("pixels", version)), Levels(0.0, 1.0));
+    EXPECT_EQ(levelsOf(tiff.Make("pixels", bits + version)), Levels(0.0, 16383.0));
+    EXPECT_EQ(levelsOf(tiff.Make("pixels", bits + version + shortTag(50714, 512) + tiff.Entry(50717, 4, 1, 16000))),
+              Levels(512.0, 16000.0));
+    // four places of a pattern, of RATIONAL: 64, 65, 66 and 67 DN, behind the head
+    std::string places;
+    for (const unsigned level : { 64U, 65U, 66U, 67U })
+    {
+      places += tiff.Bytes(2 * level, 4) + tiff.Bytes(2, 4);
+    }
+    const std::string file = tiff.Make(places, version + tiff.Entry(50714, 5, 4, 8) + tiff.Entry(50717, 4, 1, 4095));
+    EXPECT_EQ(levelsOf(file), Levels(65.5, 4095.0));
+    ExportSettings given;
+    given.blackLevelDn = 64.0;
+    given.whiteLevelDn = 4095.0;
+    EXPECT_EQ(levelsOf(file, given), Levels(65.5, 4095.0));
+    given.blackLevelDn = 63.0;
+    EXPECT_THROW(levelsOf(file, given), ExportUseError);
+    given.blackLevelDn = 65.0;
+    given.whiteLevelDn = 16383.0;
+    EXPECT_THROW(levelsOf(file, given), ExportUseError);
+    EXPECT_THROW(levelsOf(tiff.Make("pixels")), ExportError) << "no DNGVersion";
+    EXPECT_THROW(levelsOf(tiff.Make("pixels", version + tiff.Entry(50714, 4, 1000000, 8))), ExportError);
+    const std::string noQuotient = tiff.Bytes(64, 4) + tiff.Bytes(0, 4);
+    EXPECT_THROW(levelsOf(tiff.Make(noQuotient, version + tiff.Entry(50714, 5, 1, 8))), ExportError);
+  }
+}

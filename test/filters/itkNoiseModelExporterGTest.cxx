@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "itkNoiseModelExporter.h"
+#include "helpers/DngTestHelper.h"
 #include "helpers/ExportTestHelper.h"
 
 #include <filesystem>
@@ -101,14 +102,19 @@ TEST_F(NoiseModelExporter, TakesMaps)
 TEST_F(NoiseModelExporter, WritesTheTagIntoACopyOfAFile)
 {
   const std::string name = (std::filesystem::temp_directory_path() / "NoiseModelExporterGTest.dng").string();
-  const std::string dng("II*\0\x08\0\0\0\0\0\0\0\0\0", 14); // a directory without tags
+  const std::string dng = sensornoise::test::DngOfLevels(65, 1089);
   std::ofstream(name, std::ios::binary) << dng;
   const auto exporter = itk::NoiseModelExporter::New();
   this->Give(exporter);
   exporter->SetDngFile(name);
   exporter->Export("dng");
-  EXPECT_EQ(exporter->GetFileBytes(0),
-            sensornoise::WithNoiseProfile(dng, sensornoise::NoiseProfileOf(sensornoise::ReadCameraNoise(m_Report))));
+  sensornoise::ExportSettings levels;
+  levels.blackLevelDn = 65.0;
+  levels.whiteLevelDn = 1089.0;
+  const auto profile = sensornoise::NoiseProfileOf(sensornoise::ReadCameraNoise(m_Report, levels));
+  EXPECT_EQ(exporter->GetFileBytes(0), sensornoise::WithNoiseProfile(dng, profile));
+  exporter->SetWhiteLevel(white);
+  EXPECT_THROW(exporter->Export("dng"), itk::ExceptionObject) << "another white level";
   EXPECT_THROW(exporter->Export("fits"), itk::ExceptionObject);
   EXPECT_EQ(exporter->GetNumberOfFiles(), 0U) << "a failed export leaves no files";
   std::filesystem::remove(name);

@@ -6,6 +6,7 @@
 #include "helpers/BurstFilesTestHelper.h"
 #include "helpers/TiffTestHelper.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -17,6 +18,22 @@
 
 namespace sensornoise::test
 {
+
+/** Returns a DNG file without pixels: DNGVersion 1.4, BlackLevel and WhiteLevel. */
+inline std::string
+DngOfLevels(unsigned black, unsigned white)
+{
+  std::string file("II*\0\x08\0\0\0\x03\0", 10);
+  for (const auto & [tag, type, count, value] :
+       std::vector<std::array<unsigned, 4>>{ { 50706, 1, 4, 0x401 }, { 50714, 4, 1, black }, { 50717, 4, 1, white } })
+  {
+    AppendNumber(file, tag, 2, false);
+    AppendNumber(file, type, 2, false);
+    AppendNumber(file, count, 4, false);
+    AppendNumber(file, value, 4, false);
+  }
+  return file + std::string(4, '\0');
+}
 
 /** A stream of bits, the highest of each byte first. */
 class JpegBits

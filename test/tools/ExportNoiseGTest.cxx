@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
+#include "helpers/DngTestHelper.h"
 #include "helpers/EstimateToolTestHelper.h"
 #include "sensornoise/NoiseExport.h"
 
@@ -75,15 +76,26 @@ TEST_F(ExportToolTest, ListsAllFormatsAndPrintsNotes)
 
 TEST_F(ExportToolTest, WritesTheTagIntoACopyOfADngFile)
 {
-  const std::string dng("II*\0\x08\0\0\0\0\0\0\0\0\0", 14); // a directory without tags
+  const std::string dng = sensornoise::test::DngOfLevels(64, 1088);
   WriteText("photo.dng", dng);
-  ASSERT_EQ(Export("report.json --format dng --white 1088 --into photo.dng --output copy.dng"), 0) << m_Message;
-  EXPECT_EQ(ReadText(Path("photo.dng")), dng);
-  EXPECT_EQ(ReadText(Path("copy.dng")),
-            sensornoise::WithNoiseProfile(dng, { { 0.5 / 1024.0, 2.0 / (1024.0 * 1024.0) } }));
+  for (const char * levels : { "", "--white 1088", "--white 1088 --black 64" })
+  {
+    ASSERT_EQ(Export(std::string("report.json --format dng --into photo.dng --output copy.dng ") + levels), 0)
+      << m_Message;
+    EXPECT_EQ(ReadText(Path("photo.dng")), dng);
+    EXPECT_EQ(ReadText(Path("copy.dng")),
+              sensornoise::WithNoiseProfile(dng, { { 0.5 / 1024.0, 2.0 / (1024.0 * 1024.0) } }));
+  }
   IsRefusedBy("report.json --format dng --white 1088 --into photo.dng --output photo.dng", { "photo.dng" }, 2);
   IsRefusedBy("report.json --format dng --white 1088 --into photo.dng", { "--output COPY.dng" }, 2);
   IsRefusedBy("report.json --format fits --into photo.dng --output copy", { "--format dng" }, 2);
+  const std::string into = "report.json --format dng --output x.dng --into ";
+  IsRefusedBy(into + "photo.dng --white 4095",
+              { "photo.dng (--into)", "white level is 4095 DN", "has 1088 DN (tag 50717)", "Leave the level out" },
+              2);
+  IsRefusedBy(into + "photo.dng --black 0", { "black level is 0 DN", "has 64 DN (tag 50714)" }, 2);
+  WriteText("plain.tif", std::string("II*\0\x08\0\0\0\0\0\0\0\0\0", 14)); // a directory without tags
+  IsRefusedBy(into + "plain.tif", { "plain.tif (--into)", "without the tag DNGVersion", "expected a DNG file" }, 2);
   IsRefusedBy("report.json --format dng --white 1088 --into report.json --output x.dng",
               { "report.json (--into)", "no classic TIFF" },
               2);

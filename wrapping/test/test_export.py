@@ -144,16 +144,19 @@ def test_a_mosaic_has_a_profile_of_three_planes(mosaic):
 
 
 def test_a_dng_file_gets_the_tag(report, tmp_path):
-    tags = struct.pack("<HHII", 256, 4, 1, 7) + struct.pack("<HHII", 257, 4, 1, 9)
-    (tmp_path / "photo.dng").write_bytes(struct.pack("<2sHIH", b"II", 42, 8, 2) + tags + struct.pack("<I", 0))
+    levels = ((50706, 1, 4, 0x401), (50714, 4, 1, int(BLACK)), (50717, 4, 1, int(WHITE)))
+    tags = b"".join(struct.pack("<HHII", *tag) for tag in levels)
+    (tmp_path / "photo.dng").write_bytes(struct.pack("<2sHIH", b"II", 42, 8, 3) + tags + struct.pack("<I", 0))
     made = exported(report, "dng", into=tmp_path / "photo.dng", output=tmp_path / "copy.dng")
     copy = (tmp_path / "copy.dng").read_bytes()
     assert made.files == {"noise_profile.dng": copy}
     (at,) = struct.unpack_from("<I", copy, 4)
-    assert struct.unpack_from("<H", copy, at) == (3,)
-    tag, kind, count, place = struct.unpack_from("<HHII", copy, at + 2 + 24)
+    assert struct.unpack_from("<H", copy, at) == (4,)
+    tag, kind, count, place = struct.unpack_from("<HHII", copy, at + 2 + 36)
     assert (tag, kind, count) == (51041, 12, 2)
     assert of_profile(*struct.unpack_from("<2d", copy, place)) == pytest.approx(variance(report), rel=1e-6)
+    with pytest.raises(ValueError, match=r"white level is 16383 DN .* and the DNG file has"):
+        report.export("dng", white=16383, into=tmp_path / "photo.dng")
     with pytest.raises(ValueError, match="expected the format dng"):
         exported(report, "fits", into=tmp_path / "photo.dng")
 

@@ -191,6 +191,13 @@ NoiseProfileOf(const CameraNoise & noise);
 SensorNoise_EXPORT std::string
 WithNoiseProfile(const std::string & file, const std::vector<std::pair<double, double>> & profile);
 
+/** Sets the levels of an export into a DNG file: BlackLevel and WhiteLevel of its raw directory, to which NoiseProfile
+ * refers; of several levels, of a pattern of pixels, their mean. Throws ExportError if \a file is no classic TIFF with
+ * the tag DNGVersion, or its tags are damaged, and ExportUseError if \a settings have levels that differ from the
+ * levels of the file. */
+SensorNoise_EXPORT void
+SetLevelsOfDng(const std::string & file, ExportSettings & settings);
+
 } // namespace sensornoise
 
 #endif

@@ -123,7 +123,7 @@ def export_noise_model(
     max_analogue_iso : float, optional
         ISO speed above which the gain is digital, for "android". Default: no ISO speed is digital.
     into : str or os.PathLike, optional
-        DNG file, for "dng": the export is then its copy with the tag NoiseProfile.
+        DNG file, for "dng": the export is then its copy with the tag NoiseProfile, by the levels of the file.
 
     Returns
     -------
