@@ -23,12 +23,12 @@ protected:
   {
     const double        constant = NumberAfter(text, "\"reference_constant\": ");
     const double        slope16 = NumberAfter(text, "\"reference_slope\": ") / 1.4;
-    const double        scale = std::exp2(16 - 12) / analogueGain;
+    const double        scale = std::exp2(16 - 12);
     std::vector<double> errors;
     for (double root = 0.0; root * root <= white - black; root += 0.02)
     {
       const double measured = scale * std::sqrt(slope * (black + root * root) + m_Intercept);
-      const double fitted = constant + slope16 * std::sqrt(scale) * root;
+      const double fitted = std::sqrt(analogueGain) * (constant + slope16 * std::sqrt(scale) * root); // noise.cpp
       errors.push_back(100.0 * std::abs(fitted / measured - 1.0));
     }
     return errors;
@@ -55,6 +55,25 @@ TEST_F(FittedExports, LibcameraIsAsNearAsItSays)
     EXPECT_NEAR(NumberAfter(made.note, "measured one by "), rms, 0.02 * rms) << darkVariance;
     EXPECT_EQ(NumberAfter(made.note, " at most, at "), black); // a sum of roots is no root of a sum
   }
+}
+
+// noise.cpp of libcamera: both numbers times the root of the analogue gain, on levels of 16 bits.
+TEST_F(FittedExports, LibcameraMultipliesBothNumbersByTheRootOfTheGain)
+{
+  CameraNoise noise = ReadCameraNoise(m_Report);
+  noise.analogueGain = 4.0;
+  const double deviation16 = 2.0 * (10.0 + 3.0 * std::sqrt(16.0 * 25.0)); // 25 DN of 12 bits above black
+  EXPECT_NEAR(LibcameraVariance({ 10.0, 1.4 * 3.0 }, noise, black + 25.0), std::pow(deviation16 / 16.0, 2.0), 1e-9);
+  // A burst with four times the variance at the gain 4 has the numbers of a burst at the gain 1.
+  const double dark = 400.0;
+  this->SetQuantity("/total_intercept", dark - slope * black);
+  const std::string expected = TextOf("libcamera");
+  ASSERT_GT(NumberAfter(expected, "\"reference_constant\": "), 100.0);
+  this->SetQuantity("/variance_slope", 4.0 * slope);
+  this->SetQuantity("/total_intercept", 4.0 * (dark - slope * black));
+  ExportSettings settings;
+  settings.analogueGain = 4.0;
+  EXPECT_EQ(TextOf("libcamera", settings), expected);
 }
 
 TEST_F(FittedExports, LibcameraOfANoiselessDarkIsExact)

@@ -174,10 +174,11 @@ FitLibcamera(const CameraNoise & noise);
 double
 LibcameraVariance(const LibcameraNoise & model, const CameraNoise & noise, double levelDn);
 
-/** The section rpi.noise of a tuning file of libcamera, JSON. On a scale of 16 bits at an analogue gain of 1, its
- * standard deviation is constant + slope sqrt(mean - black). The constant and the slope are fitted between the black
- * and the white level, and stored as the tuning tool rpi-ctt 1.4.0 does: int(constant) and round(1.4 slope, 3).
- * Channels of a mosaic are averaged. The note has the largest error of the fit. */
+/** The section rpi.noise of a tuning file of libcamera, JSON. On a scale of 16 bits, at the analogue gain G, its
+ * standard deviation is sqrt(G) (constant + slope sqrt(mean - black)). The constant and the slope are fitted between
+ * the black and the white level at the gain of the burst, and stored as the tuning tool rpi-ctt 1.4.0 does:
+ * int(constant) and round(1.4 slope, 3). Channels of a mosaic are averaged. The note has the largest error of the fit.
+ */
 NoiseExport
 ExportLibcamera(const CameraNoise & noise);
 

@@ -154,14 +154,18 @@ namespace
 constexpr int          levels = 4096;  // number of levels of the fit, at even distances of the root of the signal
 constexpr unsigned int scaleBits = 16; // libcamera's levels
 
-/** Line of the standard deviation, c + s r, at the root r of the signal, on libcamera's scale. */
+// libcamera, src/ipa/rpi/controller/rpi/noise.cpp: at the analogue gain G, the standard deviation is sqrt(G) (constant
+// + slope sqrt(signal)), in levels of 16 bits. (A binned mode divides it by a factor of the mode.) rpi-ctt divides the
+// levels by G before its fit, which makes the constant sqrt(G) times smaller than the formula of noise.cpp needs at G.
+
+/** Line of the standard deviation over sqrt(G), c + s r, at the root r of the signal, on libcamera's scale. */
 struct RootLine
 {
   double constant{ 0.0 };
   double slope{ 0.0 };
 };
 
-/** Line of the variance, slope m + dark, at the signal m, on libcamera's scale, up to the white level. */
+/** Line of the variance over G, slope m + dark, at the signal m, on libcamera's scale, up to the white level. */
 struct ScaledVariance
 {
   double slope{ 0.0 };
@@ -191,7 +195,7 @@ DnScaleOf(const CameraNoise & noise)
       " has no bit depth from 1 to 16, which libcamera's scale needs. Estimate the noise of frames with "
       "integer values.");
   }
-  return std::exp2(scaleBits - *noise.bitDepth) / noise.analogueGain;
+  return std::exp2(scaleBits - *noise.bitDepth);
 }
 
 ScaledVariance
@@ -207,7 +211,9 @@ ScaleVariance(const CameraNoise & noise)
     mean.offset += line.offset / static_cast<double>(noise.channels.size());
   }
   const double scaledRange = range * scale;
-  return { mean.scale * scaledRange, mean.offset * scaledRange * scaledRange, std::sqrt(scaledRange) };
+  return { mean.scale * scaledRange / noise.analogueGain,
+           mean.offset * scaledRange * scaledRange / noise.analogueGain,
+           std::sqrt(scaledRange) };
 }
 
 /** Fits the line by least squares of the relative error. A constant that would be negative is set to 0. */
@@ -266,7 +272,7 @@ LibcameraVariance(const LibcameraNoise & model, const CameraNoise & noise, doubl
   const double scale = DnScaleOf(noise);
   const double root = std::sqrt(std::max(0.0, scale * (levelDn - BlackLevelOf(noise))));
   const double deviation = (model.constant + model.slope / libcameraSlopeFactor * root) / scale;
-  return deviation * deviation;
+  return noise.analogueGain * deviation * deviation;
 }
 
 NoiseExport
@@ -287,7 +293,7 @@ ExportLibcamera(const CameraNoise & noise)
                  "The fitted standard deviation differs from the measured one by " + Percent(fitError.rms) +
                    " (rms), and by " + Percent(fitError.largest) + " at most, at " + Rounded(level) +
                    " DN. The slope is multiplied by 1.4, as by rpi-ctt. The analogue gain of the burst is taken as " +
-                   Text(noise.analogueGain) + '.');
+                   Text(noise.analogueGain) + ". libcamera multiplies both numbers by the root of the gain.");
 }
 
 } // namespace sensornoise

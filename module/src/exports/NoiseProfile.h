@@ -33,7 +33,7 @@ enum class ProfileForm : std::uint8_t
   Line,       ///< scale x + constant
   Normalised, ///< (W - B)^2 (scale y + constant) with y = (x - B) / (W - B)
   Sensor,     ///< (x - offset) / scale + (constant / scale)^2, with scale in e-/DN and constant in e-
-  Root        ///< libcamera: ((constant + scale / 1.4 sqrt(k (x - B))) / k)^2, k levels of 16 bits per DN
+  Root        ///< libcamera: G ((constant + scale / 1.4 sqrt(k (x - B))) / k)^2, k levels of 16 bits per DN, gain G
 };
 
 /** The numbers of one channel of a profile. ProfileForm defines their meaning. */

@@ -235,7 +235,8 @@ LibcameraMistakes(const ProfileVariance & profile)
   add("the slope has the factor 1.4 of rpi-ctt twice", 1.0, 1.0 / libcameraSlopeFactor);
   ForHalves([&add](double factor, const std::string & words) { add(words, std::sqrt(factor), std::sqrt(factor)); });
   ForPowers([&add](double factor, const std::string & times) {
-    add("its levels are " + times + ", as for another bit depth or analogue gain", factor, std::sqrt(factor));
+    add("its levels are " + times + ", as for another bit depth", factor, std::sqrt(factor));
+    add("its variance is " + times + ", as for another analogue gain", std::sqrt(factor), std::sqrt(factor));
   });
   return mistakes;
 }
