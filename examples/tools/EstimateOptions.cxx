@@ -185,6 +185,12 @@ ReadRollingShutter(EstimateOptions & options, const std::string & text)
     options.rollingShutter = RollingShutter::Fixed;
     options.sigmaRows = ReadNumbers<double>("--rolling-shutter", text, ',', 1, "auto, off or a number of rows")[0];
     CheckOption("--rolling-shutter", [&options] { ValidateShutterRows(options.sigmaRows); });
+    if (options.method != "published")
+    {
+      throw CLI::ValidationError("--rolling-shutter",
+                                 "it is " + text + ", and the method " + options.method +
+                                   " uses no number of rows; expected auto or off, or --method published");
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iostream>
 #include <memory>
@@ -33,6 +34,23 @@ ListOfFormats()
             NameOf(format.exactness) + ": " + format.fields + '\n';
   }
   return list;
+}
+
+/** Throws unless the options that were given are for the format. */
+void
+RequireUsed(const CLI::App & app, const std::string & format)
+{
+  const std::array<std::array<const char *, 2>, 3> uses{
+    { { "--analogue-gain", "libcamera" }, { "--max-analogue-iso", "android" }, { "--maps", "maps" } }
+  };
+  for (const auto & [option, user] : uses)
+  {
+    if (app.count(option) > 0 && format != user)
+    {
+      throw std::runtime_error(std::string(option) + " is for --format " + user + ", and the format is " + format +
+                               "; leave the option out");
+    }
+  }
 }
 
 void
@@ -93,6 +111,7 @@ ExportOptions::Parse(int argc, char ** argv)
     return 0;
   }
   RequireFitting(*this);
+  RequireUsed(app, format);
   return std::nullopt;
 }
 

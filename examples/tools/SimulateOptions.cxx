@@ -2,16 +2,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/SimulateOptions.h"
 
+#include "base/Text.h"
 #include "sensornoise/Version.h"
 #include "tools/HelpText.h"
 #include "tools/OptionHints.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 namespace sensornoise::tools
 {
+namespace
+{
+/** Throws std::runtime_error if an option has no effect: a transmission without colour filters, or clip levels that the
+ * converter does not reach. */
+void
+RequireEffect(const SimulateOptions & options)
+{
+  if (!options.flaws.transmission.empty() && options.flaws.bayer == "none")
+  {
+    throw std::runtime_error("--transmission is of the colour filters of a mosaic, and the sensor has none; expected "
+                             "--bayer with it, for example --bayer RGGB");
+  }
+  constexpr unsigned int mostBits = 16; // pixels of the stack have 16 bits
+  const unsigned int     bits = options.bitDepth == 0 ? mostBits : options.bitDepth;
+  const double           highest = std::exp2(bits) - 1.0;
+  if (!options.clip.empty() && bits <= mostBits && !(options.clip[0] >= 0.0 && options.clip[1] <= highest))
+  {
+    throw std::runtime_error("--clip is " + Text(options.clip[0]) + "," + Text(options.clip[1]) +
+                             ", and the converter reaches 0 to " + Text(highest) +
+                             " DN; expected levels between them. Leave --clip out, or set another --bit-depth");
+  }
+}
+} // namespace
 
 bool
 SimulateOptions::Parse(int argc, char ** argv)
@@ -70,6 +96,7 @@ SimulateOptions::Parse(int argc, char ** argv)
     app.exit(request); // --help or --version
     return false;
   }
+  RequireEffect(*this);
   return true;
 }
 

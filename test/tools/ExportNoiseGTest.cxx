@@ -129,6 +129,10 @@ TEST_F(ExportToolTest, RefusesWithASentence)
   IsRefusedBy("report.json --format dng --black nan", { "black or white level is nan", "finite" }, 2);
   IsRefusedBy("report.json --format dng --white 64", { "white level is 64 DN", "above the black level" }, 2);
   IsRefusedBy("report.json report.json --format dng", { "2 reports were given", "takes one" }, 2);
+  IsRefusedBy(
+    "report.json --format fits --analogue-gain 3", { "--analogue-gain is for --format libcamera", "fits" }, 2);
+  IsRefusedBy("report.json --format dng --max-analogue-iso 3", { "--max-analogue-iso is for --format android" }, 2);
+  IsRefusedBy("report.json --format fits --maps maps", { "--maps is for --format maps", "leave the option out" }, 2);
   IsRefusedBy("report.json --format android", { "1 report was given", "2 or more" }, 3);
   IsRefusedBy("report.json", { "--format", "--list" }, 2);
   IsRefusedBy("--format dng", { "REPORT" }, 2);

@@ -299,6 +299,10 @@ TEST_F(SimulateTool, WrongUseIsRefusedInOneSentenceAndLeavesNothing)
   ExpectError("--output s.mha --bit-depth 17", "the pixel type holds at most 16 bits");
   ExpectError("--output s.mha --vibration-sd 0.1", "--vibration-sd");
   ExpectError("--output s.mha --clip 100,50", "expected the low one below the high one");
+  ExpectError("--output s.mha --clip 0,99999", "--clip is 0,99999, and the converter reaches 0 to 4095 DN");
+  ExpectError("--output s.mha --clip=-1,800", "the converter reaches 0 to 4095 DN");
+  ExpectError("--output s.mha --bit-depth 0 --clip 0,65536", "the converter reaches 0 to 65535 DN");
+  ExpectError("--output s.mha --transmission 0.6,1,0.5", "expected --bayer with it");
   ExpectError("--output s.mha --response wave", "--response");
   ExpectError("--output s.mha --response bump,0.1", "the response \"bump\" is not known");
   ExpectError("--output s.mha --temporal-filter 1", "expected 0 to 0.99");
