@@ -33,7 +33,7 @@ namespace sensornoise
 using FrameListGeometry = StackGeometry;
 
 /** Frames in files, in time order: stacks, or one frame in each file. All headers have been checked. */
-struct FrameList
+struct SensorNoise_EXPORT FrameList
 {
   std::vector<FrameFile> files;
   bool                   isStack{ false }; // one stack, or several stacks in time order

@@ -59,7 +59,7 @@ struct JointMotion
 /** Reports of the four planes of a Bayer mosaic. Widths, heights and vibration are in pixels of the plane; a pixel of a
  * plane is 2 x 2 pixels of the mosaic. The errors of the vibration of a channel contain its deviation from the joint
  * vibration. */
-struct ChannelReports
+struct SensorNoise_EXPORT ChannelReports
 {
   BayerPattern               pattern{ BayerPattern::RGGB }; ///< pattern of the mosaic
   BayerSource                source{ BayerSource::Given };  ///< source of the pattern

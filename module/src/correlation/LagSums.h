@@ -39,7 +39,7 @@ struct PairSums
 };
 
 /** Sums of one lag in each intensity bin. */
-struct LagSums
+struct SensorNoise_EXPORT LagSums
 {
   std::array<PairSums, NoiseResiduals::IntensityBins> bins;
 
@@ -107,7 +107,7 @@ struct DistantSums
  *
  * Neither decreases with the distance, as the covariance of neighbours does. The noise of rows and columns does not
  * depend on the signal. The covariance by residual illumination grows with the squared signal. */
-struct DistantCovariance
+struct SensorNoise_EXPORT DistantCovariance
 {
   /** Number of distances between rows, or between columns, at which the covariance of lines is evaluated, from 0
    * [pixels]. */

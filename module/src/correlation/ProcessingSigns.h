@@ -28,7 +28,7 @@ namespace sensornoise
  * pixels of unequal variance do not look like long tails:
  *
  *     K = sum_t r^4 / (sum_t r^2)^2,   for normal noise E[K] = 3 sum_t P_tt^2 / (n (n + 2)) with n = tr P, exactly. */
-struct KurtosisSums
+struct SensorNoise_EXPORT KurtosisSums
 {
   /** Number of kinds of series: the pixel; its differences from the right and the lower neighbour; the alternating sums
    * of 2 x 2, of 8 x 1 and of 1 x 8 pixels. */
@@ -138,7 +138,7 @@ KurtosisRatioOfRecursion(double coefficient);
  *
  * In frames that were compressed in blocks (ITU T.81), two neighbours in the same block have the rounding of that
  * block in common, and two neighbours in different blocks do not. Blocks of 4 and of 16 pixels are detected, too. */
-struct BlockPhases
+struct SensorNoise_EXPORT BlockPhases
 {
   static constexpr std::size_t Period = 8;
 

@@ -303,7 +303,7 @@ SensorNoise_EXPORT const std::array<double, 2 * EmvaFilterRadius + 1> &
 EmvaLowpassKernel();
 
 /** Returns whether the filter leaves three or more columns and rows of a frame. */
-bool
+SensorNoise_EXPORT bool
 HasRoomForHighpass(std::size_t width, std::size_t height);
 
 /** Applies the highpass filter of EMVA Standard 1288, Release 4.0 Linear, section 8.1: the image minus its lowpass.

@@ -3,6 +3,7 @@
 #ifndef sensornoise_exports_ExportFormats_h
 #define sensornoise_exports_ExportFormats_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/NoiseExport.h"
 #include "sensornoise/NoiseModel.h"
 
@@ -166,7 +167,7 @@ struct LibcameraNoise
 };
 
 /** Fits libcamera's model to a camera. Throws ExportError if the line, a level or the bit depth is missing. */
-LibcameraNoise
+SensorNoise_EXPORT LibcameraNoise
 FitLibcamera(const CameraNoise & noise);
 
 /** Returns the variance of libcamera's model at a level [DN^2]: at the black level where the level is below. The camera

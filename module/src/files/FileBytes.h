@@ -48,7 +48,7 @@ SensorNoise_EXPORT FileIdentity
 IdentityOfDataFile(const std::string & file, const std::string & dataFile);
 
 /** Reads bytes of a file at any place. */
-class FileBytes
+class SensorNoise_EXPORT FileBytes
 {
 public:
   /** Opens the file \a path. Messages of errors begin with \a file, which is the same file or names it as its data
@@ -130,7 +130,7 @@ private:
 
 /** Ranges of a file that hold pixels or tables, to find bytes that are used twice. Adjacent ranges are joined, and the
  * number of other ranges is limited, so that at most 8 MiB are used. */
-class ByteRanges
+class SensorNoise_EXPORT ByteRanges
 {
 public:
   using Range = std::pair<std::uint64_t, std::uint64_t>; // offsets of its first byte and behind its last byte
@@ -247,7 +247,7 @@ struct ByteOrders
 };
 
 /** Reads \a pixels pixels of 16 bits in both byte orders. \a isSigned: they are signed integers. */
-ByteOrders
+SensorNoise_EXPORT ByteOrders
 CompareByteOrders(const unsigned char * bytes, std::size_t pixels, bool isSigned);
 
 } // namespace sensornoise

@@ -69,15 +69,15 @@ SampleFormat
 WholeSample(const FrameFile & file, bool isBigEndian);
 
 /** Returns the smallest number of pixels that fill whole bytes. */
-std::size_t
+SensorNoise_EXPORT std::size_t
 SamplesInGroup(const SampleFormat & format);
 
 /** Returns the size of a group of SamplesInGroup() pixels [bytes]. */
-std::size_t
+SensorNoise_EXPORT std::size_t
 BytesInGroup(const SampleFormat & format);
 
 /** Unpacks \a groups groups of pixels into \a pixels of type format.pixel, in the byte order of this machine. */
-void
+SensorNoise_EXPORT void
 UnpackSamples(const SampleFormat & format, const unsigned char * bytes, std::size_t groups, void * pixels);
 
 /** Reverses the bytes of each pixel unless \a isBigEndian is the byte order of this machine. */

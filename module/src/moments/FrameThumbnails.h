@@ -25,7 +25,7 @@ namespace sensornoise
 /** Change of the scene from frame to frame, without flicker and noise. It is computed from the median cell, as if the
  * differences were normally distributed, so that objects that cross a smaller part of the frame have little effect.
  * The values are medians over the frames. */
-struct SceneChange
+struct SensorNoise_EXPORT SceneChange
 {
   double fraction{ 0.0 };   ///< fraction of the variance over the cells of a frame, at most 1 [1]
   double ofTheLevel{ 0.0 }; ///< square root of the changed variance over the mean level of the frames [1]

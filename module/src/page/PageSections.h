@@ -3,6 +3,7 @@
 #ifndef sensornoise_page_PageSections_h
 #define sensornoise_page_PageSections_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/ChannelReports.h"
 #include "sensornoise/ReportPage.h"
@@ -134,16 +135,16 @@ struct WarningParts
 
 /** Divides the message of a warning. The action is its last sentences that begin with a command, or a command behind
  * its last colon. Without one, the warning gets the action of WarningTable. */
-WarningParts
+SensorNoise_EXPORT WarningParts
 SplitWarning(const Warning & warning);
 
 /** Returns one HTML box for each code, errors first: its name, the findings, and the action. The code is the address of
  * the box, for example "#few-frames". "" if there are no \a warnings. */
-std::string
+SensorNoise_EXPORT std::string
 WarningBoxes(const std::vector<Warning> & warnings);
 
 /** Returns the verdict in one sentence as HTML, with links to the warnings of its severity. */
-std::string
+SensorNoise_EXPORT std::string
 VerdictBox(const Report & report);
 std::string
 VerdictBox(const ChannelReports & reports);

@@ -180,7 +180,7 @@ struct FrameGroup
 };
 
 /** Frames whose noise at their level differs from the noise of the others: by another gain or another processing. */
-struct FrameNoise
+struct SensorNoise_EXPORT FrameNoise
 {
   /** Indices from 0 of all frames outside the largest group. The difference is larger than a threshold, and
    * significant. */

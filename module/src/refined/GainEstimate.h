@@ -59,7 +59,7 @@ SensorNoise_EXPORT SensorLines
 AddCovariances(const SensorLines & lines, const NoiseCorrelation & correlation, double blackDn, double quantisationDn2);
 
 /** Gain and intercept of the sensor, with their complete errors. */
-struct GainEstimate
+struct SensorNoise_EXPORT GainEstimate
 {
   /** Line of the variance whose slope is the gain. */
   VarianceLine line;

@@ -108,7 +108,7 @@ SubtractLineIllumination(LineIllumination &          lines,
                          const ParallelFor &         parallelFor);
 
 /** Charge in the dark frames that differs from place to place, see FindDarkCharge(). */
-struct DarkCharge
+struct SensorNoise_EXPORT DarkCharge
 {
   MeasuredNumber slope;    ///< slope of the variance over the level of the dark frames [DN]; charge has the gain
   double         spreadDn; ///< mean level above the darkest tiles [DN]

@@ -96,7 +96,7 @@ struct TileOfPositions
  * Level and roughness are computed from the approximation alone, whose white noise is independent of the noise of the
  * details: a selection by them does not change the distribution of the details. Positions whose windows hold a pixel
  * that is not finite or masked have a roughness of NaN. */
-class BandTile
+class SensorNoise_EXPORT BandTile
 {
 public:
   /** Computes all positions of the tile. */
