@@ -135,6 +135,21 @@ TEST(SensorNoiseLeftOutFrames, ThatAreEqualAreLeftOutTogetherAndRepeatedOnesAreC
   EXPECT_EQ(report.gain.value, Measure(stack).GetReport().gain.value);
 }
 
+TEST(SensorNoiseLeftOutFrames, AreUnlikeHoweverOftenTheyAreRepeated)
+{
+  const auto &           stack = SmallStack<GreyValue>();
+  const Stack<GreyValue> first = Insert(stack, { { std::size_t{ 0 }, Mirrored(stack, 3) } });
+  Shown                  shown(stack.frames, 0); // half of the frames as given
+  for (std::size_t t = 0; t < stack.frames; ++t)
+  {
+    shown.push_back(t + 1);
+  }
+  const Report report = Measure(Show(first, shown)).GetReport();
+  EXPECT_EQ(report.framesLeftOut.size(), stack.frames);
+  EXPECT_EQ(report.framesDistinct, stack.frames);
+  EXPECT_EQ(report.gain.value, Measure(stack).GetReport().gain.value);
+}
+
 TEST(SensorNoiseLeftOutFrames, OfSeveralProcessesAreThoseOfOne)
 {
   const auto &             stack = SmallStack<GreyValue>();

@@ -161,6 +161,24 @@ FrameThumbnails::FrameThumbnails(const FrameGeometry &             geometry,
   m_UniformFractions.resize(frames, 0.0);
 }
 
+FrameThumbnails
+FrameThumbnails::Of(const std::vector<std::size_t> & frames) const
+{
+  FrameThumbnails chosen = *this;
+  for (std::size_t k = 0; k < frames.size(); ++k)
+  {
+    const auto from = m_Means.begin() + static_cast<std::ptrdiff_t>(frames[k] * m_Cells);
+    std::copy_n(from, m_Cells, chosen.m_Means.begin() + static_cast<std::ptrdiff_t>(k * m_Cells));
+    chosen.m_Noise[k] = m_Noise[frames[k]];
+    chosen.m_UniformFractions[k] = m_UniformFractions[frames[k]];
+  }
+  chosen.m_Frames = frames.size();
+  chosen.m_Means.resize(frames.size() * m_Cells);
+  chosen.m_Noise.resize(frames.size());
+  chosen.m_UniformFractions.resize(frames.size());
+  return chosen;
+}
+
 std::vector<double>
 FrameThumbnails::PixelsOfCells() const
 {

@@ -98,6 +98,10 @@ public:
   double
   FindIlluminationChange(const std::vector<std::size_t> & frames) const;
 
+  /** Returns the thumbnails of some \a frames, in this order. */
+  FrameThumbnails
+  Of(const std::vector<std::size_t> & frames) const;
+
   std::size_t
   NumberOfFrames() const
   {

@@ -178,6 +178,28 @@ StackPasses<TPixel>::MergeSums(std::istream & in)
 }
 
 template <typename TPixel>
+std::vector<LeftOutFrame>
+StackPasses<TPixel>::FindUnlike() const
+{
+  // Equal frames count as one, so that a frame is no less unlike because it is repeated.
+  const DistinctFrames           distinct = m_Moments.FindDistinct();
+  const std::vector<std::size_t> counted = distinct.Counted();
+  std::vector<LeftOutFrame>      unlike = FindUnlikeFrames(m_Thumbnails.Of(counted));
+  std::vector<LeftOutFrame>      given;
+  for (std::size_t t = 0; t < m_Frames; ++t)
+  {
+    const auto found = std::find_if(unlike.begin(), unlike.end(), [&](const LeftOutFrame & each) {
+      return counted[each.frame] == distinct.OriginalOf(t);
+    });
+    if (found != unlike.end())
+    {
+      given.push_back({ t, found->fault });
+    }
+  }
+  return given;
+}
+
+template <typename TPixel>
 void
 StackPasses<TPixel>::EndPass()
 {

@@ -158,10 +158,7 @@ public:
   }
   /** Returns the frames that are unlike the others, after all frames of the first pass have been added. */
   std::vector<LeftOutFrame>
-  FindUnlike() const
-  {
-    return FindUnlikeFrames(m_Thumbnails);
-  }
+  FindUnlike() const;
   /** Sets the frames that the first pass leaves out, in ascending order, instead of the result of FindUnlike(). */
   void
   LeaveOut(std::vector<LeftOutFrame> frames)
