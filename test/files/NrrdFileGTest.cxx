@@ -122,6 +122,16 @@ TEST_F(NrrdFile, WhatIsNoImageOfOneValueIsRefused)
   IsStack("named.tif", good + RandomBytes(StackBytes)); // a format is recognised by its contents
 }
 
+TEST_F(NrrdFile, TimeIsTheLastAxis)
+{
+  const auto headerOf = [](const std::string & kinds) {
+    return Replaced(NrrdHeaderOf("raw"), "domain domain domain", kinds);
+  };
+  IsStack("a.nrrd", headerOf("domain domain time") + RandomBytes(StackBytes));
+  HeaderIsRefused(headerOf("time domain domain"), { "axis 0 is of kind time", "expected time as the last axis" });
+  HeaderIsRefused(headerOf("space Time space"), { "axis 1 is of kind time", "numpy.moveaxis" });
+}
+
 TEST_F(NrrdFile, SizesThatCannotBeAreRefused)
 {
   const auto isRefused = [this](const std::string & sizes, const std::string & words) {

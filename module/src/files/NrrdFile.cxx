@@ -94,7 +94,8 @@ SizesOfNrrd(const std::string & file, const NrrdHeader & header)
   return sizes;
 }
 
-/** Throws FileError unless each axis is an axis of the image: no axis is the components of a pixel. */
+/** Throws FileError unless each axis is an axis of the image: no axis is the components of a pixel, and only the last
+ * axis is time. */
 void
 CheckKinds(const std::string & file, const NrrdHeader & header, const std::vector<std::uint64_t> & sizes)
 {
@@ -111,6 +112,12 @@ CheckKinds(const std::string & file, const NrrdHeader & header, const std::vecto
     {
       throw FileError(file,
                       "axis " + std::to_string(i) + " is of kind " + kinds[i] + ": " + SeveralComponents(sizes[i]));
+    }
+    if (kinds[i] == "time" && i + 1 < kinds.size())
+    {
+      throw FileError(file,
+                      "axis " + std::to_string(i) +
+                        " is of kind time; expected time as the last axis. Reorder the axes: numpy.moveaxis()");
     }
   }
 }
