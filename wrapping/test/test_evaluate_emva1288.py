@@ -110,6 +110,14 @@ def test_frames_may_be_given_in_any_form(report, flats, darks):
     assert expected.gain == report.gain
 
 
+def test_masked_pixels_are_refused(flats, darks):
+    masked = np.ma.masked_greater(flats[EXPOSURES[-1]], 4000)
+    array = pytest.importorskip("dask.array")
+    for frames in (masked, array.from_array(masked)):
+        with pytest.raises(TypeError, match="^flats of the exposure 1 is a masked array, expected a plain one"):
+            sn.evaluate_emva1288({**flats, EXPOSURES[-1]: frames}, darks)
+
+
 def test_longer_series_gives_the_non_uniformity(flats, darks):
     long = frames_of(0.5, 6, 99)
     report = sn.evaluate_emva1288([*flats.items(), (0.5, long)], darks)

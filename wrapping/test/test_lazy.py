@@ -6,6 +6,7 @@ import os
 import signal
 
 import itk
+import itk_sensornoise as sn
 import numpy as np
 import pytest
 
@@ -164,6 +165,37 @@ def test_all_that_takes_frames_takes_lazy_ones(burst, expected):
     assert itk.sensor_noise_estimator(frames) == expected
     for found, of_array in zip(*map(itk.temporal_statistics_image_filter, (frames, burst)), strict=True):
         np.testing.assert_array_equal(found, of_array)
+
+
+def masked_dask(burst, folder):
+    array = pytest.importorskip("dask.array")
+    return array.ma.masked_greater(array.from_array(burst, chunks=(7, 50, 60)), 3000)
+
+
+MASKED = {
+    "dask": masked_dask,
+    "list of dask": lambda burst, folder: list(masked_dask(burst, folder)),
+    "memmap": lambda burst, folder: np.ma.masked_greater(of_memmap(burst, folder), 3000),
+}
+
+
+@pytest.mark.parametrize("kind", MASKED)
+def test_masked_pixels_of_lazy_frames_are_refused(burst, tmp_path, kind):
+    frames = MASKED[kind](burst, tmp_path)
+    name = r"frames\[0\]" if kind.startswith("list") else "frames"
+    with pytest.raises(TypeError, match=f"^{name} is a masked array, expected a plain one"):
+        itk.estimate_sensor_noise(frames)
+    if kind == "dask":
+        with pytest.raises(TypeError, match="^dark is a masked array, expected a plain one"):
+            itk.estimate_sensor_noise(burst, dark=frames)
+        with pytest.raises(TypeError, match="^first_frame is a masked array, expected a plain one"):
+            sn.SensorNoiseSums(burst.shape, burst.dtype, first_frame=frames[0])
+
+
+def test_a_mask_of_dask_that_masks_nothing_is_ignored(burst, expected):
+    array = pytest.importorskip("dask.array")
+    frames = array.ma.masked_array(array.from_array(burst, chunks=(7, 50, 60)), mask=False)
+    assert itk.estimate_sensor_noise(frames) == expected
 
 
 def refused(frames, **parameters):

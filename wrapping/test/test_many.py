@@ -52,14 +52,18 @@ def test_sources_are_named_by_their_files(burst_files, bursts, tmp_path):
 
 
 def test_a_bad_burst_is_a_row_with_its_reason(bursts, reports, tmp_path):
+    dask_array = pytest.importorskip("dask.array")
+
     def broken():
         raise OSError("no such\ndataset")
 
     sources = {"a": bursts["a"], "few": bursts["a"][:1], "none": tmp_path / "none.mha", "broken": broken} | bursts
+    sources["masked"] = dask_array.ma.masked_greater(dask_array.from_array(bursts["a"]), 100)
     rows = {row["name"]: row for row in rows_of(estimate_many(sources))}
     assert [name for name, row in rows.items() if row["status"] == "measured"] == NAMES
     assert "none.mha" in rows["none"]["reason"] and "does not exist" in rows["none"]["reason"]
     assert rows["broken"]["reason"] == "OSError: no such dataset"
+    assert rows["masked"]["reason"].startswith("frames is a masked array, expected a plain one")
     assert rows["few"]["gain_DN_per_e"] is None and rows["few"]["frames"] is None
     assert rows["c"]["gain_DN_per_e"] == reports["c"]["gain"]["value"]
 

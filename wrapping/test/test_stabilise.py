@@ -144,6 +144,13 @@ def test_wrong_use_is_refused(arguments, said):
         itk.generalized_anscombe_image_filter(**arguments)
 
 
+def test_masked_pixels_are_refused():
+    masked = np.ma.masked_equal(FRAME, 50)
+    for image in (masked, pytest.importorskip("dask.array").from_array(masked)):
+        with pytest.raises(TypeError, match="^image is a masked array, expected a plain one"):
+            itk.generalized_anscombe_image_filter(image, **MODEL)
+
+
 def test_wrong_use_of_the_inverse_is_refused(tmp_path):
     with pytest.raises(ValueError, match="image has dtype uint16; expected stabilised values, float32 or float64"):
         itk.inverse_generalized_anscombe_image_filter(FRAME, **MODEL)

@@ -24,11 +24,7 @@ PIXEL_NAMES = "uint8, uint16, int16, float32 or float64"
 def as_array(values: object, name: str) -> np.ndarray:
     """Returns `values` as an array, which shares the memory of an array. Raises an error for a masked array, whose
     mask would be lost, and for values that are no array."""
-    values = updated(values)
-    if isinstance(values, np.ma.MaskedArray):
-        if not np.ma.is_masked(values):
-            return np.asarray(values.data)  # all of it counts
-        raise InvalidTypeError(f"{name} is a masked array, expected a plain one: give its data, and a mask by mask=")
+    values = without_mask(updated(values), name)
     if hasattr(values, "__dlpack__") and not hasattr(values, "__array__"):
         return from_dlpack(values, name)
     if isinstance(values, (list, tuple)) or hasattr(values, "__array__") or hasattr(values, "__array_interface__"):
@@ -38,6 +34,18 @@ def as_array(values: object, name: str) -> np.ndarray:
             # NumPy raises for lists of unequal length or without numbers, tensors for another device or a gradient.
             raise ValueError(f"{name} cannot be made an array ({error}); expected numbers") from error
     raise InvalidTypeError(f"{name} is of type {type(values).__name__}; expected an array")
+
+
+def without_mask(values: Any, name: str) -> Any:
+    """Returns the data of a masked array whose values all count, and other values unchanged. Raises an error if a value
+    is masked. NumPy would drop the mask of an array of Dask, which is therefore computed here."""
+    if isinstance(getattr(values, "_meta", None), np.ma.MaskedArray):
+        values = values.compute()
+    if not isinstance(values, np.ma.MaskedArray):
+        return values
+    if np.ma.is_masked(values):
+        raise InvalidTypeError(f"{name} is a masked array, expected a plain one: give its data, and a mask by mask=")
+    return np.asarray(values.data)
 
 
 def from_dlpack(values: Any, name: str) -> np.ndarray:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ._arrays import PIXEL_TYPES, require_pixel_type, require_shape
+from ._arrays import PIXEL_TYPES, require_pixel_type, require_shape, without_mask
 from ._axes import in_time_order
 from ._chunks import arrays_of_graph, frames_of_chunk, is_closed, require_chunks
 from ._types import ItkObject
@@ -47,6 +47,7 @@ class ListOfFrames:
 
     def __init__(self, frames: Sequence[Any], name: str) -> None:
         self.frames = frames
+        self._name = name
         self.dtype = np.dtype(frames[0].dtype)
         self.shape = (len(frames), *frames[0].shape)
         for number, frame in enumerate(frames):
@@ -60,7 +61,8 @@ class ListOfFrames:
             require_chunks(frame, this)
 
     def __getitem__(self, times: slice) -> np.ndarray:
-        return np.stack([np.asarray(frame[...]) for frame in self.frames[times]])
+        numbers = range(len(self.frames))[times]
+        return np.stack([np.asarray(without_mask(self.frames[n][...], f"{self._name}[{n}]")) for n in numbers])
 
 
 class LazyStack:
@@ -87,10 +89,10 @@ class LazyStack:
 
     def read(self, first: int, end: int, take: Callable[[int, np.ndarray], None]) -> None:
         """Calls `take` with the frames first ... end - 1 in pieces, each with the number of its first frame. Raises
-        ValueError if a piece has another shape or dtype than announced."""
+        ValueError if a piece has another shape or dtype than announced, and TypeError if values are masked."""
         while first < end:
             stop = min(end, (first // self._piece + 1) * self._piece)
-            piece = np.asarray(self._frames[first:stop])
+            piece = np.asarray(without_mask(self._frames[first:stop], self._name))
             expected = (stop - first, *self.shape[1:])
             if piece.shape != expected or piece.dtype.newbyteorder("=").name != self.pixel:
                 raise ValueError(

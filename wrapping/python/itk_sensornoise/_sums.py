@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from . import _options
-from ._arrays import PIXEL_NAMES, PIXEL_TYPES, view
+from ._arrays import PIXEL_NAMES, PIXEL_TYPES, as_array, view
 from ._channels import ChannelReports, report_of
 from ._errors import InvalidValueError, itk_errors
 from ._frames import Stack, crop, open_dumps, open_frames
@@ -104,7 +104,7 @@ class SensorNoiseSums:
 
     def _recognise(self, first_frame: Frame) -> str:
         """Returns the Bayer pattern of the measured frames, by the levels of the first frame."""
-        stack = self._opened(np.asarray(first_frame)[None], "first_frame")
+        stack = self._opened(as_array(first_frame, "first_frame")[None], "first_frame")
         x, y, _ = self._prepared.corner
         width, height, _ = self._prepared.size
         part = crop(stack, (x, y, 0), (width, height, 1))

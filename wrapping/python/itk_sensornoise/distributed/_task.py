@@ -68,8 +68,8 @@ class _Here:
         self.shape, self.dtype, self.chunks = frames.shape, np.dtype(frames.dtype), frames.chunks
         self._frames = frames
 
-    def __getitem__(self, times: slice) -> np.ndarray:
-        return np.asarray(self._frames[times].compute(scheduler="synchronous"))
+    def __getitem__(self, times: slice) -> Any:
+        return self._frames[times].compute(scheduler="synchronous")  # LazyStack sees a mask
 
 
 def _read_here(frames: Any) -> Frames:
