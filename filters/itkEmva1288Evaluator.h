@@ -91,8 +91,8 @@ public:
   itkSetMacro(QuantisationStep, double);
   itkGetConstMacro(QuantisationStep, double);
 
-  /** Bits of the sensor's digital numbers, which decide whether the brightest frames are saturated. Default 0: not
-   * known. */
+  /** Bits of the sensor's digital numbers, at most 16, which decide whether the brightest frames are saturated. Digital
+   * numbers beyond their range are an error. Default 0: not known. */
   itkSetMacro(BitDepth, unsigned int);
   itkGetConstMacro(BitDepth, unsigned int);
 

@@ -44,7 +44,7 @@ struct ListLine
     const std::optional<double> found = NumberOf(word);
     if (!found || !(*found >= 0.0))
     {
-      this->Refuse(what + ", a number of 0 or more, where \"" + word.substr(0, 40) + "\" stands");
+      this->Refuse(what + ", a finite number of 0 or more, where \"" + word.substr(0, 40) + "\" stands");
     }
     return *found;
   }

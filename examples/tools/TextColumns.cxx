@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/TextColumns.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <fstream>
@@ -36,7 +37,7 @@ NumberOf(const std::string & word)
 {
   char *       end = nullptr;
   const double number = std::strtod(word.c_str(), &end);
-  return word.empty() || *end != '\0' ? std::nullopt : std::optional<double>(number);
+  return word.empty() || *end != '\0' || !std::isfinite(number) ? std::nullopt : std::optional<double>(number);
 }
 
 std::vector<std::string>

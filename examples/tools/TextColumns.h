@@ -18,7 +18,7 @@ Trim(const std::string & text);
 std::vector<std::string>
 SplitColumns(const std::string & text, const char * separators);
 
-/** Returns the whole word as a number; empty: it is no number. */
+/** Returns the whole word as a finite number; empty: it is none. */
 std::optional<double>
 NumberOf(const std::string & word);
 

@@ -124,6 +124,32 @@ TEST(SensorNoiseEmva1288, DarkLevelsBetweenExposuresAreInterpolated)
   EXPECT_FALSE(report.darkCurrent.value); // two exposures do not determine it
 }
 
+TEST(SensorNoiseEmva1288, TheBitDepthHoldsAllDigitalNumbers)
+{
+  std::vector<EmvaSeries> series = ExactCamera({});
+  EmvaSettings            settings;
+  const auto              refusal = [&]() -> std::string {
+    try
+    {
+      EvaluateEmva1288(series, settings);
+    }
+    catch (const std::invalid_argument & error)
+    {
+      return error.what();
+    }
+    return "";
+  };
+  settings.bitDepth = 12; // the numbers end at 4095
+  EXPECT_EQ(refusal(), "");
+  settings.bitDepth = 11;
+  EXPECT_NE(refusal().find("hold the level 4095 DN, but 11 bits with a quantization step of 1 DN end at 2047 DN"),
+            std::string::npos);
+  settings.quantizationStepDn = 4.0; // 11 bits that are shifted by 2 end at 8188
+  EXPECT_EQ(refusal(), "");
+  settings.bitDepth = 17;
+  EXPECT_NE(refusal().find("the bit depth is 17; expected at most 16"), std::string::npos);
+}
+
 TEST(SensorNoiseEmva1288, TheThresholdIsWhereSignalEqualsNoise)
 {
   // (26) and (21) are independent statements of the standard.

@@ -291,6 +291,12 @@ TEST_F(EstimateEmvaTool, RefusesListsThatAreNone)
   Refuses(WriteText("list.csv", "exposure,photons\n1,2\n") + method, { "line 1", "files" });
   Refuses(WriteText("list.csv", "exposure,files\n1\n") + method, { "line 2", "2 columns", "there are 1" });
   Refuses(WriteText("list.csv", "exposure,files\n-1,a.tif\n") + method, { "line 2", "\"-1\"" });
+  for (const std::string number : { "inf", "1e400", "nan" })
+  {
+    Refuses(WriteText("list.csv", "exposure,photons,files\n1," + number + ",a.tif\n") + method,
+            { "line 2", "expected photons, a finite number", "\"" + number + "\"" });
+    Refuses(WriteText("list.txt", "b 10 " + number + "\n") + method, { "line 1", "a finite number" });
+  }
   Refuses(WriteText("list.csv", "exposure,files,kind\n1,a.tif,grey\n") + method, { "line 2", "flat or dark" });
   Refuses(WriteText("list.csv", "exposure,files\n1,none*.tif\n") + method, { "none*.tif" });
   Refuses(WriteText("list.csv", "exposure,files\n1," + m_Names[0] + "\n") + method, { "line 2", "one frame" });
@@ -310,6 +316,7 @@ TEST_F(EstimateEmvaTool, RefusesOptionsOfOtherMethods)
   Refuses("stack.mha --exposures exposures.txt --offset 3" + method, { "does not use --offset" });
   Refuses("stack.mha --exposures exposures.txt --mask mask.png" + method, { "does not use --mask", "--roi" });
   Refuses(WriteTable("list.csv"), { "list.csv is text", "--method emva1288" });
+  Refuses("stack.mha --exposures exposures.txt --bit-depth 8" + method, { "but 8 bits", "end at 255 DN" });
   Refuses("stack.mha --xml results.xml", { "writes no XML" });
   Refuses(WriteTable("list.csv") + " --exposures exposures.txt" + method, { "both say exposures" });
   Refuses(WriteTable("list.csv") + " --json list.csv" + method, { "list.csv" });

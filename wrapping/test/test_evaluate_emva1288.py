@@ -175,6 +175,8 @@ DARK = {0.0: frames_of(0.0, 2, 4)}
         ({0.5: PAIR}, DARK, {"photons": {0.4: 1.0}}, ValueError, "photons has no number for the exposure 0.5"),
         ({0.5: PAIR}, DARK, {"photons": [1.0]}, TypeError, "photons is"),
         ({0.5: PAIR}, DARK, {"step": 0.0}, ValueError, "step is 0.0; expected a number above 0"),
+        ({0.5: PAIR}, DARK, {"bit_depth": 17}, ValueError, "bit_depth is 17; expected a whole number from 1 to 16"),
+        ({1: PAIR, 2: PAIR, 3: PAIR}, DARK, {"bit_depth": 8}, ValueError, "DN, but 8 bits with a quantization step"),
         ({0.5: PAIR}, DARK, {"bayer": "moon"}, ValueError, "bayer is 'moon'"),
         ({0.5: PAIR}, DARK, {"exposure_unit": "h"}, ValueError, "exposure_unit is 'h'; expected 's'"),
         ({0.5: PAIR}, DARK, {"roi": (0, 0, 99, 9)}, ValueError, "roi is"),

@@ -100,7 +100,8 @@ struct EmvaSettings
 {
   /** Quantization step [DN], above 0: the variance of the quantization is its square over 12. The standard has 1. */
   double quantizationStepDn{ 1.0 };
-  /** Bit depth of the digital numbers [bit]; 0: not known. It decides whether the brightest frames are saturated. */
+  /** Bit depth of the digital numbers [bit], at most 16; 0: not known. It decides whether the brightest frames are
+   * saturated. Digital numbers beyond its range are an error. */
   unsigned int bitDepth{ 0 };
   /** Unit of the exposures: "s", or "" if it is not known. The dark current is given per unit of the exposure. */
   std::string exposureUnit;

@@ -138,6 +138,11 @@ RequireUsable(const std::vector<EmvaSeries> & series, const EmvaSettings & setti
     throw std::invalid_argument("the quantization step is " + Text(settings.quantizationStepDn) +
                                 " DN; expected a number above 0");
   }
+  if (settings.bitDepth > InEmva.largestBitDepth)
+  {
+    throw std::invalid_argument("the bit depth is " + std::to_string(settings.bitDepth) + "; expected at most " +
+                                std::to_string(InEmva.largestBitDepth) + ", or 0 if it is not known");
+  }
   for (const EmvaSeries & each : series)
   {
     if (!std::isfinite(each.exposure) || each.exposure < 0.0)
@@ -150,6 +155,13 @@ RequireUsable(const std::vector<EmvaSeries> & series, const EmvaSettings & setti
         "the frames of the exposure " + Text(each.exposure) + " have " + std::to_string(each.width) + " x " +
         std::to_string(each.height) + " pixels, the frames of the exposure " + Text(series.front().exposure) + " " +
         std::to_string(series.front().width) + " x " + std::to_string(series.front().height) + "; expected one size");
+    }
+    if (settings.bitDepth > 0 && each.highestDn > EndOfRangeDn(settings))
+    {
+      throw std::invalid_argument("the data hold the level " + Text(each.highestDn) + " DN, but " +
+                                  std::to_string(settings.bitDepth) + " bits with a quantization step of " +
+                                  Text(settings.quantizationStepDn) + " DN end at " + Text(EndOfRangeDn(settings)) +
+                                  " DN; give a larger bit depth, or the quantization step of shifted numbers");
     }
   }
 }

@@ -49,6 +49,8 @@ struct EmvaConstants
   std::size_t exposuresOfStandard{ 50 };
   /** Frames of a series for the non-uniformity. Section 8. */
   std::size_t framesOfStandard{ 100 };
+  /** Largest bit depth, as of the other methods. */
+  unsigned int largestBitDepth{ 16 };
   /** Number of rounds of the weighted line, whose weights follow from its own values. Chosen empirically: the third
    * changes the slope by less than 1e-4 of its error. */
   int roundsOfWeights{ 4 };
@@ -173,6 +175,10 @@ struct TransferCurve
     return hasPhotons ? *point.photons : point.exposure;
   }
 };
+
+/** Returns the end of the range of digital numbers [DN]: 2^bitDepth - 1 quantization steps of at least 1 DN. */
+double
+EndOfRangeDn(const EmvaSettings & settings);
 
 /** Makes the curve. If an exposure has a pair of frames and a longer series, the pair counts. If most of the flat
  * series are pairs, longer series are no points of the curve. Throws std::invalid_argument if fewer than three

@@ -67,9 +67,9 @@ PointOf(const EmvaSeries & series, const DarkLevels & darkLevels)
 
 /** Returns whether so many values of the series are at the end of the range of digital numbers as at saturation. */
 bool
-IsSaturated(const EmvaSeries & series, unsigned int bitDepth)
+IsSaturated(const EmvaSeries & series, const EmvaSettings & settings)
 {
-  const double top = bitDepth > 0 ? std::ldexp(1.0, static_cast<int>(bitDepth)) - 1.0 : series.highestDn;
+  const double top = settings.bitDepth > 0 ? EndOfRangeDn(settings) : series.highestDn;
   return series.highestDn >= top && series.fractionAtHighest >= InEmva.leastSaturatedFraction;
 }
 
@@ -92,6 +92,12 @@ RequireSignal(const TransferCurve & curve)
   }
 }
 } // namespace
+
+double
+EndOfRangeDn(const EmvaSettings & settings)
+{
+  return (std::ldexp(1.0, static_cast<int>(settings.bitDepth)) - 1.0) * std::max(1.0, settings.quantizationStepDn);
+}
 
 TransferCurve
 MakeTransferCurve(const std::vector<EmvaSeries> & series, const DarkLevels & dark, const EmvaSettings & settings)
@@ -129,7 +135,7 @@ MakeTransferCurve(const std::vector<EmvaSeries> & series, const DarkLevels & dar
   curve.saturation = static_cast<std::size_t>(largest - curve.points.begin());
   RequireSignal(curve);
   curve.isSaturated =
-    curve.saturation + 1 < curve.points.size() || IsSaturated(curve.series[curve.saturation], settings.bitDepth);
+    curve.saturation + 1 < curve.points.size() || IsSaturated(curve.series[curve.saturation], settings);
   for (EmvaPoint & point : curve.points)
   {
     point.isInGainFit = point.signalDn <= InEmva.gainRange * curve.SaturationSignalDn();

@@ -58,8 +58,8 @@ def evaluate_emva1288(
     exposure_unit : {"", "s"}, default ""
         Unit of the exposures. "": any, or not known.
     bit_depth : int, optional
-        Bits of the digital numbers, 1 to 32, which decide whether the brightest flat fields are saturated. Default: not
-        known.
+        Bits of the digital numbers, 1 to 16, which decide whether the brightest flat fields are saturated: the range
+        ends at 2^bits - 1 steps. Numbers beyond it are an error. Default: not known.
     step : float, default 1
         Quantization step [DN], above 0. The quantization noise, 1/12 of its square, is subtracted from the dark
         variance.
@@ -109,7 +109,7 @@ def evaluate_emva1288(
     def evaluated(plane: str | None) -> Emva1288Report:
         evaluator = recording.evaluator()
         evaluator.SetQuantisationStep(_options.number("step", step, "a number above 0 [DN]", above=0.0))
-        evaluator.SetBitDepth(0 if bit_depth is None else _options.integer("bit_depth", bit_depth, 1, 32))
+        evaluator.SetBitDepth(0 if bit_depth is None else _options.integer("bit_depth", bit_depth, 1, 16))
         evaluator.SetExposureUnit(exposure_unit)
         evaluator.SetNumberOfWorkUnits(count)
         recording.add_to(evaluator, pattern, plane)
