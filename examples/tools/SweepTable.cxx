@@ -39,6 +39,27 @@ PlaceOf(const std::vector<std::string> & header, const std::string & name)
                                : std::optional<std::size_t>(static_cast<std::size_t>(found - header.begin()));
 }
 
+/** Throws std::runtime_error unless the header has one column for the setting, frames, and dark at most once. */
+void
+RequireKnownColumns(const std::vector<std::string> & header, const std::string & setting, const std::string & where)
+{
+  const std::array<std::string, 3> known{ setting, "frames", "dark" };
+  for (std::size_t place = 0; place < header.size(); ++place)
+  {
+    const std::string name = LowerCase(header[place]);
+    if (std::find(known.begin(), known.end(), name) == known.end())
+    {
+      throw std::runtime_error(
+        where + " has the columns " + setting + " and \"" + header[place].substr(0, 40) + "\"; expected " + setting +
+        ", frames and, if there are dark frames, dark. There is no " + "other column: leave it out, or rename it");
+    }
+    if (*PlaceOf(header, name) != place)
+    {
+      throw std::runtime_error(where + " has the column " + name + " twice; expected each column once");
+    }
+  }
+}
+
 SweepTableColumns
 ColumnsOf(const std::vector<std::string> & header, const std::string & where)
 {
@@ -67,6 +88,7 @@ ColumnsOf(const std::vector<std::string> & header, const std::string & where)
                              (setting ? "frames" : "iso, gain, gain_db, exposure or exposure_ms") +
                              "; expected a header such as iso,frames,dark");
   }
+  RequireKnownColumns(header, LowerCase(header[*setting]), where);
   columns.setting = *setting;
   columns.frames = *frames;
   columns.dark = PlaceOf(header, "dark");

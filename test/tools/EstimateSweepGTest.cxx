@@ -189,6 +189,12 @@ TEST_F(EstimateSweepTool, ReadsATableOfGains)
   IsRefusedSweep("--sweep t.csv", { "line 2 of t.csv", "1 columns", "expected 2" });
   WriteText("t.csv", "speed,frames\n100,x\n");
   IsRefusedSweep("--sweep t.csv", { "line 1 of t.csv", "iso, gain, gain_db, exposure or exposure_ms" });
+  WriteText("t.csv", "iso,frames,Darks\n100,x,y\n");
+  IsRefusedSweep("--sweep t.csv", { "line 1 of t.csv", "iso and \"Darks\"", "iso, frames and", "no other column" });
+  WriteText("t.csv", "exposure,iso,frames\n1,100,x\n");
+  IsRefusedSweep("--sweep t.csv", { "line 1 of t.csv", "iso and \"exposure\"", "leave it out" });
+  WriteText("t.csv", "iso,frames,frames\n100,x,y\n");
+  IsRefusedSweep("--sweep t.csv", { "line 1 of t.csv", "frames twice", "expected each column once" });
   WriteText("t.csv", "iso,frames\n");
   IsRefusedSweep("--sweep t.csv", { "t.csv", "no line with a setting" });
   IsRefusedSweep("--sweep none.csv", { "none.csv", "cannot be read" });

@@ -332,6 +332,12 @@ def test_a_table_has_settings_in_several_units(bursts, header, cell, kind, setti
     [
         ("iso,dark\n1,a\n", r"line 1 of .*a\.csv has no column frames; expected a header"),
         ("speed,frames\n1,a\n", "has no column iso or gain or gain_db or exposure or exposure_ms"),
+        ("iso,frames,Darks\n1,a,b\n", "line 1 of .* has the columns iso and 'darks'; expected iso, frames and"),
+        (
+            "exposure,iso,frames\n1,1,a\n",
+            "has the columns iso and 'exposure'; .* There is no other column: leave it out",
+        ),
+        ("iso,frames,frames\n1,a,b\n", "has the column frames twice; expected each column once"),
         ("iso,frames\n1,a,b\n", "line 2 of .* has 3 columns; expected 2, as the header"),
         ("iso,frames\n0,a\n", "line 2 of .* has the setting '0'; expected a finite number above 0"),
         ("iso,frames\nx,a\n", "has the setting 'x'; expected a finite number"),

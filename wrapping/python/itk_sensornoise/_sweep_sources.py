@@ -290,6 +290,7 @@ def _bursts_in_table(file: Path, kind: str | None, raw: str | None) -> tuple[str
     if column is None or "frames" not in header:
         missing = " or ".join(_COLUMNS) if column is None else "frames"
         raise ValueError(f"{where} has no column {missing}; expected a header such as iso,frames,dark")
+    _require_known_columns(header, column, where)
     meaning, setting_of = _COLUMNS[column]
     if kind not in (None, meaning):
         raise ValueError(f"{file} has the settings {column}; expected {kind}")
@@ -312,6 +313,18 @@ def _bursts_in_table(file: Path, kind: str | None, raw: str | None) -> tuple[str
             )
         )
     return meaning, _planned([_looked_into(burst, raw) for burst in bursts], meaning)
+
+
+def _require_known_columns(header: list[str], setting: str, where: str) -> None:
+    """Raises ValueError unless the header has one column for the setting, frames, and dark at most once."""
+    for name in header:
+        if name not in (setting, "frames", "dark"):
+            raise ValueError(
+                f"{where} has the columns {setting} and {name[:40]!r}; expected {setting}, frames and, if there are "
+                "dark frames, dark. There is no other column: leave it out, or rename it"
+            )
+        if header.count(name) > 1:
+            raise ValueError(f"{where} has the column {name} twice; expected each column once")
 
 
 def _number(text: str, where: str) -> float:
