@@ -6,10 +6,13 @@
 #include "report/JsonWriter.h"
 #include "sensornoise/NoiseModel.h"
 #include "tools/CompanionFiles.h"
+#include "tools/ErrorSentence.h"
 #include "tools/EstimateOptions.h"
+#include "tools/TerminalText.h"
 #include "itkSensorNoiseFrameFiles.h"
 
 #include <cstddef>
+#include <exception>
 #include <iostream>
 #include <stdexcept>
 #include <variant>
@@ -33,25 +36,30 @@ ReportsOf(const MeasuredStack & measured)
 
 namespace
 {
-/** Measures the frames of --check with the refined method. The other methods do not give the variance of each pixel
- * without the contributions of flicker and motion. The options for the frames of the report apply to these frames as
- * well. For frames of other files, --frames and --dark do not apply. */
-MeasuredStack
-MeasureFramesToCheck(const EstimateOptions & options, const MeasuredStack & measured)
+/** Returns the options of the frames of --check, which are measured with the refined method. The other methods do not
+ * give the variance of each pixel without the contributions of flicker and motion. The options for the frames of the
+ * report apply to these frames as well. For frames of other files, --frames, --dark and --exposures do not apply. */
+EstimateOptions
+OptionsOfCheck(const EstimateOptions & options)
 {
   EstimateOptions other = options;
   other.method = "refined";
-  other.bayer = PatternOf(options, measured);
-  if (options.check.empty())
+  if (!options.check.empty())
   {
-    return EstimateStack(other, OpenFrames(other.files, {}, other.raw, other.choice), nullptr);
+    other.files = options.check;
+    other.frames.reset();
+    other.cut.reset();
+    other.dark.clear();
+    other.exposures.clear();
   }
-  other.files = options.check;
-  other.frames.reset();
-  other.cut.reset();
-  other.dark.clear();
-  const FrameList frames = OpenFrames(other.files, {}, other.raw, other.choice);
-  PrintWarningOf(frames);
+  return other;
+}
+
+MeasuredStack
+MeasureFramesToCheck(const EstimateOptions & options, const MeasuredStack & measured, const FrameList & frames)
+{
+  EstimateOptions other = OptionsOfCheck(options);
+  other.bayer = PatternOf(options, measured);
   return EstimateStack(other, frames, nullptr);
 }
 
@@ -121,8 +129,24 @@ TableOf(const std::string & title, const ModelChecks & checks)
 }
 } // namespace
 
+FrameList
+OpenFramesToCheck(const EstimateOptions & options)
+try
+{
+  const EstimateOptions other = OptionsOfCheck(options);
+  FrameList             frames = OpenFrames(other.files, {}, other.raw, other.choice);
+  PrintWarningOf(frames);
+  RequireSelection(other, frames);
+  return frames;
+}
+catch (const std::exception & error)
+{
+  throw std::runtime_error("--check: " + SentenceOf(error));
+}
+
 ModelChecks
-CheckModel(const EstimateOptions & options, const MeasuredStack & measured)
+CheckModel(const EstimateOptions & options, const MeasuredStack & measured, const FrameList & frames)
+try
 {
   const std::vector<const Report *> models = ReportsOf(measured);
   std::vector<bool>                 hasModel;
@@ -138,16 +162,21 @@ CheckModel(const EstimateOptions & options, const MeasuredStack & measured)
     return checks;
   }
   const bool                        isMeasured = options.check.empty() && options.method == "refined";
-  const MeasuredStack               other = isMeasured ? measured : MeasureFramesToCheck(options, measured);
-  const std::vector<const Report *> frames = ReportsOf(other);
+  const MeasuredStack               other = isMeasured ? measured : MeasureFramesToCheck(options, measured, frames);
+  const std::vector<const Report *> reports = ReportsOf(other);
   for (std::size_t k = 0; k < models.size(); ++k)
   {
     if (hasModel[k])
     {
-      checks[k] = CheckReport(*frames.at(k), *models[k]);
+      checks[k] = CheckReport(*reports.at(k), *models[k]);
     }
   }
   return checks;
+}
+catch (const std::exception & error) // the report is written all the same
+{
+  std::cerr << "error: the noise model cannot be checked: " << ForStandardError(SentenceOf(error)) << '\n';
+  return ModelChecks(ReportsOf(measured).size());
 }
 
 std::string

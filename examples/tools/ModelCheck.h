@@ -10,6 +10,11 @@
 #include <string>
 #include <vector>
 
+namespace sensornoise
+{
+struct FrameList;
+}
+
 namespace sensornoise::tools
 {
 struct EstimateOptions;
@@ -21,10 +26,15 @@ using ModelChecks = std::vector<std::optional<NoiseModelCheck>>;
 std::vector<const Report *>
 ReportsOf(const MeasuredStack & measured);
 
-/** Compares the model of a report with the frames of --check, or with the frames of the report, channel by channel.
- * A report without a model is reported on standard error. */
+/** Opens the frames of --check before the frames of the report are measured. Prints a warning about the files. Throws
+ * std::runtime_error if they cannot be read, are too few, or lack the region or the size of the mask. */
+FrameList
+OpenFramesToCheck(const EstimateOptions & options);
+
+/** Compares the model of a report with \a frames, of --check or of the report itself, channel by channel. A report
+ * without a model, and frames that cannot be measured, are reported on standard error. */
 ModelChecks
-CheckModel(const EstimateOptions & options, const MeasuredStack & measured);
+CheckModel(const EstimateOptions & options, const MeasuredStack & measured, const FrameList & frames);
 
 /** Returns the report as JSON. The check is added as the member "check", or as "checks" for several channels, the check
  * of a profile as "profile_check" or "profile_checks". Without a check no member is added. */

@@ -10,6 +10,8 @@
 #include "tools/MapFiles.h"
 #include "tools/SvgAsPng.h"
 #include "base/FreeMemory.h"
+#include "moments/StackFrames.h"
+#include "sensornoise/FrameGeometry.h"
 #include "sensornoise/ReportPage.h"
 #include "report/StackReport.h"
 #include "refined/PixelProjections.h"
@@ -315,6 +317,19 @@ Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * map
   return measured;
 }
 } // namespace
+
+void
+RequireSelection(const EstimateOptions & options, const FrameList & list)
+{
+  itk::ImageRegion<3> whole;
+  whole.SetSize({ { list.width, list.height, list.frames } });
+  const itk::ImageRegion<3> region = SelectRegion(options, list, whole);
+  RequireStack({ region.GetSize(0), region.GetSize(1) }, region.GetSize(2), 0);
+  if (!options.mask.empty())
+  {
+    ReadMask(options.mask, list);
+  }
+}
 
 std::string
 PatternOf(const EstimateOptions & options, const MeasuredStack & measured)

@@ -27,6 +27,11 @@ using MeasuredStack = std::variant<Report, ChannelReports>;
 MeasuredStack
 EstimateStack(const EstimateOptions & options, const FrameList & list, MapFiles * maps, std::string * plot = nullptr);
 
+/** Throws std::exception unless the frames hold the region of --roi and --frames, are enough to be measured there, and
+ * have the size of the mask. No pixel of the frames is read. */
+void
+RequireSelection(const EstimateOptions & options, const FrameList & list);
+
 /** Returns the value of --bayer for the whole frame that gives the same channels again: a pattern, or "none". */
 std::string
 PatternOf(const EstimateOptions & options, const MeasuredStack & measured);

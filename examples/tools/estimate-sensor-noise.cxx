@@ -275,10 +275,12 @@ Run(EstimateOptions & options)
   const sensornoise::FrameList frames = sensornoise::OpenFrames(options.files, {}, options.raw, options.choice);
   options.SelectExposures(listed == 1 || frames.isStack ? frames.frames : listed);
   PrintWarningOf(frames);
+  const bool                   hasFramesToCheck = options.hasCheck && !options.check.empty();
+  const sensornoise::FrameList framesToCheck = hasFramesToCheck ? OpenFramesToCheck(options) : frames;
 
   std::string         plotText;
   const MeasuredStack measured = EstimateStack(options, frames, maps ? &*maps : nullptr, plot ? &plotText : nullptr);
-  const ModelChecks   checks = options.hasCheck ? CheckModel(options, measured) : ModelChecks();
+  const ModelChecks   checks = options.hasCheck ? CheckModel(options, measured, framesToCheck) : ModelChecks();
   const ModelChecks   profileChecks = profile ? CheckProfile(*profile, measured, options.profileLevels) : ModelChecks();
   if (plot)
   {

@@ -96,6 +96,49 @@ TEST_F(EstimateCheckTool, FramesThatAreNotThereOrGetOverwrittenAreRefused)
   EXPECT_EQ(Run(frames + " --check b.mha --json b.mha"), 2) << m_Output;
 }
 
+TEST_F(EstimateCheckTool, FramesAreInspectedBeforeTheReportIsMeasured)
+{
+  const std::string frames = Burst("a.mha", 1);
+  const auto        isRefused = [&](const std::string & options, const std::string & words) {
+    EXPECT_EQ(Run(frames + " " + options), 2) << m_Output;
+    EXPECT_EQ(m_Message.rfind("error: --check: ", 0), 0U) << m_Message;
+    EXPECT_NE(m_Message.find(words), std::string::npos) << m_Message;
+  };
+  isRefused("--check nowhere.mha", "nowhere.mha: does not exist");
+  isRefused("--check " + Burst("few.mha", 2, "", "--size 128x96 --frames 4"), "the stack has 4 frames; expected at");
+  const std::string small = Burst("small.mha", 2, "", "--size 64x96 --frames 10");
+  isRefused("--roi 0,0,100,90 --check " + small, "but the stack has 64 x 96 pixels");
+  const auto mask = Write("mask.mha", Make<itk::Image<unsigned char, 2>>({ { 128, 96 } }, 1).GetPointer());
+  isRefused("--mask " + mask + " --check " + small, "128 x 96 pixels, but the frames have 64 x 96");
+}
+
+TEST_F(EstimateCheckTool, ReportIsWrittenIfTheFramesCannotBeMeasured)
+{
+  const std::string frames = Burst("a.mha", 1);
+  const std::string bright = Burst("bright.mha", 2, "--bit-depth 14 --offset 6000");
+  EXPECT_EQ(Run(frames + " --bit-depth 12 --check " + bright + " --json a.json"), 3) << m_Message;
+  EXPECT_NE(m_Message.find("error: the noise model cannot be checked: the data hold the level"), std::string::npos)
+    << m_Message;
+  const auto report = nlohmann::json::parse(ReadText(Path("a.json")));
+  EXPECT_EQ(report["gain"]["status"], "identified");
+  EXPECT_FALSE(report.contains("check"));
+}
+
+TEST_F(EstimateCheckTool, ExposuresAreOfTheFramesOfTheReport)
+{
+  std::string exposures;
+  for (int t = 0; t < 24; ++t)
+  {
+    exposures += std::to_string(1 + t % 4) + "\n";
+  }
+  WriteText("exposures.txt", exposures);
+  const std::string options = "--flicker-sd 0.001 --vibration-sd 0,0 --illumination exposures.txt --electrons 500";
+  const std::string frames = Burst("a.mha", 1, options, "--size 64x64 --frames 24");
+  const auto        report = ReportOf(frames + " --exposures exposures.txt --check " + Burst("b.mha", 2));
+  EXPECT_EQ(report["settings"]["exposures"].size(), 24U);
+  EXPECT_TRUE(report["check"].contains("verdict")) << report;
+}
+
 TEST_F(EstimateCheckTool, ReportWithoutAModelSaysSo)
 {
   const auto constant = Write("c.mha", Make<StackType>({ { 32, 32, 10 } }, 500).GetPointer());
