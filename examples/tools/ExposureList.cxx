@@ -13,19 +13,44 @@ namespace sensornoise::tools
 {
 namespace
 {
+/** Returns the separator of all lines: a tab if there is one, else a semicolon, else a comma. */
+std::string
+SeparatorOf(const std::vector<std::string> & lines)
+{
+  for (const char separator : { '\t', ';' })
+  {
+    if (std::any_of(lines.begin(), lines.end(), [separator](const std::string & line) {
+          return line.find(separator) != std::string::npos;
+        }))
+    {
+      return { separator };
+    }
+  }
+  return ",";
+}
+
+bool
+IsWholeNumber(const std::string & word)
+{
+  return !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
+}
+
 /** Reader of the columns of an exposure file, line by line. */
 class ExposureFile
 {
 public:
-  explicit ExposureFile(const std::string & name)
+  ExposureFile(const std::string & name, const std::string & separator)
     : m_Name(name)
+    , m_Separator(separator)
   {}
 
   void
   AddLine(std::size_t number, const std::string & line)
   {
-    const std::vector<std::string> columns = SplitColumns(line, ",;\t");
-    const std::optional<double>    exposure = NumberOf(columns.back());
+    const std::vector<std::string> columns = SplitColumns(line, m_Separator.c_str());
+    const std::optional<double>    exposure = this->NumberIn(columns.back());
+    m_AreAllAmbiguous =
+      m_AreAllAmbiguous && columns.size() == 2 && std::all_of(columns.begin(), columns.end(), IsWholeNumber);
     if (m_Columns == 0)
     {
       m_Columns = columns.size();
@@ -37,8 +62,10 @@ public:
     const std::string where = "--exposures: line " + std::to_string(number) + " of " + m_Name;
     if (columns.size() != m_Columns)
     {
-      throw std::runtime_error(where + " has " + std::to_string(columns.size()) + " columns; expected " +
-                               std::to_string(m_Columns) + ", as the lines before");
+      throw std::runtime_error(
+        where + " has " + std::to_string(columns.size()) + " columns; expected " + std::to_string(m_Columns) +
+        ", as the lines before" +
+        (m_Separator == "," ? ". Write decimals with a point, or separate columns by semicolons" : ""));
     }
     if (!exposure)
     {
@@ -48,15 +75,40 @@ public:
     m_Exposures.push_back(*exposure);
   }
 
+  /** Returns the exposures. Throws std::runtime_error if there are none, or if each line may also be one number with a
+   * decimal comma. */
   const std::vector<double> &
   GetExposures() const
   {
+    if (m_Exposures.empty())
+    {
+      throw std::runtime_error("--exposures: " + m_Name + " holds no exposures; expected one line for each frame");
+    }
+    if (m_AreAllAmbiguous && m_Separator == ",")
+    {
+      throw std::runtime_error("--exposures: each line of " + m_Name +
+                               " is two whole numbers and a comma: two columns, or one number with a decimal comma. "
+                               "Name the columns in a first line, as frame,exposure, or write decimals with a point");
+    }
     return m_Exposures;
   }
 
 private:
+  /** Returns the number of a column. A comma that does not separate columns is a decimal comma. */
+  std::optional<double>
+  NumberIn(std::string column) const
+  {
+    if (m_Separator != ",")
+    {
+      std::replace(column.begin(), column.end(), ',', '.');
+    }
+    return NumberOf(column);
+  }
+
   std::string         m_Name;
-  std::size_t         m_Columns{ 0 }; // columns of the first line; 0: no line yet
+  std::string         m_Separator;
+  bool                m_AreAllAmbiguous{ true }; // all lines so far are two whole numbers
+  std::size_t         m_Columns{ 0 };            // columns of the first line; 0: no line yet
   std::vector<double> m_Exposures;
 };
 } // namespace
@@ -80,24 +132,24 @@ ReadExposures(const std::string & text)
     }
     return exposures;
   }
-  const std::vector<std::string> read =
+  std::vector<std::string> read =
     ReadLines(text,
               "--exposures: \"" + text +
                 "\" is neither a list of numbers with commas nor a file that can be read; expected one "
                 "exposure for each frame, for instance 0,0,10,10,20,20, or a file with one frame a line");
-  ExposureFile lines(text);
+  for (std::string & line : read)
+  {
+    line = line.rfind('#', 0) == 0 ? "" : line; // a comment
+  }
+  ExposureFile lines(text, SeparatorOf(read));
   std::size_t  number = 0;
   for (const std::string & line : read)
   {
     ++number;
-    if (!line.empty() && line.front() != '#')
+    if (!line.empty())
     {
       lines.AddLine(number, line);
     }
-  }
-  if (lines.GetExposures().empty())
-  {
-    throw std::runtime_error("--exposures: " + text + " holds no exposures; expected one line for each frame");
   }
   return lines.GetExposures();
 }

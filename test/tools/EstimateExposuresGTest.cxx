@@ -65,6 +65,28 @@ TEST_F(EstimateExposuresTool, ListAndFileSayTheSame)
   EXPECT_EQ(ReportOf("s.mha --exposures factors.txt"), report);
 }
 
+TEST_F(EstimateExposuresTool, DecimalCommasAreReadBesideOtherSeparators)
+{
+  const auto with = [](const std::string & header, const std::string & separator, bool hasFrame) {
+    std::string text = "# Kamera 1, 2 m; innen\n" + header;
+    for (unsigned int t = 0; t < Frames; ++t)
+    {
+      std::string exposure = ExposureOf(t);
+      std::replace(exposure.begin(), exposure.end(), '.', ',');
+      text += (hasFrame ? std::to_string(t) + separator : "") + exposure + "\n";
+    }
+    return text;
+  };
+  const nlohmann::json report = ReportOf("s.mha --exposures " + m_List);
+  EXPECT_EQ(ReportOf("s.mha --exposures " + WriteText("a.csv", with("Bild;Belichtung\n", ";", true))), report);
+  EXPECT_EQ(ReportOf("s.mha --exposures " + WriteText("b.tsv", with("", "\t", true))), report);
+  IsRefused("s.mha --exposures " + WriteText("c.txt", with("", "", false)),
+            { "line 7 of c.txt has 1 columns", "point" });
+  IsRefused("s.mha --exposures " + WriteText("d.txt", "0,1\n0,2\n0,4\n"),
+            { "each line of d.txt is two whole numbers", "decimal comma", "first line, as frame,exposure" });
+  IsRefused("s.mha --exposures " + WriteText("e.txt", "frame,exposure\n0,1\n1,2\n"), { "holds 2 numbers" });
+}
+
 TEST_F(EstimateExposuresTool, FramesThatAreLeftOutTakeTheirExposuresAlong)
 {
   const nlohmann::json report = ReportOf("s.mha --frames 1:19 --exposures " + m_List);
