@@ -57,9 +57,7 @@ bool
 IsHeaderOfOther(const fs::path & file)
 {
   const std::string ending = LowerCaseEnding(file);
-  fs::path          pixels = file;
-  return (ending == ".cihx" || ending == ".cih") &&
-         (fs::exists(pixels.replace_extension(".mraw")) || fs::exists(pixels.replace_extension(".MRAW")));
+  return (ending == ".cihx" || ending == ".cih") && !DataFilesOf(file.string()).empty();
 }
 
 std::vector<std::string>

@@ -59,6 +59,7 @@ TEST_F(MetaImageFile, OfEveryKindThatIsCompleteIsAccepted)
 {
   const std::string pixels = RandomBytes(StackBytes);
   EXPECT_STREQ(IsStack("a.mha", MetaImageHeaderOf("LOCAL") + pixels).format->name, "MetaImage");
+  EXPECT_STREQ(IsStack("A.MHA", MetaImageHeaderOf("LOCAL") + pixels).format->name, "MetaImage");
   IsStack("a.mha", MetaImageHeaderOf("Local", "HeaderSize = -1\n") + pixels);
   IsStack("a.mha",
           MetaImageHeaderOf("local", "HeaderSize = 400\nName = a\n\nComment = b : c\nKey: x\n") +

@@ -92,6 +92,17 @@ TEST_F(MrawFile, AnOlderHeaderIsReadToo)
   EXPECT_EQ(file.camera.exposureSeconds, 0.001);
 }
 
+TEST_F(MrawFile, EndingsMayHaveCapitals)
+{
+  const GreyValues  greyValues = SomeGreyValues(160, 12);
+  const std::string pixels = BitStream(greyValues, 12, true);
+  Write("a.Mraw", pixels);
+  EXPECT_EQ(Read<unsigned short>(IsFrames("a.CIHX", CihxOf{}.Bytes(), FramePixel::UnsignedShort, 8, 5, 4)), greyValues);
+  EXPECT_EQ(DataFilesOf(Path("a.CIHX")), std::vector<std::string>{ Path("a.Mraw") });
+  EXPECT_EQ(DataFilesOf(Path("a.Mraw")), std::vector<std::string>{ Path("a.CIHX") });
+  IsFrames("a.Mraw", pixels, FramePixel::UnsignedShort, 8, 5, 4);
+}
+
 TEST_F(MrawFile, GreyValuesThatWereMovedUpStayUnchanged)
 {
   CihxOf header;

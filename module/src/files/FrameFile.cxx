@@ -282,8 +282,9 @@ DataFilesOf(const std::string & name)
 bool
 HasEnding(const std::string & name, std::initializer_list<const char *> endings)
 {
-  return std::any_of(endings.begin(), endings.end(), [&](const std::string & ending) {
-    return name.size() >= ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+  const std::string lower = LowerCase(name);
+  return std::any_of(endings.begin(), endings.end(), [&lower](const std::string & ending) {
+    return lower.size() >= ending.size() && lower.compare(lower.size() - ending.size(), ending.size(), ending) == 0;
   });
 }
 

@@ -52,7 +52,8 @@ FindFrameFormat(const std::string & head, const std::string & name);
 SensorNoise_EXPORT std::vector<std::string>
 DataFilesOf(const std::string & name);
 
-/** Returns whether a file's name ends in one of \a endings, each with its dot. */
+/** Returns whether a file's name ends in one of \a endings, each with its dot and in small letters. The name may have
+ * capitals. */
 bool
 HasEnding(const std::string & name, std::initializer_list<const char *> endings);
 

@@ -6,6 +6,7 @@
 #include "files/FrameReader.h"
 #include "files/TextHeader.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -200,22 +201,45 @@ ReadPhotronHeader(const std::string & file, FileBytes & bytes)
 bool
 IsMraw(const std::string & name)
 {
-  return HasEnding(LowerCase(name), { ".mraw" });
+  return HasEnding(name, { ".mraw" });
+}
+
+/** Returns the file beside \a name that has this ending in place of its own, with capitals or without; empty: there is
+ * none. */
+std::string
+FileBeside(const std::string & name, const std::string & ending)
+{
+  const fs::path  path = fs::path(name).replace_extension(ending);
+  std::error_code ignored;
+  if (fs::exists(path, ignored))
+  {
+    return path.string();
+  }
+  std::string    found;
+  const fs::path folder = path.parent_path();
+  for (const fs::directory_entry & entry : fs::directory_iterator(folder.empty() ? "." : folder, ignored))
+  {
+    const fs::path other = folder / entry.path().filename();
+    if (other.stem() == path.stem() && LowerCase(other.extension().string()) == ending)
+    {
+      found = found.empty() ? other.string() : std::min(found, other.string());
+    }
+  }
+  return found;
 }
 
 /** Returns the path of the other file of the recording. Throws FileError if there is none. */
 std::string
 CompanionOf(const std::string & name)
 {
-  const std::initializer_list<const char *> headers{ ".cihx", ".CIHX", ".cih", ".CIH" };
-  const std::initializer_list<const char *> pixels{ ".mraw", ".MRAW" };
+  const std::initializer_list<const char *> headers{ ".cihx", ".cih" };
+  const std::initializer_list<const char *> pixels{ ".mraw" };
   for (const char * const ending : IsMraw(name) ? headers : pixels)
   {
-    const fs::path  path = fs::path(name).replace_extension(ending);
-    std::error_code ignored;
-    if (fs::exists(path, ignored))
+    const std::string other = FileBeside(name, ending);
+    if (!other.empty())
     {
-      return path.string();
+      return other;
     }
   }
   const fs::path expected = fs::path(name).replace_extension(IsMraw(name) ? ".cihx" : ".mraw");
@@ -322,7 +346,7 @@ ReadCamera(const PhotronFields & fields, const SampleFormat & format, CameraSett
 bool
 IsHeadOfMraw(const std::string & /*head*/, const std::string & name)
 {
-  return HasEnding(LowerCase(name), { ".mraw", ".cihx", ".cih" });
+  return HasEnding(name, { ".mraw", ".cihx", ".cih" });
 }
 
 void
