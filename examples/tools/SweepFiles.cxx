@@ -104,6 +104,13 @@ BurstsOfFiles(const std::vector<std::string> & files, const EstimateOptions & op
   std::vector<FoundBurst> single; // frames
   for (const std::string & file : files)
   {
+    std::error_code ignored;
+    if (!fs::exists(file, ignored))
+    {
+      throw std::invalid_argument("--sweep: " + file +
+                                  " does not exist; expected a folder with a folder for each setting, stacks, frames "
+                                  "that record their ISO speed, or a table (.csv)");
+    }
     const FrameList opened = OpenFirst(file, options);
     FoundBurst      each;
     each.burst.name = NameOfPath(file);

@@ -220,10 +220,15 @@ RequireOutputsApart(const EstimateOptions & options, const SweepPlan & plan)
 /** Returns the passport that --json names, if there is one. Throws std::exception if the file is something else. */
 Passport
 ReadStoredPassport(const EstimateOptions & options)
+try
 {
   std::error_code ignored;
   return options.HasReportFile() && std::filesystem::is_regular_file(options.json, ignored) ? ReadPassport(options.json)
                                                                                             : Passport();
+}
+catch (const std::exception & error)
+{
+  throw std::runtime_error(error.what() + std::string(". --json does not overwrite it: name another file"));
 }
 
 void

@@ -119,6 +119,12 @@ TEST_F(EstimateBayerTool, MapsAreThoseOfTheMosaic)
   EXPECT_EQ(std::filesystem::file_size(Path("maps/pixel_use.mha")) / (128 * 96), 1U);
 }
 
+TEST_F(EstimateBayerTool, SmallPlanesAreRefusedWithTheirMosaic)
+{
+  IsRefused(Mosaic("m.mha") + " --bayer GRBG --roi 0,0,5,7",
+            { "the frames of the mosaic have 5 x 7 pixels", "each plane of it 2 x 3", "at least 6 x 6 pixels" });
+}
+
 TEST_F(EstimateBayerTool, UnknownPatternsAreRefused)
 {
   EXPECT_EQ(Run(Mosaic("m.mha") + " --bayer RGBG"), 2);

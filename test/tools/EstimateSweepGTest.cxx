@@ -267,7 +267,8 @@ TEST_F(EstimateSweepTool, RefusesWhatMakesNoSense)
   IsRefusedSweep("--sweep cam --json cam/iso100/light.mha", { "light.mha", "--json" });
   IsRefusedSweep("--sweep cam --plot cam/iso100/dark/dark.html --json cam/iso100/dark/dark.html", { "same file" });
   WriteText("p.json", "{\"schema\": \"other\"}");
-  IsRefusedSweep("--sweep cam --json p.json", { "p.json", "no passport" });
+  IsRefusedSweep("--sweep cam --json p.json", { "p.json", "no passport", "does not overwrite it: name another file" });
+  IsRefusedSweep("--sweep nowhere", { "nowhere does not exist", "a folder for each setting", "a table (.csv)" });
   std::filesystem::create_directory(Path("empty"));
   IsRefusedSweep("--sweep empty", { "empty", "there is no file in this folder" });
   Write("frame.mha", Make<itk::Image<unsigned short, 2>>({ { 8, 8 } }, 5).GetPointer());

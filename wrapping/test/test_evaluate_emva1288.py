@@ -114,7 +114,9 @@ def test_masked_pixels_are_refused(flats, darks):
     masked = np.ma.masked_greater(flats[EXPOSURES[-1]], 4000)
     array = pytest.importorskip("dask.array")
     for frames in (masked, array.from_array(masked)):
-        with pytest.raises(TypeError, match="^flats of the exposure 1 is a masked array, expected a plain one"):
+        with pytest.raises(
+            TypeError, match="^flats of the exposure 1 is a masked array, expected a plain one: fill in"
+        ):
             sn.evaluate_emva1288({**flats, EXPOSURES[-1]: frames}, darks)
 
 

@@ -198,6 +198,17 @@ def test_what_is_written_is_what_the_program_writes(report, tmp_path):
         made.write(tmp_path / "none" / "model.npz")
 
 
+def test_reports_may_be_names_of_files(report, mosaic, tmp_path):
+    for number, each in enumerate((report, mosaic)):
+        name = tmp_path / f"{number}.json"
+        name.write_text(each.to_json())
+        expected = sn.export_noise_model(each, "dng", black=BLACK, white=WHITE)
+        for given in (name, str(name), [name]):
+            assert sn.export_noise_model(given, "dng", black=BLACK, white=WHITE).files == expected.files
+    with pytest.raises(ValueError, match=r"none\.json cannot be read .*; expected the JSON of a report"):
+        sn.export_noise_model("none.json", "dng")
+
+
 def test_wrong_use_is_refused_with_a_sentence(report):
     with pytest.raises(ValueError, match=r'the format is "lightzone"; expected one of dng'):
         report.export("lightzone")

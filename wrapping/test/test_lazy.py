@@ -183,8 +183,13 @@ MASKED = {
 def test_masked_pixels_of_lazy_frames_are_refused(burst, tmp_path, kind):
     frames = MASKED[kind](burst, tmp_path)
     name = r"frames\[0\]" if kind.startswith("list") else "frames"
-    with pytest.raises(TypeError, match=f"^{name} is a masked array, expected a plain one"):
+    with pytest.raises(
+        TypeError, match=f"^{name} is a masked array, expected a plain one: give its data, and a mask by"
+    ):
         itk.estimate_sensor_noise(frames)
+    name = name.replace("frames", "stack")
+    with pytest.raises(TypeError, match=f"^{name} is a masked array, expected a plain one: fill in the masked pixels"):
+        itk.temporal_statistics_image_filter(frames)
     if kind == "dask":
         with pytest.raises(TypeError, match="^dark is a masked array, expected a plain one"):
             itk.estimate_sensor_noise(burst, dark=frames)

@@ -147,8 +147,14 @@ def test_wrong_use_is_refused(arguments, said):
 def test_masked_pixels_are_refused():
     masked = np.ma.masked_equal(FRAME, 50)
     for image in (masked, pytest.importorskip("dask.array").from_array(masked)):
-        with pytest.raises(TypeError, match="^image is a masked array, expected a plain one"):
+        with pytest.raises(
+            TypeError, match="^image is a masked array, expected a plain one: fill in the masked pixels"
+        ):
             itk.generalized_anscombe_image_filter(image, **MODEL)
+        with pytest.raises(
+            TypeError, match="^image is a masked array, expected a plain one: fill in the masked pixels"
+        ):
+            itk.denoise_with_noise_model(image, **MODEL)
 
 
 def test_wrong_use_of_the_inverse_is_refused(tmp_path):

@@ -261,7 +261,9 @@ def test_wrong_use_is_refused(sources, options, said, tmp_path, monkeypatch):
     with pytest.raises((TypeError, ValueError), match=said):
         sn.estimate_sweep(sources, **options)
     (tmp_path / "other.json").write_text("{}")
-    with pytest.raises(ValueError, match=r"other\.json is no passport"):
+    with pytest.raises(
+        ValueError, match=r"other\.json is no passport.*\. It is not overwritten: name another file as output"
+    ):
         sn.estimate_sweep({1: "a.mha"}, output="other.json")
 
 

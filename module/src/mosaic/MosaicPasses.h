@@ -18,6 +18,8 @@
 #include <istream>
 #include <optional>
 #include <ostream>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace sensornoise
@@ -281,6 +283,23 @@ private:
   std::size_t             m_Last{ BayerPlanes.size() };
 };
 
+/** Throws std::invalid_argument if the planes are too small for RequireStack(), whose sentence does not know the
+ * mosaic. */
+inline void
+RequirePlanes(const MosaicGeometry & geometry)
+{
+  const auto sizeOf = [](const FrameGeometry & frame) {
+    return std::to_string(frame.width) + " x " + std::to_string(frame.height);
+  };
+  const FrameGeometry plane = geometry.Plane();
+  if (plane.width < 3 || plane.height < 3)
+  {
+    throw std::invalid_argument("the frames of the mosaic have " + sizeOf(geometry.frame) +
+                                " pixels, and each plane of it " + sizeOf(plane) +
+                                "; expected planes of at least 3 x 3. Measure a part of at least 6 x 6 pixels");
+  }
+}
+
 /** Makes the passes of a method on the four planes of mosaics, with the settings of each plane, in the order of
  * BayerPlanes. \a mask is the mask of the mosaic. \a parallelFor uses \a threads threads. */
 template <typename TPixel, typename TPasses>
@@ -292,6 +311,7 @@ MakeMosaicPasses(const std::array<typename TPasses::Settings, 4> & settings,
                  const ParallelFor &                               parallelFor,
                  std::size_t                                       threads)
 {
+  RequirePlanes(geometry);
   const auto makeOfPlane = [&](BayerPlane plane, const ParallelFor & spread) {
     const auto & ofPlane = settings.at(static_cast<std::size_t>(plane));
     return TPasses(ofPlane, geometry.Plane(), frames, geometry.Take(mask, plane), spread);

@@ -20,11 +20,15 @@ PIXEL_TYPES = {
 }
 PIXEL_NAMES = "uint8, uint16, int16, float32 or float64"
 
+# Advice of the error for a masked array, in functions with the argument `mask` and in others.
+GIVE_MASK = "give its data, and a mask by mask="
+FILL_MASKED = "fill in the masked pixels, or give its data, by numpy.ma.getdata()"
 
-def as_array(values: object, name: str) -> np.ndarray:
+
+def as_array(values: object, name: str, if_masked: str = FILL_MASKED) -> np.ndarray:
     """Returns `values` as an array, which shares the memory of an array. Raises an error for a masked array, whose
-    mask would be lost, and for values that are no array."""
-    values = without_mask(updated(values), name)
+    mask would be lost, with the advice `if_masked`, and for values that are no array."""
+    values = without_mask(updated(values), name, if_masked)
     if hasattr(values, "__dlpack__") and not hasattr(values, "__array__"):
         return from_dlpack(values, name)
     if isinstance(values, (list, tuple)) or hasattr(values, "__array__") or hasattr(values, "__array_interface__"):
@@ -36,15 +40,16 @@ def as_array(values: object, name: str) -> np.ndarray:
     raise InvalidTypeError(f"{name} is of type {type(values).__name__}; expected an array")
 
 
-def without_mask(values: Any, name: str) -> Any:
-    """Returns the data of a masked array whose values all count, and other values unchanged. Raises an error if a value
-    is masked. NumPy would drop the mask of an array of Dask, which is therefore computed here."""
+def without_mask(values: Any, name: str, if_masked: str) -> Any:
+    """Returns the data of a masked array whose values all count, and other values unchanged. Raises an error with
+    the advice `if_masked` if a value is masked. NumPy would drop the mask of an array of Dask, which is therefore
+    computed here."""
     if isinstance(getattr(values, "_meta", None), np.ma.MaskedArray):
         values = values.compute()
     if not isinstance(values, np.ma.MaskedArray):
         return values
     if np.ma.is_masked(values):
-        raise InvalidTypeError(f"{name} is a masked array, expected a plain one: give its data, and a mask by mask=")
+        raise InvalidTypeError(f"{name} is a masked array, expected a plain one: {if_masked}")
     return np.asarray(values.data)
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ._arrays import as_frame, as_mask, view
+from ._arrays import FILL_MASKED, as_frame, as_mask, view
 from ._errors import itk_errors
 from ._estimators import require_one_shape, set_parameters
 from ._frames import frame_image, open_frames
@@ -112,7 +112,7 @@ def flicker_correction_image_filter(
     """
     import itk
 
-    opened = open_frames(stack, name="stack")
+    opened = open_frames(stack, name="stack", if_masked=FILL_MASKED)
     arrays = {"mean": as_frame(mean, "mean", np.float64), "variance": as_frame(variance, "variance", np.float64)}
     arrays["mask"] = as_mask(mask, "mask")
     require_one_shape(**arrays, frame=np.broadcast_to(np.uint8(0), opened.size[1::-1]))

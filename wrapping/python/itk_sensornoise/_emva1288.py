@@ -9,6 +9,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from . import _options
+from ._arrays import FILL_MASKED
 from ._bayer import PATTERNS, cut_pattern, noted_pattern
 from ._channels import CHANNELS
 from ._emva1288_report import Emva1288Report
@@ -164,7 +165,10 @@ class _Recording:
                 self._open(f"{kind} of the exposure {exposure:g}", exposure, frames)
 
     def _open(self, name: str, exposure: float, frames: Frames) -> None:
-        stack = open_frames(frames, name=name) if self.raw is None else open_dumps(frames, self.raw, name=name)
+        if self.raw is None:
+            stack = open_frames(frames, name=name, if_masked=FILL_MASKED)
+        else:
+            stack = open_dumps(frames, self.raw, name=name)
         self.corner, size = region_of(stack, self.roi, None)
         pattern = noted_pattern(stack.image)
         if size != stack.size:

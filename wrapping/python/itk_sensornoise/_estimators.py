@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import _options
-from ._arrays import as_frame, as_mask, view
+from ._arrays import FILL_MASKED, as_frame, as_mask, view
 from ._channels import ChannelReports, report_of
 from ._errors import InvalidTypeError, InvalidValueError, cause_of, itk_errors, python_error_of
 from ._frames import Stack, frame_image, open_frames
@@ -153,7 +153,7 @@ def temporal_statistics_image_filter(stack: Frames, **parameters: Any) -> tuple[
     """
     import itk
 
-    opened = open_frames(stack, name="stack")
+    opened = open_frames(stack, name="stack", if_masked=FILL_MASKED)
     statistics = opened.estimator(itk.TemporalStatisticsImageFilter)
     set_parameters(statistics, parameters, "temporal_statistics_image_filter")
     with at_work(statistics, False, opened), itk_errors():

@@ -15,6 +15,7 @@ import numpy as np
 from . import _options
 from ._names import is_name
 from ._pictures import write_file
+from ._read import record_of, text_of
 from ._types import FileName, ItkObject
 from ._values import python_errors, set_numbers, set_values
 
@@ -93,7 +94,7 @@ def export_formats() -> list[dict[str, Any]]:
 
 
 def export_noise_model(
-    reports: Mapping[str, Any] | Sequence[Mapping[str, Any]],
+    reports: Mapping[str, Any] | FileName | Sequence[Mapping[str, Any] | FileName],
     format: str,
     output: FileName | None = None,
     *,
@@ -108,8 +109,8 @@ def export_noise_model(
 
     Parameters
     ----------
-    reports : Report, ChannelReports, or a sequence of them
-        One report, or for the formats "android" and "darktable" one for each ISO speed.
+    reports : Report, ChannelReports, str or os.PathLike, or a sequence of them
+        One report, or the name of its JSON file; or for the formats "android" and "darktable" one for each ISO speed.
     format : str
         Name of the format, see export_formats().
     output : str or os.PathLike, optional
@@ -151,7 +152,9 @@ def export_noise_model(
 
     if not isinstance(format, str):
         raise _options.refuse_type("format", format, "the name of a format, see export_formats()")
-    given = [reports] if isinstance(reports, Mapping) else list(reports)
+    is_one = isinstance(reports, Mapping) or is_name(reports)
+    several: list[Any] = [reports] if is_one else list(reports)  # type: ignore[arg-type]  # is no name
+    given = [record_of(*text_of(report)) if is_name(report) else report for report in several]
     exporter = itk.NoiseModelExporter.New()
     for number, report in enumerate(given, 1):
         _add(exporter, _channel_of(report, channel), str(number) if len(given) > 1 else "of this export")

@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _options
 from ._arrays import (
+    GIVE_MASK,
     PIXEL_NAMES,
     PIXEL_TYPES,
     as_array,
@@ -83,27 +84,29 @@ class Stack:
         return instance
 
 
-def open_frames(frames: Frames, frame_range: tuple[int, int] | None = None, name: str = "frames") -> Stack:
+def open_frames(
+    frames: Frames, frame_range: tuple[int, int] | None = None, name: str = "frames", if_masked: str = GIVE_MASK
+) -> Stack:
     """Returns the frames as a stack: arrays are shared, files and lazy frames are read later, a few at a time.
 
     An array that is not C-contiguous or not in the machine's byte order is copied once. The files of a list outside
     `frame_range` (first, one past the last) are not opened; a stack is not cut. Raises ValueError, with the `name`
-    of the parameter, for anything else.
+    of the parameter, for anything else. `if_masked`: advice of the error for masked arrays.
     """
     frames = output_of(expand(frames, name))
     if is_name(frames):
         return _from_files([frames], None)
     if isinstance(frames, Sequence) and not isinstance(frames, (str, bytes, range)) and not hasattr(frames, "dtype"):
-        return _from_list(frames if isinstance(frames, (list, tuple)) else list(frames), frame_range, name)
+        return _from_list(frames if isinstance(frames, (list, tuple)) else list(frames), frame_range, name, if_masked)
     if hasattr(frames, "__dlpack__") and not hasattr(frames, "__array__"):
         frames = from_dlpack(frames, name)
     if hasattr(frames, "GetLargestPossibleRegion"):
         return _from_image(frames, name)
     if is_lazy(frames):
-        return _from_lazy(frames, name)  # type: ignore[arg-type]  # checked by its members
+        return _from_lazy(frames, name, if_masked)  # type: ignore[arg-type]  # checked by its members
     if not hasattr(frames, "__array__"):
         raise InvalidTypeError(f"{name} is of type {type(frames).__name__}; {EXPECTED}")
-    array = as_array(frames, name)
+    array = as_array(frames, name, if_masked)
     pixel = require_pixel_type(array, name)
     require_shape(array, name, "t, y, x")
     array = as_itk_order(array)
@@ -196,7 +199,7 @@ def _require_range(frames: Sequence[Any], frame_range: tuple[int, int] | None) -
         raise ValueError(f"frame_range ends at {frame_range[1]}, but there are {len(frames)} frames")
 
 
-def _from_list(frames: Sequence[Any], frame_range: tuple[int, int] | None, name: str) -> Stack:
+def _from_list(frames: Sequence[Any], frame_range: tuple[int, int] | None, name: str, if_masked: str) -> Stack:
     if not frames:
         least = "5 frames" if name == "frames" else "1 frame"
         raise ValueError(f"{name} is an empty {type(frames).__name__}; expected at least {least}")
@@ -210,24 +213,25 @@ def _from_list(frames: Sequence[Any], frame_range: tuple[int, int] | None, name:
     if frame_range is not None and is_cut:
         frames = frames[frame_range[0] : frame_range[1]]
     are_lazy = any(is_lazy(frame) and not isinstance(frame, np.ndarray) for frame in frames)
-    stack = _from_lazy(ListOfFrames(frames, name), name) if are_lazy else _from_arrays(frames, name)
+    frames = frames if are_lazy else _arrays_of(frames, name, if_masked)
+    stack = _from_lazy(ListOfFrames(frames, name, if_masked), name, if_masked)
     stack.is_cut = is_cut
     return stack
 
 
-def _from_lazy(frames: LazyFrames, name: str) -> Stack:
-    stack = LazyStack(frames, name)
+def _from_lazy(frames: LazyFrames, name: str, if_masked: str = GIVE_MASK) -> Stack:
+    stack = LazyStack(frames, name, if_masked)
     failed: list[BaseException] = []
     image, kept = source_of(stack, failed)
     return Stack(image, stack.pixel, kept, failed)
 
 
-def _from_arrays(frames: Sequence[Any], name: str) -> Stack:
+def _arrays_of(frames: Sequence[Any], name: str, if_masked: str) -> list[np.ndarray]:
     """Returns frames without a copy: the frames of a chunk are joined when ITK requests the chunk."""
     arrays = []
     for number, frame in enumerate(frames):
         this = f"{name}[{number}]"
-        array = as_array(frame, this)
+        array = as_array(frame, this, if_masked)
         pixel = require_pixel_type(array, this)
         require_shape(array, this, "y, x")
         arrays.append(as_itk_order(array))
@@ -236,4 +240,4 @@ def _from_arrays(frames: Sequence[Any], name: str) -> Stack:
                 f"{this} has shape {array.shape} and dtype {pixel}, but {name}[0] has {arrays[0].shape} and "
                 f"{arrays[0].dtype.name}; expected one shape and dtype for all"
             )
-    return _from_lazy(ListOfFrames(arrays, name), name)
+    return arrays

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ._arrays import PIXEL_TYPES, require_pixel_type, require_shape, without_mask
+from ._arrays import GIVE_MASK, PIXEL_TYPES, require_pixel_type, require_shape, without_mask
 from ._axes import in_time_order
 from ._chunks import arrays_of_graph, frames_of_chunk, is_closed, require_chunks
 from ._types import ItkObject
@@ -45,9 +45,9 @@ def is_lazy(value: object) -> bool:
 class ListOfFrames:
     """Lazy frames (t, y, x), made of a sequence of lazy frames (y, x)."""
 
-    def __init__(self, frames: Sequence[Any], name: str) -> None:
+    def __init__(self, frames: Sequence[Any], name: str, if_masked: str = GIVE_MASK) -> None:
         self.frames = frames
-        self._name = name
+        self._name, self._if_masked = name, if_masked
         self.dtype = np.dtype(frames[0].dtype)
         self.shape = (len(frames), *frames[0].shape)
         for number, frame in enumerate(frames):
@@ -62,18 +62,21 @@ class ListOfFrames:
 
     def __getitem__(self, times: slice) -> np.ndarray:
         numbers = range(len(self.frames))[times]
-        return np.stack([np.asarray(without_mask(self.frames[n][...], f"{self._name}[{n}]")) for n in numbers])
+        return np.stack([self._frame(number) for number in numbers])
+
+    def _frame(self, number: int) -> np.ndarray:
+        return np.asarray(without_mask(self.frames[number][...], f"{self._name}[{number}]", self._if_masked))
 
 
 class LazyStack:
     """Reads lazy frames piece by piece, and checks that each is as was said."""
 
-    def __init__(self, frames: Any, name: str) -> None:
+    def __init__(self, frames: Any, name: str, if_masked: str = GIVE_MASK) -> None:
         """Raises ValueError for a shape or a type that no stack has, and where stored chunks are missing."""
         if is_closed(frames):
             raise ValueError(f"{name} is a dataset of a closed HDF5 file; expected an open one")
         self._frames = in_time_order(frames, name)
-        self._name = name
+        self._name, self._if_masked = name, if_masked
         like = _like(self._frames, name)
         self.pixel = require_pixel_type(like, name)
         require_shape(like, name, "t, y, x")
@@ -92,7 +95,7 @@ class LazyStack:
         ValueError if a piece has another shape or dtype than announced, and TypeError if values are masked."""
         while first < end:
             stop = min(end, (first // self._piece + 1) * self._piece)
-            piece = np.asarray(without_mask(self._frames[first:stop], self._name))
+            piece = np.asarray(without_mask(self._frames[first:stop], self._name, self._if_masked))
             expected = (stop - first, *self.shape[1:])
             if piece.shape != expected or piece.dtype.newbyteorder("=").name != self.pixel:
                 raise ValueError(

@@ -173,7 +173,10 @@ def _stored(
         raise _options.refuse_type("output", output, "the name of a file")
     if not os.path.exists(output):
         return {}
-    passport = Passport.from_json(output)
+    try:
+        passport = Passport.from_json(output)
+    except ValueError as error:
+        raise type(error)(f"{error}. It is not overwritten: name another file as output") from None
     if passport["setting"] != kind or passport["version"] != version_of_package():
         return {}
     same = (options, _NO_OPTIONS_OF_TOOL) if options == "{}" else (options,)
