@@ -26,8 +26,8 @@
 namespace sensornoise::test
 {
 
-/** Largest relative error by the rounding of single precision: of a product of six rounded numbers, and of a sum of such
- * products by RegressorBand. */
+/** Largest relative error by the rounding of single precision: of a product of six rounded numbers, and of a sum of
+ * such products by RegressorBand. */
 inline const double RoundingOfProducts = 6.0 * std::exp2(-24.0);
 inline const double RoundingOfSums = RoundingOfProducts + PixelsOfSingleSum * std::exp2(-24.0);
 

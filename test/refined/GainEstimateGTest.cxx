@@ -230,8 +230,7 @@ TEST(SensorNoiseGainEstimate, ACommonErrorIsNotAveraged)
   frames.line = LineOf(1.0, 0.002);
   lines.fromFrames = frames;
   lines.covarianceOfCorrelation(0, 0) = 0.01 * 0.01;
-  const GainEstimate estimate =
-    EstimateGain({ found.settings, found.scene, found.series, found.variance, found.reestimated, found.corrected, OffsetDn },
-                 lines);
+  const GainEstimate estimate = EstimateGain(
+    { found.settings, found.scene, found.series, found.variance, found.reestimated, found.corrected, OffsetDn }, lines);
   EXPECT_NEAR(estimate.StandardError(), std::hypot(0.002 / std::sqrt(2.0), 0.01), 1e-9);
 }

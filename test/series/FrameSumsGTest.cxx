@@ -85,7 +85,8 @@ TEST(SensorNoiseFrameSums, ClassSumsEqualBruteForce)
     }
     for (std::size_t c = 0; c < GradientClasses; ++c)
     {
-      EXPECT_TRUE(((sums.GetClassSums(t, c) - sum[c]).array().abs() <= RoundingOfSums * size[c].array()).all()) << t << ' ' << c;
+      EXPECT_TRUE(((sums.GetClassSums(t, c) - sum[c]).array().abs() <= RoundingOfSums * size[c].array()).all())
+        << t << ' ' << c;
     }
   }
 }

@@ -16,7 +16,7 @@ using namespace sensornoise;
 // All compilers and processors compute the same bits: plain loops, loops for AVX2, and one product after the other.
 TEST(SensorNoiseGroupProducts, AreTheSameAnywhere)
 {
-  constexpr std::size_t pixels = PixelsOfSingleSum + 97;
+  constexpr std::size_t      pixels = PixelsOfSingleSum + 97;
   CounterSeededRandom        random(46);
   std::vector<SingleColumns> columns(pixels);
   std::vector<float>         series(FramesTogether * pixels);

@@ -203,7 +203,7 @@ FindStepOfFloating(const TemporalMaps<TPixel> & maps)
   }
   const double digits = std::numeric_limits<TPixel>::epsilon() * std::max(std::abs(levels.front()), levels.back());
   const double range = levels.back() - levels.front();
-  std::vector<double> spacings; // of which the digits leave something
+  std::vector<double> spacings; // larger than the rounding of the levels
   for (std::size_t i = 1; i < levels.size(); ++i)
   {
     const double spacing = levels[i] - levels[i - 1];

@@ -258,8 +258,8 @@ struct StackMaps
   std::vector<std::uint8_t> valid;    ///< see SummariseStack()
 };
 
-/** Makes the maps from the moments, which are consumed: mean and variance take the memory of the sums. Digital numbers,
- * clip levels and counts are those of the pixels that are not 0 in \a mask; empty: of all pixels. */
+/** Makes the maps from the moments, which are consumed: mean and variance take the memory of the sums. The pixels
+ * that are 0 in \a mask have no influence on digital numbers, clip levels and counts; empty: all pixels have. */
 template <typename TPixel>
 SensorNoise_EXPORT StackMaps
 MakeStackMaps(TemporalMoments<TPixel>           moments,
@@ -286,7 +286,8 @@ AreCountsFromZero(const TemporalMaps<TPixel> & maps, double stepDn)
   for (std::size_t p = 0; p < maps.GetNumberOfPixels(); p += stride)
   {
     const double steps = maps.mean[p] / stepDn;
-    if (maps.IsMeasured(p) && maps.GetMinimum(p) >= 0.0 && steps > InMoments.leastCount && steps < InMoments.largestCount)
+    if (maps.IsMeasured(p) && maps.GetMinimum(p) >= 0.0 && steps > InMoments.leastCount &&
+        steps < InMoments.largestCount)
     {
       const std::size_t group = steps < 1.0 ? 0 : steps < 3.0 ? 1 : steps < 10.0 ? 2 : 3;
       mean[group] += steps;

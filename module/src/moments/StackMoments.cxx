@@ -228,7 +228,7 @@ FindMeansAndFingerprints(const std::vector<TPlane> & planes,
     {
       const PixelLayout &        layout = planes[plane].layout;
       const std::uint8_t * const mask = planes[plane].mask;
-      const TPixel * const       block = layout.SideBySide(frames + i / blocks * layout.frame, begin, end, buffer.data());
+      const TPixel * const block = layout.SideBySide(frames + i / blocks * layout.frame, begin, end, buffer.data());
       fingerprints[plane * count * blocks + i] = FingerprintOfBlock(block, (end - begin) * sizeof(TPixel));
       sums[plane * count * blocks + i] = SumOfPixels(block, mask == nullptr ? mask : mask + begin, end - begin);
     }

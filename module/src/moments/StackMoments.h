@@ -114,8 +114,8 @@ public:
     AddFrames({ { this, PixelLayout::OfPixels(m_Pixels, m_Pixels), nullptr } }, frames, first, count, parallelFor);
   }
 
-  /** The moments of one of the planes of a mosaic, the layout of its pixels, and its mask, which is 0 at the pixels that
-   * the means of the frames leave out; null: they leave out none. */
+  /** The moments of one of the planes of a mosaic, the layout of its pixels, and its mask, which is 0 at the pixels
+   * that the means of the frames leave out; null: they leave out none. */
   struct Plane
   {
     StackMoments *       moments;

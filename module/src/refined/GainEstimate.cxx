@@ -241,8 +241,8 @@ EstimateOfFrames(const VarianceCurve &   frames,
   return estimate;
 }
 
-/** Combines the slopes by pixels and by frames. Their sampling noise is independent, and the error of the correlation is
- * the same in both. The variance at the pivot is taken from the more precise estimate. If either shows a non-linear
+/** Combines the slopes by pixels and by frames. Their sampling noise is independent, and the error of the correlation
+ * is the same in both. The variance at the pivot is taken from the more precise estimate. If either shows a non-linear
  * response, the more precise one is used alone. */
 void
 CombineWithFrames(GainEstimate & estimate, const SensorLines & lines, double blackDn, double varianceInflation)
@@ -257,8 +257,8 @@ CombineWithFrames(GainEstimate & estimate, const SensorLines & lines, double bla
   {
     std::swap(other, estimate);
   }
-  const bool   isNonlinear = estimate.IsNonlinear() || other.IsNonlinear();
-  const double difference = other.line.gain - estimate.line.gain;
+  const bool              isNonlinear = estimate.IsNonlinear() || other.IsNonlinear();
+  const double            difference = other.line.gain - estimate.line.gain;
   const Eigen::Matrix2d & common = lines.covarianceOfCorrelation;
   const double            expected =
     std::pow(estimate.StandardError(), 2) + std::pow(other.StandardError(), 2) - 2.0 * common(0, 0);

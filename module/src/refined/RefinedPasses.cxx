@@ -256,7 +256,7 @@ template <typename TPixel>
 void
 RefinedPasses<TPixel>::EndMoments()
 {
-  StackMaps                 maps = MakeStackMaps<TPixel>(m_Moments.Take(), m_Settings.dnSettings, m_ParallelFor, m_UserMask);
+  StackMaps maps = MakeStackMaps<TPixel>(m_Moments.Take(), m_Settings.dnSettings, m_ParallelFor, m_UserMask);
   const std::vector<double> levels = m_Distinct.OfDistinct(m_Moments.GetFrameMeans());
   m_ExposureFit = FitExposures(m_Settings.exposures, m_Thumbnails, m_Distinct.Counted(), maps);
   const bool isStrong = m_Thumbnails.FindIlluminationChange(m_Distinct.Counted()) > InMoments.strongIlluminationChange;
@@ -303,9 +303,10 @@ RequireUnitOfFrames(const InitialNoiseModel & model)
   const double noise = std::sqrt(model.NoiseVariance(model.centreDn));
   if (noise < SmallestNoise || noise > LargestNoise)
   {
-    throw NothingToMeasure("the standard deviation of the noise is " + Text(noise) +
-                           " in the unit of the frames; expected 1e-16 to 1e+16. Multiply the frames by a constant, such as " +
-                           Text(std::pow(10.0, -std::floor(std::log10(noise)))));
+    throw NothingToMeasure(
+      "the standard deviation of the noise is " + Text(noise) +
+      " in the unit of the frames; expected 1e-16 to 1e+16. Multiply the frames by a constant, such as " +
+      Text(std::pow(10.0, -std::floor(std::log10(noise)))));
   }
 }
 } // namespace

@@ -37,7 +37,7 @@ SampleLevels(const StackMaps & maps, const FrameGeometry & geometry)
   {
     const std::size_t x = p % width;
     const std::size_t y = p / width;
-    const bool isInside = x > 0 && y > 0 && x + 1 < width && y + 1 < geometry.height;
+    const bool        isInside = x > 0 && y > 0 && x + 1 < width && y + 1 < geometry.height;
     if (isInside && maps.variance[p] > 0.0) // dead pixels do not vary, at any level
     {
       const double along = maps.mean[p + 1] - maps.mean[p - 1];

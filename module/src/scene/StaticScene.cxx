@@ -301,7 +301,7 @@ MakeStaticScene(StackMaps                         maps,
   SceneAndOutliers            made;
   StaticScene &               scene = made.scene;
   scene.changesStrongly = strongChange.has_value();
-  // Border and full wells are those of the pixels that are measured, but the others may serve as their neighbours.
+  // Masked pixels have no influence on border and full wells, but may serve as neighbours.
   std::vector<std::uint8_t> withMasked = userMask.empty() ? std::vector<std::uint8_t>() : valid;
   ApplyMask(userMask, valid);
   scene.border = FindMaskedBorder(maps.mean, valid, geometry);

@@ -221,8 +221,9 @@ RegressorBand::FillValues()
   const double           centreDn = m_Regressors.GetModel().centreDn;
   const double           inverse = 1.0 / m_UnitDn;
   std::fill_n(this->RowOf(0), m_Pixels, static_cast<float>(inverse));
-  std::transform(
-    mean, mean + m_Pixels, this->RowOf(1), [=](double level) { return static_cast<float>(inverse * (level - centreDn)); });
+  std::transform(mean, mean + m_Pixels, this->RowOf(1), [=](double level) {
+    return static_cast<float>(inverse * (level - centreDn));
+  });
   const std::size_t width = frame.geometry.width;
   const std::size_t border = StencilMargin * width;
   const std::size_t first = std::max(border, m_First);
@@ -262,9 +263,10 @@ RegressorBand::FillWeights()
   }
   const auto weigh = [&, unit = m_UnitDn](const std::vector<float> & instrument, float * weighted) {
     const float * const own = instrument.data() + m_First;
-    std::transform(own, own + m_Pixels, instruments.weight.data() + m_First, weighted, [unit](double value, double weight) {
-      return static_cast<float>(unit * value * weight);
-    });
+    std::transform(
+      own, own + m_Pixels, instruments.weight.data() + m_First, weighted, [unit](double value, double weight) {
+        return static_cast<float>(unit * value * weight);
+      });
   };
   weigh(instruments.x, this->RowOf(InstrumentX));
   weigh(instruments.y, this->RowOf(InstrumentY));

@@ -22,8 +22,8 @@ using SingleColumns = std::array<float, std::tuple_size_v<FrameRegressors::Weigh
 /** Sums of one group of pixels: sums[series][column]. */
 using GroupSums = std::array<FrameRegressors::WeightedColumns, FramesTogether>;
 
-/** Number of pixels whose products are summed in single precision, before the sum is added in double precision. Rounding
- * changes the sum of 256 products of noise by 1e-7 of its standard deviation. Estimator.md, 6. */
+/** Number of pixels whose products are summed in single precision, before the sum is added in double precision.
+ * Rounding changes the sum of 256 products of noise by 1e-7 of its standard deviation. Estimator.md, 6. */
 inline constexpr std::size_t PixelsOfSingleSum = 256;
 
 /** Factors of the products that are summed over a group of pixels. */
@@ -38,8 +38,8 @@ struct GroupFactors
 };
 
 /** Computes the sums over the pixels of a group of their columns times the values of the series, with the SIMD
- * instructions of the processor. PixelsOfSingleSum products are summed in single precision. The bits are the same on all
- * processors. */
+ * instructions of the processor. PixelsOfSingleSum products are summed in single precision. The bits are the same on
+ * all processors. */
 SensorNoise_EXPORT void
 MultiplyGroup(const GroupFactors & of, GroupSums & sums);
 
@@ -52,8 +52,8 @@ MultiplyGroupAnywhere(const GroupFactors & of, GroupSums & sums);
  * inner products with series.
  *
  * Whole rows are read from memory in one piece. The columns stay in the second-level cache while all frames are
- * processed, and the sums of one group in registers. Columns and series have single precision. A band is moved from rows
- * to rows, so that its memory is allocated once. */
+ * processed, and the sums of one group in registers. Columns and series have single precision. A band is moved from
+ * rows to rows, so that its memory is allocated once. */
 class SensorNoise_EXPORT RegressorBand
 {
 public:

@@ -178,9 +178,9 @@ WithoutSquaresOfShifts(const FrameSums &      sums,
   return found.squaresOfShifts.cols() > 0 ? FitOffsetLine(sums, noise, {}, found.squaresOfShifts).value_or(line) : line;
 }
 
-/** Returns whether the flicker of \a found is significant by the covariance of the products that the raw variances give,
- * too. The initial model may be wrong, most where few pixels have signal; without flicker, the raw variances are right.
- * True if \a rawNoise is empty. */
+/** Returns whether the flicker of \a found is significant by the covariance of the products that the raw variances
+ * give, too. The initial model may be wrong, most where few pixels have signal; without flicker, the raw variances are
+ * right. True if \a rawNoise is empty. */
 bool
 IsSignificantByRawNoise(const FrameSums &                           sums,
                         RegressorNoise                              noise,
