@@ -114,3 +114,34 @@ TEST(SensorNoiseDarkPixels, NoiseBelowTheQuantizationStepIsNoReasonToCallPixelsD
   EXPECT_EQ(dark.numberDefective, 0u);
   EXPECT_FALSE(dark.readNoiseMedian);
 }
+
+TEST(SensorNoiseDarkPixels, RepeatedFramesCountOnce)
+{
+  const DarkSensor            sensor = MakeDarkSensor(4000, 4.0, LogNormalNoise(0.3));
+  const Stack<unsigned short> once = DarkStackOf<unsigned short>(sensor, 4);
+  Stack<unsigned short>       repeated = once;
+  for (int k = 0; k < 3; ++k)
+  {
+    repeated.frames += once.frames;
+    repeated.pixels.insert(repeated.pixels.end(), once.pixels.begin(), once.pixels.end());
+  }
+  const KnownOffset expected = MeasureDarkStack(once);
+  for (const std::size_t chunk : { 1U, 3U, 6U, 1000U })
+  {
+    const KnownOffset dark = MeasureDarkStack(repeated, {}, SerialFor, chunk);
+    EXPECT_EQ(dark.darkFrames, 4U) << chunk;
+    EXPECT_EQ(dark.valueDn, expected.valueDn) << chunk;
+    ASSERT_TRUE(dark.variance) << chunk;
+    EXPECT_EQ(dark.variance->valueDn2, expected.variance->valueDn2) << chunk;
+    EXPECT_EQ(dark.variance->standardErrorDn2, expected.variance->standardErrorDn2) << chunk;
+  }
+}
+
+TEST(SensorNoiseDarkPixels, FramesThatAreAllEqualAreOne)
+{
+  const Stack<unsigned short> equal{ 400, 1, 3, std::vector<unsigned short>(1200, 64) };
+  const KnownOffset           dark = MeasureDarkStack(equal);
+  EXPECT_EQ(dark.darkFrames, 1U);
+  EXPECT_EQ(dark.valueDn, 64.0);
+  EXPECT_FALSE(dark.variance);
+}

@@ -3,6 +3,7 @@
 #ifndef sensornoise_mosaic_MosaicGeometry_h
 #define sensornoise_mosaic_MosaicGeometry_h
 
+#include "base/BytesFingerprint.h"
 #include "base/Eigen.h"
 #include "base/ParallelWork.h"
 #include "base/PixelLayout.h"
@@ -10,6 +11,7 @@
 #include "correlation/FrameSample.h"
 #include "correlation/NoiseCorrelation.h"
 #include "moments/DarkFrames.h"
+#include "moments/StackFrames.h"
 #include "moments/TemporalMoments.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
@@ -20,6 +22,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -224,15 +227,17 @@ private:
 /** \class DarkFrameSums
  * \brief Adds up dark frames, which are read once, and measures their offset and read noise.
  *
- * The planes of a Bayer mosaic are measured separately. Frames are added in time order. The numbers of threads and of
- * frames per call do not change the result. Besides moments and drift it holds a sample of the first frames, 16 MiB or
- * less for integers, twice that for floating point. */
+ * The planes of a Bayer mosaic are measured separately. Frames are added in time order. A frame that equals an earlier
+ * one bit by bit is a copy with the same noise, and is not added. The numbers of threads and of frames per call do not
+ * change the result. Besides moments and drift it holds a sample of the first frames, 16 MiB or less for integers,
+ * twice that for floating point. */
 template <typename TPixel>
 class DarkFrameSums
 {
 public:
   /** Starts sums over frames that are no mosaics. \a used is nonzero at the pixels to be used; empty: all are. */
   explicit DarkFrameSums(const FrameGeometry & frame, const std::vector<std::uint8_t> & used = {})
+    : m_Pixels(frame.Pixels())
   {
     m_Parts.emplace_back(used, frame);
   }
@@ -240,7 +245,8 @@ public:
   /** Starts sums over each plane of a mosaic. \a used is nonzero at the pixels of the frame to be used; empty: all are.
    */
   explicit DarkFrameSums(const MosaicGeometry & mosaic, const std::vector<std::uint8_t> & used = {})
-    : m_Planes(mosaic)
+    : m_Pixels(mosaic.frame.Pixels())
+    , m_Planes(mosaic)
   {
     for (const BayerPlane plane : BayerPlanes)
     {
@@ -252,13 +258,15 @@ public:
   void
   AddFrames(const TPixel * frames, std::size_t count, const ParallelFor & parallelFor)
   {
-    if (!m_Planes)
+    std::vector<BytesFingerprint> fingerprints(count);
+    parallelFor(count, [&](std::size_t k) { fingerprints[k] = this->FingerprintOf(frames + k * m_Pixels); });
+    std::vector<std::uint8_t> isNew(count);
+    for (std::size_t k = 0; k < count; ++k)
     {
-      m_Parts.front().AddFrames(frames, count, parallelFor);
-      return;
+      isNew[k] = m_Distinct.insert(fingerprints[k]).second ? 1 : 0;
     }
-    m_Planes->ForPlanes(frames, count, parallelFor, [&](std::size_t k, const TPixel * plane, std::size_t now) {
-      m_Parts[k].AddFrames(plane, now, parallelFor);
+    ForChosenFrames(frames, m_Pixels, isNew, parallelFor, [&](const TPixel * chosen, std::size_t number) {
+      this->AddDistinct(chosen, number, parallelFor);
     });
   }
 
@@ -276,6 +284,34 @@ public:
   }
 
 private:
+  BytesFingerprint
+  FingerprintOf(const TPixel * frame) const
+  {
+    const std::size_t             bytes = m_Pixels * sizeof(TPixel);
+    const auto * const            first = reinterpret_cast<const unsigned char *>(frame);
+    std::vector<BytesFingerprint> blocks(NumberOfFingerprintBlocks(bytes));
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+    {
+      const std::size_t begin = b * FingerprintBlockBytes;
+      blocks[b] = FingerprintOfBlock(first + begin, std::min(FingerprintBlockBytes, bytes - begin));
+    }
+    return FingerprintOfBlocks(blocks.data(), blocks.data() + blocks.size());
+  }
+
+  /** Adds frames that are not repeated, to the only part or to the planes. */
+  void
+  AddDistinct(const TPixel * frames, std::size_t count, const ParallelFor & parallelFor)
+  {
+    if (!m_Planes)
+    {
+      m_Parts.front().AddFrames(frames, count, parallelFor);
+      return;
+    }
+    m_Planes->ForPlanes(frames, count, parallelFor, [&](std::size_t k, const TPixel * plane, std::size_t now) {
+      m_Parts[k].AddFrames(plane, now, parallelFor);
+    });
+  }
+
   /** Sums over the frames, or over one plane of the frames. */
   struct Part
   {
@@ -321,6 +357,8 @@ private:
     std::size_t               sampled{ 0 };
   };
 
+  std::size_t                        m_Pixels; // number of pixels of a frame
+  std::set<BytesFingerprint>         m_Distinct;
   std::optional<PlaneFrames<TPixel>> m_Planes; // null: not a mosaic
   std::vector<Part>                  m_Parts;
 };
