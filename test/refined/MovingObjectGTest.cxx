@@ -61,12 +61,45 @@ TransientStack(const std::vector<double> & scene, int conditions, bool isVertica
   return stack;
 }
 
+/** Returns frames that are, in the squares of a checkerboard, the mean of two exposures. */
+Stack<unsigned short>
+MergedStack()
+{
+  SimulationSettings settings;
+  settings.conditions = { 0.03, 0.0, 0.0 };
+  settings.frames = Frames;
+  const StackSimulator  simulator(MakeTextureScene(Size, Size), Size, Size, settings);
+  Stack<unsigned short> stack{ Size, Size, Frames, std::vector<unsigned short>(Size * Size * Frames) };
+  constexpr std::size_t side = 60; // not the side of a part of the sensor
+  std::vector<double>   electrons(Size);
+  for (std::size_t row = 0; row < Frames * Size; ++row)
+  {
+    const std::size_t   y = row % Size;
+    CounterSeededRandom random(settings.seed, 100, row / Size, y);
+    simulator.ExpectedElectronsRow(row / Size, y, electrons.data());
+    for (std::size_t x = 0; x < Size; ++x)
+    {
+      const std::size_t exposures = (x / side + y / side) % 2 + 1;
+      double            sum = 0.0;
+      for (std::size_t k = 0; k < exposures; ++k)
+      {
+        sum += static_cast<double>(random.Poisson(electrons[x])) + settings.camera.offsetDn +
+               settings.camera.readNoiseDn * random.Normal();
+      }
+      const double value = sum / static_cast<double>(exposures);
+      stack.pixels[row * Size + x] = static_cast<unsigned short>(std::clamp(std::floor(value + 0.5), 0.0, 4095.0));
+    }
+  }
+  return stack;
+}
+
 void
 ExpectTruth(const Stack<unsigned short> & stack, bool isVertical)
 {
   const auto     method = Measure(stack);
   const Report & report = method.GetReport();
-  const double   gain = ValueOf(report.gain);
+  EXPECT_FALSE(HasWarning(report, WarningCode::GainNotUniform));
+  const double gain = ValueOf(report.gain);
   EXPECT_LE(std::abs(gain - 1.0), std::max(0.01, 3.0 * *report.gain.standardError));
   EXPECT_LT(*report.gain.standardError, 0.007); // a third of the frame gives 0.4 %
   const auto & use = method.GetPixelUse();
@@ -113,4 +146,15 @@ TEST(SensorNoiseMovingObject, ResultDoesNotDependOnThreadsAndChunks)
   const auto parts = Measure(stack, WithDnSettings(), 7, Threads(3));
   EXPECT_EQ(*whole.GetReport().gain.value, *parts.GetReport().gain.value);
   EXPECT_TRUE(HaveSameBits(whole.GetPixelUse(), parts.GetPixelUse()));
+}
+
+TEST(SensorNoiseMovingObject, PixelsOfAnotherGainAreNone)
+{
+  const Report report = Measure(MergedStack()).GetReport();
+  EXPECT_TRUE(HasWarning(report, WarningCode::GainNotUniform));
+  if (report.gain.status == EstimateStatus::Identified) // then its interval has the gain of one exposure
+  {
+    ASSERT_TRUE(report.gain.interval95);
+    EXPECT_GE(report.gain.interval95->high.value_or(2.0), 1.0);
+  }
 }

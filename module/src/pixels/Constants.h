@@ -240,6 +240,13 @@ struct PartsConstants
   /** Dispersion of the tiles within parts over their sampling error, up to which the parts are uniform [1]. Moving
    * objects make it 10 and more. Chosen empirically. */
   double largestScatter{ 3.0 };
+  /** Least fraction of the pixels that are left out as not static, for which their gain is compared [1]. Chosen by the
+   * size of the effect: twice the gain in so many pixels is a tenth of the mean gain. */
+  double leastLeftOut{ 0.1 };
+  /** Largest scatter of the excess of tiles, and largest difference between less and more rough surroundings, relative
+   * to the excess, for which it is a gain [1]. Chosen empirically: gains in blobs and at edges make 0.03 to 0.3,
+   * objects that move 0.4 and more. */
+  double largestSpread{ 0.3 };
   /** Number of pixels from which the effect of the parts on the line is computed: it is an error, and the sampling
    * noise of its derivatives is below 1 %. */
   std::size_t pixelsOfDerivatives{ std::size_t{ 1 } << 18 };

@@ -161,18 +161,6 @@ SelectPixels(const ProjectedVariance &         projected,
   return CountPixels(rejected);
 }
 
-/** Returns tiles of the measured variance of the pixels of \a mask. */
-PartTiles
-TilesOfMeasured(const ProjectedVariance &         projected,
-                const PartReference &             reference,
-                const std::vector<std::uint8_t> & mask,
-                const ParallelFor &               parallelFor)
-{
-  VarianceData data = projected.GetData(mask);
-  data.variance.ratios = nullptr;
-  return MakePartTiles(data, projected.GetFrame().geometry, reference, parallelFor);
-}
-
 /** A line, and the parts by whose ratios the variance was divided for it; null: it was not divided. */
 struct LineOfParts
 {
@@ -414,6 +402,7 @@ FitOnce(const ProjectedSquares &          squares,
   {
     found.ofOwnLevels = fit.CurveAbout(found.curve.line, VarianceFit::SortedBy::OwnLevel);
   }
+  found.excessOfLeftOut = ExcessOfLeftOut(projected, reference, found.pixelUse, parallelFor);
   found.notStatic = static_cast<std::size_t>(
     std::count(found.pixelUse.begin(), found.pixelUse.end(), static_cast<std::uint8_t>(PixelUse::NotStatic)));
   return { std::move(found), isDivided };

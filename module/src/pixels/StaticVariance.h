@@ -251,6 +251,8 @@ struct StaticVariance
   double correctingGain{ 0.0 };
   /** Number of pixels whose use is PixelUse::NotStatic. */
   std::size_t notStatic{ 0 };
+  /** Excess of the gain of these pixels over the gain of the others, relative to it [1]; 0: see ExcessOfLeftOut(). */
+  double excessOfLeftOut{ 0.0 };
   /** Variance inflation by the spatial noise correlation, see RejectionModel [1]. */
   double varianceInflation{ 1.0 };
   /** Fraction of the sampled pixels that are computed from their neighbours, and left out [1]. */
@@ -259,6 +261,23 @@ struct StaticVariance
    * neighbours and were not found, and because a noise correlation of frames is too small to be corrected. */
   double lostVariance{ 0.0 };
 };
+
+/** Returns tiles of the measured variance of the pixels of \a mask. */
+SensorNoise_EXPORT PartTiles
+TilesOfMeasured(const ProjectedVariance &         projected,
+                const PartReference &             reference,
+                const std::vector<std::uint8_t> & mask,
+                const ParallelFor &               parallelFor);
+
+/** Returns the excess of the variance of the pixels that are PixelUse::NotStatic in \a pixelUse, over the line of
+ * \a reference, relative to its shot noise [1]. It is a gain of their own if it is the same in all tiles, and does not
+ * grow with the roughness of the surroundings: motion depends on the scene. 0 if it is not, or if there are few of these pixels.
+ * Estimator.md, 3.15. */
+SensorNoise_EXPORT double
+ExcessOfLeftOut(const ProjectedVariance &         projected,
+                const PartReference &             reference,
+                const std::vector<std::uint8_t> & pixelUse,
+                const ParallelFor &               parallelFor);
 
 /** Finds the pixels that fit a static scene, and fits the line of their variance, from the flat classes to the rough
  * ones. Neighbourhoods are tested before classes, because an object that moves across the frame has pixels in all

@@ -128,6 +128,13 @@ ExtendIntervalByStep(GainEstimate & estimate, const VarianceStep & step)
   }
 }
 
+/** Extends the interval to the gain of pixels that were left out, although they have no motion. */
+void
+ExtendIntervalByLeftOut(GainEstimate & estimate, const StaticVariance & variance)
+{
+  estimate.above = std::max(estimate.above, variance.excessOfLeftOut * estimate.line.gain);
+}
+
 /** Extends the interval by the possible effect of illumination changes that could not be projected out. They add a
  * variance in proportion to the squared signal, whose slope is twice its ratio to the signal. They also correlate
  * neighbours, so that the total covariance over lags may contain illumination instead of noise. */
@@ -342,6 +349,7 @@ EstimateGain(const RefinedResults & found, const SensorLines & lines)
     ExtendIntervalByStep(estimate, *step);
   }
   ExtendIntervalByIllumination(estimate, found);
+  ExtendIntervalByLeftOut(estimate, variance);
   CombineWithFrames(estimate, lines, found.blackDn, variance.varianceInflation);
   if (found.settings.offset)
   {

@@ -217,6 +217,22 @@ WarnOfStep(Report & report, const GainEstimate & gain)
 }
 
 void
+WarnOfLeftOut(Report & report, const StaticVariance & variance)
+{
+  if (variance.excessOfLeftOut > 0.0)
+  {
+    const double fraction =
+      static_cast<double>(variance.notStatic) / static_cast<double>(report.pixels.used + variance.notStatic);
+    report.Warn(WarningCode::GainNotUniform,
+                Percent(fraction) + " of the pixels have a gain of their own, " + Percent(variance.excessOfLeftOut) +
+                  " larger than the gain of the others, and are left out: their variance is larger by as much in all "
+                  "places, which motion does not cause. Processing that depends on the scene does, as the merging of "
+                  "frames. If there is a gain, its interval contains both. Switch the processing off, or measure "
+                  "either part by itself (--mask)");
+  }
+}
+
+void
 WarnOfIdentified(Report & report, const TestedGain & tested)
 {
   const GainEstimate & gain = tested.line;
@@ -241,6 +257,7 @@ WarnOfIdentified(Report & report, const TestedGain & tested)
 void
 WarnOfGain(Report & report, const RefinedResults & found, const TestedGain & tested, double effectOfLines)
 {
+  WarnOfLeftOut(report, found.variance);
   switch (tested.verdict)
   {
     case GainVerdict::Identified:

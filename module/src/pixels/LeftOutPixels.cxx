@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "pixels/StaticVariance.h"
+
+#include "base/Quantiles.h"
+#include "pixels/Constants.h"
+#include "pixels/GainByParts.h"
+#include "pixels/ProjectedVariance.h"
+#include "sensornoise/FrameGeometry.h"
+#include "sensornoise/Parallel.h"
+#include "sensornoise/Report.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+PartTiles
+TilesOfMeasured(const ProjectedVariance &         projected,
+                const PartReference &             reference,
+                const std::vector<std::uint8_t> & mask,
+                const ParallelFor &               parallelFor)
+{
+  VarianceData data = projected.GetData(mask);
+  data.variance.ratios = nullptr;
+  return MakePartTiles(data, projected.GetFrame().geometry, reference, parallelFor);
+}
+
+namespace
+{
+/** The excess of tiles: median, scatter beyond chance, and mean over the mean fraction of shot noise [1]. */
+struct ExcessOfTiles
+{
+  double median{ 0.0 };
+  double spread{ 0.0 };
+  double ofShot{ 0.0 };
+};
+
+ExcessOfTiles
+SummariseExcess(const std::vector<TileExcess> & tiles)
+{
+  std::vector<double> excess;
+  std::vector<double> errors;
+  double              sum = 0.0;
+  double              shot = 0.0;
+  for (const TileExcess & tile : tiles)
+  {
+    excess.push_back(tile.excess);
+    errors.push_back(tile.error);
+    sum += tile.pixels * tile.excess;
+    shot += tile.pixels * tile.shotFraction;
+  }
+  if (excess.size() < InParts.fewestTiles || !(shot > 0.0))
+  {
+    return {};
+  }
+  const double        median = QuantileOf(excess, 0.5);
+  std::vector<double> distances;
+  std::transform(excess.begin(), excess.end(), std::back_inserter(distances), [median](double own) {
+    return std::abs(own - median);
+  });
+  const double scatter = QuantileOf(std::move(distances), 0.5) / MedianOfNormal;
+  const double chance = QuantileOf(std::move(errors), 0.5);
+  return { median, std::sqrt(std::max(0.0, scatter * scatter - chance * chance)), sum / shot };
+}
+/** Returns the pixels of \a leftOut that have no used pixel beyond a neighbourhood, at eight places around them:
+ * neighbourhoods at the edge of a region reach into it and out of it. */
+std::vector<std::uint8_t>
+InnerPixels(const std::vector<std::uint8_t> & leftOut,
+            const std::vector<std::uint8_t> & pixelUse,
+            const FrameGeometry &             geometry,
+            const ParallelFor &               parallelFor)
+{
+  const std::size_t reach = InPixels.neighbourhoodRadius + 1;
+  const auto        around = [reach](std::size_t at, std::size_t size) {
+    return std::array<std::size_t, 3>{ at - std::min(at, reach), at, std::min(size - 1, at + reach) };
+  };
+  std::vector<std::uint8_t> inner = leftOut;
+  ForPixels(inner.size(), parallelFor, [&](std::size_t p) {
+    for (const std::size_t y : around(p / geometry.width, geometry.height))
+    {
+      for (const std::size_t x : around(p % geometry.width, geometry.width))
+      {
+        const bool isUsed = pixelUse[y * geometry.width + x] == static_cast<std::uint8_t>(PixelUse::Used);
+        inner[p] = isUsed ? 0 : inner[p];
+      }
+    }
+  });
+  return inner;
+}
+} // namespace
+
+double
+ExcessOfLeftOut(const ProjectedVariance &         projected,
+                const PartReference &             reference,
+                const std::vector<std::uint8_t> & pixelUse,
+                const ParallelFor &               parallelFor)
+{
+  std::vector<std::uint8_t> leftOut(pixelUse.size());
+  ForPixels(pixelUse.size(), parallelFor, [&](std::size_t p) {
+    leftOut[p] = pixelUse[p] == static_cast<std::uint8_t>(PixelUse::NotStatic) ? 1 : 0;
+  });
+  const auto count = std::count(leftOut.begin(), leftOut.end(), std::uint8_t{ 1 });
+  const auto used = std::count(pixelUse.begin(), pixelUse.end(), static_cast<std::uint8_t>(PixelUse::Used));
+  if (static_cast<double>(count) < InParts.leastLeftOut * static_cast<double>(used + count))
+  {
+    return 0.0;
+  }
+  const std::vector<std::uint8_t> inner = InnerPixels(leftOut, pixelUse, projected.GetFrame().geometry, parallelFor);
+  const std::uint8_t * const      classOf = projected.GetSquares().GetClasses().data();
+  std::vector<double>             classes;
+  for (std::size_t p = 0; p < inner.size(); ++p)
+  {
+    if (inner[p] != 0)
+    {
+      classes.push_back(classOf[p]);
+    }
+  }
+  const auto excessBetween = [&](double low, double high) {
+    std::vector<std::uint8_t> part(inner.size());
+    ForPixels(part.size(), parallelFor, [&](std::size_t p) {
+      part[p] = classOf[p] > low && classOf[p] <= high ? inner[p] : std::uint8_t{ 0 };
+    });
+    return SummariseExcess(TilesOfMeasured(projected, reference, part, parallelFor).places);
+  };
+  if (classes.empty())
+  {
+    return 0.0;
+  }
+  // The smoother half may lie between edges that are processed in another way.
+  const double        middle = Quantile(classes, 0.5);
+  const double        upper = Quantile(classes, 0.75);
+  const double        highest = Quantile(classes, 1.0);
+  const ExcessOfTiles rough = excessBetween(middle, highest);
+  if (!(rough.spread < InParts.largestSpread * rough.median))
+  {
+    return 0.0;
+  }
+  // Motion adds the more variance, the rougher the scene is.
+  const double least = (1.0 - InParts.largestSpread) * excessBetween(upper, highest).median;
+  return excessBetween(middle, upper).median > least ? rough.ofShot : 0.0;
+}
+
+} // namespace sensornoise
