@@ -169,7 +169,7 @@ TEST(SensorNoiseFrameSums, CellsPartTheWholeFrame)
   }
   EXPECT_EQ(whole.pixels, (Width - 4) * (Height - 4));
   const auto near = [&](double value, double expected, Eigen::Index i, Eigen::Index j) {
-    EXPECT_NEAR(value, expected, 1e-12 * std::sqrt(gram(i, i) * gram(j, j))) << i << ' ' << j;
+    EXPECT_NEAR(value, expected, RoundingOfProducts * std::sqrt(gram(i, i) * gram(j, j))) << i << ' ' << j;
   };
   for (std::size_t k = 0; k < FrameColumns; ++k)
   {
