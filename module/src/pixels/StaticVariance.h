@@ -271,8 +271,8 @@ TilesOfMeasured(const ProjectedVariance &         projected,
 
 /** Returns the excess of the variance of the pixels that are PixelUse::NotStatic in \a pixelUse, over the line of
  * \a reference, relative to its shot noise [1]. It is a gain of their own if it is the same in all tiles, and does not
- * grow with the roughness of the surroundings: motion depends on the scene. 0 if it is not, or if there are few of these pixels.
- * Estimator.md, 3.15. */
+ * grow with the roughness of the surroundings: motion depends on the scene. 0 if it is not, or if there are few of
+ * these pixels. Estimator.md, 3.15. */
 SensorNoise_EXPORT double
 ExcessOfLeftOut(const ProjectedVariance &         projected,
                 const PartReference &             reference,
