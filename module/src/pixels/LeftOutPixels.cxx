@@ -70,6 +70,7 @@ SummariseExcess(const std::vector<TileExcess> & tiles)
   const double chance = QuantileOf(std::move(errors), 0.5);
   return { median, std::sqrt(std::max(0.0, scatter * scatter - chance * chance)), sum / shot };
 }
+
 /** Returns the pixels of \a leftOut that have no used pixel beyond a neighbourhood, at eight places around them:
  * neighbourhoods at the edge of a region reach into it and out of it. */
 std::vector<std::uint8_t>
