@@ -39,8 +39,8 @@ struct PowerSums
 
   /** One cache line longer than a tile: sums a power of two apart would compete for the same places in the cache. */
   using OfPixels = std::array<float, SampleTiles::Side * SampleTiles::Side + 16>;
-  std::array<OfPixels, KurtosisSums::Kinds> squares;
-  std::array<OfPixels, KurtosisSums::Kinds> fourths;
+  std::array<OfPixels, KurtosisSums::Kinds> squares{};
+  std::array<OfPixels, KurtosisSums::Kinds> fourths{};
 };
 
 /** Returns the alternating sums of all kinds that begin at \a v, a pixel of a tile of \a VSide columns. */

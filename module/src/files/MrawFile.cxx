@@ -236,7 +236,7 @@ CompanionOf(const std::string & name)
   const std::initializer_list<const char *> pixels{ ".mraw" };
   for (const char * const ending : IsMraw(name) ? headers : pixels)
   {
-    const std::string other = FileBeside(name, ending);
+    std::string other = FileBeside(name, ending);
     if (!other.empty())
     {
       return other;
