@@ -25,10 +25,10 @@ def with_nan(burst, numbers):
 @pytest.mark.parametrize("name", MEASURE)
 def test_they_are_named_where_nothing_is_measured(burst, name, make):
     measure, role = MEASURE[name]
-    stack = with_nan(burst, np.arange(5, 59))
+    stack = with_nan(burst, np.arange(4, 60))
     with pytest.warns(
         UserWarning,
-        match=rf"^{role}: frames 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, ... \(54 in all\) are NaN in every pixel",
+        match=rf"^{role}: frames 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, ... \(56 in all\) are NaN in every pixel",
     ):
         measure(make(stack))
 
