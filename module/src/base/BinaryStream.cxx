@@ -97,18 +97,6 @@ constexpr char        SealMark[] = "SensorNoise sums";
 constexpr std::size_t SealMarkBytes = 16;
 constexpr std::size_t SealVersionBytes = 32;
 
-BytesFingerprint
-FingerprintOf(const unsigned char * bytes, std::size_t size)
-{
-  std::vector<BytesFingerprint> blocks(NumberOfFingerprintBlocks(size));
-  for (std::size_t i = 0; i < blocks.size(); ++i)
-  {
-    const std::size_t begin = i * FingerprintBlockBytes;
-    blocks[i] = FingerprintOfBlock(bytes + begin, std::min(FingerprintBlockBytes, size - begin));
-  }
-  return FingerprintOfBlocks(blocks.data(), blocks.data() + blocks.size());
-}
-
 /** Returns "5 of module 1.2.3": the version of the sums and the version of the module. */
 std::string
 NameOfVersions(std::uint32_t ofSums, const std::string & ofModule)
@@ -127,7 +115,7 @@ SealSums(const unsigned char * bytes, std::size_t size, const std::string & vers
   WriteNumbers(out, word.data(), word.size());
   WriteCount(out, SumsVersion);
   WriteCount(out, size);
-  const BytesFingerprint fingerprint = FingerprintOf(bytes, size);
+  const BytesFingerprint fingerprint = FingerprintOfBytes(bytes, size);
   WriteNumbers(out, fingerprint.data(), fingerprint.size());
   const std::string seal = out.str();
   return { seal.begin(), seal.end() };
@@ -164,7 +152,7 @@ UnsealSums(const unsigned char * bytes, std::size_t size, const std::string & ve
   }
   BytesFingerprint fingerprint{};
   ReadNumbers(in, fingerprint.data(), fingerprint.size());
-  if (fingerprint != FingerprintOf(sums.bytes, sums.size))
+  if (fingerprint != FingerprintOfBytes(sums.bytes, sums.size))
   {
     throw std::runtime_error("the sums are damaged: the checksum of their " + std::to_string(sums.size) +
                              " bytes differs from the checksum that was written with them; hand them over again");

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <limits>
 #include <type_traits>
+#include <vector>
 
 namespace sensornoise
 {
@@ -147,6 +148,20 @@ inline std::size_t
 NumberOfFingerprintBlocks(std::size_t size)
 {
   return (size + FingerprintBlockBytes - 1) / FingerprintBlockBytes;
+}
+
+/** Returns the fingerprint of \a size bytes, block by block. */
+inline BytesFingerprint
+FingerprintOfBytes(const void * bytes, std::size_t size)
+{
+  const auto * const            first = static_cast<const unsigned char *>(bytes);
+  std::vector<BytesFingerprint> blocks(NumberOfFingerprintBlocks(size));
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+  {
+    const std::size_t begin = i * FingerprintBlockBytes;
+    blocks[i] = FingerprintOfBlock(first + begin, std::min(FingerprintBlockBytes, size - begin));
+  }
+  return FingerprintOfBlocks(blocks.data(), blocks.data() + blocks.size());
 }
 
 } // namespace sensornoise

@@ -259,7 +259,9 @@ public:
   AddFrames(const TPixel * frames, std::size_t count, const ParallelFor & parallelFor)
   {
     std::vector<BytesFingerprint> fingerprints(count);
-    parallelFor(count, [&](std::size_t k) { fingerprints[k] = this->FingerprintOf(frames + k * m_Pixels); });
+    parallelFor(count, [&](std::size_t k) {
+      fingerprints[k] = FingerprintOfBytes(frames + k * m_Pixels, m_Pixels * sizeof(TPixel));
+    });
     std::vector<std::uint8_t> isNew(count);
     for (std::size_t k = 0; k < count; ++k)
     {
@@ -284,20 +286,6 @@ public:
   }
 
 private:
-  BytesFingerprint
-  FingerprintOf(const TPixel * frame) const
-  {
-    const std::size_t             bytes = m_Pixels * sizeof(TPixel);
-    const auto * const            first = reinterpret_cast<const unsigned char *>(frame);
-    std::vector<BytesFingerprint> blocks(NumberOfFingerprintBlocks(bytes));
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-    {
-      const std::size_t begin = b * FingerprintBlockBytes;
-      blocks[b] = FingerprintOfBlock(first + begin, std::min(FingerprintBlockBytes, bytes - begin));
-    }
-    return FingerprintOfBlocks(blocks.data(), blocks.data() + blocks.size());
-  }
-
   /** Adds frames that are not repeated, to the only part or to the planes. */
   void
   AddDistinct(const TPixel * frames, std::size_t count, const ParallelFor & parallelFor)
