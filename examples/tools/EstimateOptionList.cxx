@@ -23,16 +23,16 @@ std::string
 BytesOfSize(const std::string & text)
 {
   std::string bytes = text;
-  std::string reason = ReasonNotWhole(text.substr(0, 1));
+  bool        isSize = IsWholeNumber(text.substr(0, 1)); // CLI11 reads -1 as the largest number
   try
   {
-    reason += CLI::AsSizeValue(true)(bytes);
+    isSize = isSize && CLI::AsSizeValue(true)(bytes).empty();
   }
-  catch (const CLI::ValidationError & error)
+  catch (const CLI::ValidationError &)
   {
-    reason += error.what();
+    isSize = false;
   }
-  if (!reason.empty())
+  if (!isSize)
   {
     throw CLI::ValidationError("it is \"" + text + "\"; expected a whole number of bytes, for example 4G or 500M");
   }

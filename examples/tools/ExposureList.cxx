@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/ExposureList.h"
 
+#include "tools/OptionHints.h"
 #include "tools/TextColumns.h"
 
 #include <algorithm>
@@ -27,12 +28,6 @@ SeparatorOf(const std::vector<std::string> & lines)
     }
   }
   return ",";
-}
-
-bool
-IsWholeNumber(const std::string & word)
-{
-  return !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
 }
 
 /** Reader of the columns of an exposure file, line by line. */

@@ -62,11 +62,16 @@ UnknownOption(const CLI::App & app, const std::string & word)
          (nearest.empty() ? "; --help lists all options" : " --help lists all options");
 }
 
+bool
+IsWholeNumber(const std::string & text)
+{
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
 std::string
 ReasonNotWhole(const std::string & text)
 {
-  const bool isWhole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-  return isWhole ? "" : "it is \"" + text + "\"; expected a whole number of 0 or more";
+  return IsWholeNumber(text) ? "" : "it is \"" + text + "\"; expected a whole number of 0 or more";
 }
 
 void

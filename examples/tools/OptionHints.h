@@ -17,6 +17,10 @@ namespace sensornoise::tools
 std::string
 UnknownOption(const CLI::App & app, const std::string & word);
 
+/** Returns whether a text has digits alone: a whole number of 0 or more. */
+bool
+IsWholeNumber(const std::string & text);
+
 /** Returns "" for a whole number of 0 or more, else the reason why the text is none. It is a check of CLI11, which
  * reads -1 as the largest number. */
 std::string

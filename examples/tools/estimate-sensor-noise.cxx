@@ -275,13 +275,17 @@ Run(EstimateOptions & options)
   const sensornoise::FrameList frames = sensornoise::OpenFrames(options.files, {}, options.raw, options.choice);
   options.SelectExposures(listed == 1 || frames.isStack ? frames.frames : listed);
   PrintWarningOf(frames);
-  const bool                   hasFramesToCheck = options.hasCheck && !options.check.empty();
-  const sensornoise::FrameList framesToCheck = hasFramesToCheck ? OpenFramesToCheck(options) : frames;
+  std::optional<sensornoise::FrameList> others; // frames of --check
+  if (!options.check.empty())
+  {
+    others = OpenFramesToCheck(options);
+  }
 
   std::string         plotText;
   const MeasuredStack measured = EstimateStack(options, frames, maps ? &*maps : nullptr, plot ? &plotText : nullptr);
-  const ModelChecks   checks = options.hasCheck ? CheckModel(options, measured, framesToCheck) : ModelChecks();
-  const ModelChecks   profileChecks = profile ? CheckProfile(*profile, measured, options.profileLevels) : ModelChecks();
+  const ModelChecks   checks =
+    options.hasCheck ? CheckModel(options, measured, others ? *others : frames) : ModelChecks();
+  const ModelChecks profileChecks = profile ? CheckProfile(*profile, measured, options.profileLevels) : ModelChecks();
   if (plot)
   {
     plot->Write(plotText);
