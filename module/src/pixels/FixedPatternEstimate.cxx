@@ -312,7 +312,7 @@ FitInstrumental(const VarianceFit & fit, const VarianceData & data, const Refere
   // The mean of a ratio by a weak instrument does not exist: Staiger & Stock 1997 demand F > 10.
   instrumental.isDetermined = common * common > InCommon.strongEvidence * squares[3] &&
                               std::isfinite(instrumental.gain) && instrumental.covariance.allFinite();
-  found.instrumentMean = zMean;
+  found.instrumentDn = pivot + zMean;
   found.squaredScores = squares[0];
   return found;
 }
@@ -324,7 +324,6 @@ WideningOfInstrumental(const InstrumentalFit & instrumental,
                        const ReferenceFrame &  frame)
 {
   const VarianceLine & line = instrumental.line;
-  const double         instrumentDn = fit.GetLine().pivotDn + instrumental.instrumentMean;
   const std::size_t    width = frame.geometry.width;
   const std::size_t    lines = width + frame.geometry.height;
   const ScoreCells     cells(frame.geometry);
@@ -333,7 +332,8 @@ WideningOfInstrumental(const InstrumentalFit & instrumental,
       if (HasDiagonals(frame.usable.data(), width, p))
       {
         const double residual = weighed.value - line.intercept - line.gain * data.mean[p];
-        const double score = weighed.weight * residual * (DiagonalMean(frame.mean.data(), width, p) - instrumentDn);
+        const double score =
+          weighed.weight * residual * (DiagonalMean(frame.mean.data(), width, p) - instrumental.instrumentDn);
         sums[p % width] += score;
         sums[width + p / width] += score;
         sums[lines + cells.Of(p)] += score;

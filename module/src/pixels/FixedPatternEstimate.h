@@ -105,9 +105,9 @@ FractionOfSensorSteps(const VarianceData &  data,
 /** Variance line by instrumental variables. */
 struct InstrumentalFit
 {
-  VarianceLine line;                  ///< not determined if the instrument is weak
-  double       instrumentMean{ 0.0 }; ///< <z>, less the pivot of the fit [DN]
-  double       squaredScores{ 0.0 };  ///< sum of the squared scores of the slope
+  VarianceLine line;                 ///< not determined if the instrument is weak
+  double       instrumentDn{ 0.0 };  ///< <z> [DN]
+  double       squaredScores{ 0.0 }; ///< sum of the squared scores of the slope
 };
 
 /** Fits the variance line by instrumental variables. The instrument of a pixel's mean x is z, the mean of its diagonal

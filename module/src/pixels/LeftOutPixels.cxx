@@ -71,28 +71,26 @@ SummariseExcess(const std::vector<TileExcess> & tiles)
   return { median, std::sqrt(std::max(0.0, scatter * scatter - chance * chance)), sum / shot };
 }
 
-/** Returns the pixels of \a leftOut that have no used pixel beyond a neighbourhood, at eight places around them:
- * neighbourhoods at the edge of a region reach into it and out of it. */
+/** Returns the pixels that are left out as not static, and have no used pixel beyond a neighbourhood, at eight places
+ * around them: neighbourhoods at the edge of a region reach into it and out of it. */
 std::vector<std::uint8_t>
-InnerPixels(const std::vector<std::uint8_t> & leftOut,
-            const std::vector<std::uint8_t> & pixelUse,
-            const FrameGeometry &             geometry,
-            const ParallelFor &               parallelFor)
+InnerPixels(const std::vector<std::uint8_t> & pixelUse, const FrameGeometry & geometry, const ParallelFor & parallelFor)
 {
   const std::size_t reach = InPixels.neighbourhoodRadius + 1;
   const auto        around = [reach](std::size_t at, std::size_t size) {
     return std::array<std::size_t, 3>{ at - std::min(at, reach), at, std::min(size - 1, at + reach) };
   };
-  std::vector<std::uint8_t> inner = leftOut;
+  std::vector<std::uint8_t> inner(pixelUse.size());
   ForPixels(inner.size(), parallelFor, [&](std::size_t p) {
+    bool isInner = pixelUse[p] == static_cast<std::uint8_t>(PixelUse::NotStatic);
     for (const std::size_t y : around(p / geometry.width, geometry.height))
     {
       for (const std::size_t x : around(p % geometry.width, geometry.width))
       {
-        const bool isUsed = pixelUse[y * geometry.width + x] == static_cast<std::uint8_t>(PixelUse::Used);
-        inner[p] = isUsed ? 0 : inner[p];
+        isInner = isInner && pixelUse[y * geometry.width + x] != static_cast<std::uint8_t>(PixelUse::Used);
       }
     }
+    inner[p] = isInner ? 1 : 0;
   });
   return inner;
 }
@@ -104,17 +102,15 @@ ExcessOfLeftOut(const ProjectedVariance &         projected,
                 const std::vector<std::uint8_t> & pixelUse,
                 const ParallelFor &               parallelFor)
 {
-  std::vector<std::uint8_t> leftOut(pixelUse.size());
-  ForPixels(pixelUse.size(), parallelFor, [&](std::size_t p) {
-    leftOut[p] = pixelUse[p] == static_cast<std::uint8_t>(PixelUse::NotStatic) ? 1 : 0;
-  });
-  const auto count = std::count(leftOut.begin(), leftOut.end(), std::uint8_t{ 1 });
-  const auto used = std::count(pixelUse.begin(), pixelUse.end(), static_cast<std::uint8_t>(PixelUse::Used));
-  if (static_cast<double>(count) < InParts.leastLeftOut * static_cast<double>(used + count))
+  const auto numberOf = [&](PixelUse use) {
+    return static_cast<double>(std::count(pixelUse.begin(), pixelUse.end(), static_cast<std::uint8_t>(use)));
+  };
+  const double leftOut = numberOf(PixelUse::NotStatic);
+  if (leftOut < InParts.leastLeftOut * (numberOf(PixelUse::Used) + leftOut))
   {
     return 0.0;
   }
-  const std::vector<std::uint8_t> inner = InnerPixels(leftOut, pixelUse, projected.GetFrame().geometry, parallelFor);
+  const std::vector<std::uint8_t> inner = InnerPixels(pixelUse, projected.GetFrame().geometry, parallelFor);
   const std::uint8_t * const      classOf = projected.GetSquares().GetClasses().data();
   std::vector<double>             classes;
   for (std::size_t p = 0; p < inner.size(); ++p)
@@ -124,6 +120,10 @@ ExcessOfLeftOut(const ProjectedVariance &         projected,
       classes.push_back(classOf[p]);
     }
   }
+  if (classes.empty())
+  {
+    return 0.0;
+  }
   const auto excessBetween = [&](double low, double high) {
     std::vector<std::uint8_t> part(inner.size());
     ForPixels(part.size(), parallelFor, [&](std::size_t p) {
@@ -131,10 +131,6 @@ ExcessOfLeftOut(const ProjectedVariance &         projected,
     });
     return SummariseExcess(TilesOfMeasured(projected, reference, part, parallelFor).places);
   };
-  if (classes.empty())
-  {
-    return 0.0;
-  }
   // The smoother half may lie between edges that are processed in another way.
   const double        middle = Quantile(classes, 0.5);
   const double        upper = Quantile(classes, 0.75);
