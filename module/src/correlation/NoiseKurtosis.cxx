@@ -33,10 +33,8 @@ constexpr std::array<KindOfSeries, KurtosisSums::Kinds> KindsOfSeries{
  * series begins. Where a series extends beyond the end of a row or of the tile, its sums have no meaning. */
 struct PowerSums
 {
-  double unitDn2{
-    1.0
-  }; ///< unit of the squares, near the noise variance: single precision holds the fourth powers then
-
+  /** Unit of the squares, near the noise variance [DN^2]: single precision holds the fourth powers then. */
+  double unitDn2{ 1.0 };
   /** One cache line longer than a tile: sums a power of two apart would compete for the same places in the cache. */
   using OfPixels = std::array<float, SampleTiles::Side * SampleTiles::Side + 16>;
   std::array<OfPixels, KurtosisSums::Kinds> squares{};

@@ -33,7 +33,7 @@ RequireStack(const FrameGeometry & geometry, std::size_t frames, std::size_t mas
     throw std::invalid_argument("the stack has " + std::to_string(frames) + " frames; expected at most " +
                                 std::to_string(MaximumFrames) + ". Measure a part of them: --frames");
   }
-  if (geometry.width < 3 || geometry.height < 3)
+  if (geometry.width < SmallestSide || geometry.height < SmallestSide)
   {
     throw std::invalid_argument("the frames have " + std::to_string(geometry.width) + " x " +
                                 std::to_string(geometry.height) + " pixels; expected at least 3 x 3");

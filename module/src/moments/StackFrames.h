@@ -30,6 +30,9 @@ inline constexpr std::size_t MinimumFrames = 5;
  * most 3e-5 of the flicker, is far below any noise. */
 inline constexpr std::size_t MaximumFrames = std::size_t{ 1 } << 22;
 
+/** Smallest width and height of a frame [pixel]: a pixel with its eight neighbours. */
+inline constexpr std::size_t SmallestSide = 3;
+
 /** Throws std::invalid_argument if a stack has fewer than MinimumFrames or more than MaximumFrames frames, frames of
  * fewer than 3 x 3 pixels, or a mask of another size than a frame. \a maskPixels is 0 without a mask. */
 SensorNoise_EXPORT void

@@ -208,13 +208,13 @@ struct MeanAndFingerprint
 
 /** Computes the mean and the fingerprint of every frame of every plane. The order is by plane, then by frame. Each
  * pixel is loaded into the cache once. */
-template <typename TPixel, typename TPlane>
+template <typename TPixel>
 std::vector<MeanAndFingerprint>
-FindMeansAndFingerprints(const std::vector<TPlane> & planes,
-                         std::size_t                 pixels,
-                         const TPixel *              frames,
-                         std::size_t                 count,
-                         const ParallelFor &         parallelFor)
+FindMeansAndFingerprints(const std::vector<typename StackMoments<TPixel>::Plane> & planes,
+                         std::size_t                                               pixels,
+                         const TPixel *                                            frames,
+                         std::size_t                                               count,
+                         const ParallelFor &                                       parallelFor)
 {
   constexpr std::size_t         blockPixels = FingerprintBlockBytes / sizeof(TPixel);
   const std::size_t             blocks = NumberOfFingerprintBlocks(pixels * sizeof(TPixel));

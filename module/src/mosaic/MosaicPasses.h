@@ -292,7 +292,7 @@ RequirePlanes(const MosaicGeometry & geometry)
     return std::to_string(frame.width) + " x " + std::to_string(frame.height);
   };
   const FrameGeometry plane = geometry.Plane();
-  if (plane.width < 3 || plane.height < 3)
+  if (plane.width < SmallestSide || plane.height < SmallestSide)
   {
     throw std::invalid_argument("the frames of the mosaic have " + sizeOf(geometry.frame) +
                                 " pixels, and each plane of it " + sizeOf(plane) +
