@@ -3,6 +3,7 @@
 #include "pixels/IlluminationResponses.h"
 #include "base/Eigen.h"
 #include "pixels/ProjectedVariance.h"
+#include "pixels/SurfaceSums.h"
 #include "pixels/VarianceLine.h"
 #include "sensornoise/Parallel.h"
 #include "helpers/ProjectionTestHelper.h"
@@ -77,14 +78,14 @@ std::optional<LocalOffset>
 OffsetOf(const Scene & scene)
 {
   const IlluminationResponses data = scene.Data();
-  return FindLocalOffset(data, RemoveMotionLeakage(data, SerialFor).responses);
+  return FindLocalOffset(data, EstimateMotionLeakage(data).kappa);
 }
 
 bool
 IsMotionLocal(const Responses & responses)
 {
   const Scene scene(responses);
-  return RemoveMotionLeakage(scene.Data(), SerialFor).isMotionLocal;
+  return EstimateMotionLeakage(scene.Data()).isMotionLocal;
 }
 } // namespace
 
@@ -204,4 +205,55 @@ TEST(SensorNoiseLocalOffset, PartsThatMoveByThemselvesAreNoIllumination)
   EXPECT_FALSE(IsMotionLocal(OneSourceAndADrift));
   EXPECT_FALSE(IsMotionLocal([&](std::size_t p, double) { return shifted(p, 10.0); })); // the whole frame
   EXPECT_TRUE(IsMotionLocal([&](std::size_t p, double) { return shifted(p, p % Width < Width / 2 ? 10.0 : 0.0); }));
+}
+
+// The sums over a tile are those over its parts, moved, and both are the sums that the definition of the terms gives.
+TEST(SensorNoiseSurfaceSums, SumsOverPartsAreSumsOverTheTile)
+{
+  const Scene                 scene(TwoSources);
+  const IlluminationResponses data = scene.Data();
+  constexpr std::size_t       side = 16;
+  const auto                  secondResponse = [&data](const PixelOfTile & pixel, double * variables) {
+    variables[0] = data.coordinates.At(pixel.index, 1);
+  };
+  SurfaceSums joined(1);
+  for (std::size_t row = 0; row < 2; ++row)
+  {
+    const std::vector<SurfaceSums> parts = SumRowOfTiles(data, row * side / 2, side / 2, side / 4, 1, secondResponse);
+    for (std::size_t column = 0; column < 4; ++column)
+    {
+      joined.AddPart(parts[column], Move(column, 4.0), Move(row, 2.0));
+    }
+  }
+  const SurfaceSums whole = SumRowOfTiles(data, 0, side, side, 1, secondResponse).front();
+
+  constexpr double  ofNoise = 0.01;
+  SurfaceSums::Gram gram = SurfaceSums::Gram::Zero();
+  CurvedSurface     products = CurvedSurface::Zero();
+  double            pixels = 0.0;
+  for (std::size_t p = 0; p < side * Width; ++p)
+  {
+    if (p % Width < side && data.mask[p] != 0)
+    {
+      const double  x = (static_cast<double>(p % Width) + 0.5) / side - 0.5;
+      const double  y = (static_cast<double>(p / Width) + 0.5) / side - 0.5;
+      const double  level = data.frame.mean[p] - CentreDn;
+      const double  w = 1.0 / data.line.At(data.frame.neighbourMean[p]);
+      CurvedSurface terms;
+      terms << 1.0, level, x, y, x * level, y * level, x * x, x * y, y * y, x * x * level, x * y * level, y * y * level;
+      CurvedSurface ofLevel; // derivatives of the terms by the level
+      ofLevel << 0.0, 1.0, 0.0, 0.0, x, y, 0.0, 0.0, 0.0, x * x, x * y, y * y;
+      gram += w * terms * terms.transpose() - ofNoise * ofLevel * ofLevel.transpose();
+      products += w * data.coordinates.At(p, 1) * (terms - ofNoise * ofLevel);
+      pixels += 1.0;
+    }
+  }
+  ASSERT_GT(pixels, 0.0);
+  for (const SurfaceSums & sums : { joined, whole })
+  {
+    EXPECT_DOUBLE_EQ(sums.NumberOfPixels(), pixels);
+    const double rounding = 1e-12 * gram.cwiseAbs().maxCoeff();
+    EXPECT_LT((sums.ProductsOfTerms(ofNoise) - gram).cwiseAbs().maxCoeff(), rounding);
+    EXPECT_LT((sums.ProductsWith(0, ofNoise) - products).cwiseAbs().maxCoeff(), 1e-12 * products.cwiseAbs().maxCoeff());
+  }
 }

@@ -36,72 +36,34 @@ struct IlluminationResponses
   double                            rangeDn;   ///< brightest minus darkest quantile of the means [DN]
 };
 
-/** Terms of a surface in a tile: 1 and I, the mean minus the centre, and both times the place (x, y) in the tile. */
-using Surface = Eigen::Matrix<double, 6, 1>;
-
-/** Number of the terms of a surface whose coefficients vary linearly over a tile, and of one whose coefficients are
- * also curved. */
-inline constexpr int LinearTerms = Surface::SizeAtCompileTime;
+/** Number of the terms of a surface in a tile: 1 and I, the mean minus the centre, and both times the place (x, y) in
+ * the tile; and of a curved one, which has both times x^2, x y and y^2, too. */
+inline constexpr int LinearTerms = 6;
 inline constexpr int CurvedTerms = 2 * LinearTerms;
 
-/** Terms of a curved surface: the terms of Surface, then x^2, x y and y^2, and then these times I. */
+/** Terms of a curved surface: 1, I, x, y, x I, y I, then x^2, x y and y^2, and then these times I. */
 using CurvedSurface = Eigen::Matrix<double, CurvedTerms, 1>;
 
-/** Returns the terms of \a linear, and the same times the place \a x, \a y of second order. */
-inline CurvedSurface
-WithCurvature(const Surface & linear, double x, double y)
-{
-  const Eigen::Vector3d second(x * x, x * y, y * y);
-  return (CurvedSurface() << linear, second * linear(0), second * linear(1)).finished();
-}
+/** Number of derivatives of the mean, the first ones of MotionStencils(), that are taken for motion in the responses.
+ */
+inline constexpr std::size_t LeakageDerivatives = 5;
 
-/** Division of the frame into tiles within which local illumination has one pattern. */
-struct Tiles
+/** The part of motion that is correlated with the illumination by chance. */
+struct MotionLeakage
 {
-  std::size_t height; ///< height of a tile [pixel]
-  std::size_t width;  ///< width of a tile [pixel]
-  std::size_t across; ///< number of tiles in a row of tiles
-
-  /** Returns the tile of pixel \a p of frames of \a frameWidth columns. */
-  std::size_t
-  Of(std::size_t p, std::size_t frameWidth) const
-  {
-    return p / frameWidth / height * across + p % frameWidth / width;
-  }
-  /** Returns the place of pixel \a p in its tile, from -1/2 to 1/2 along x and y [1]. */
-  Eigen::Vector2d
-  PlaceOf(std::size_t p, std::size_t frameWidth) const
-  {
-    const auto part = [](std::size_t at, std::size_t size) {
-      return (static_cast<double>(at % size) + 0.5) / static_cast<double>(size) - 0.5;
-    };
-    return { part(p % frameWidth, width), part(p / frameWidth, height) };
-  }
-  /** Returns the terms of a surface at pixel \a p, whose mean minus the centre is \a centred [DN]. */
-  Surface
-  SurfaceAt(std::size_t p, std::size_t frameWidth, double centred) const
-  {
-    const Eigen::Vector2d place = this->PlaceOf(p, frameWidth);
-    return (Surface() << 1.0, centred, place, centred * place).finished();
-  }
-};
-
-/** Responses of the pixels without motion. */
-struct ResponsesWithoutMotion
-{
-  std::vector<std::vector<double>> responses; ///< a map for each illumination component [DN]; 0 outside the mask
+  /** Response for each derivative, as rows, to each illumination component, as columns [pixel]. */
+  Eigen::MatrixXd kappa;
   /** Whether the derivatives along x and y explain more of the responses in single tiles than chance does: parts of the
    * scene move by themselves, and no tile determines an offset. */
   bool isMotionLocal{ false };
 };
 
-/** Returns the responses to each illumination component, without the part that motion leaked into them by chance. The
- * leakage is kappa_k times the derivatives, with kappa common to the frame. It is estimated against lines in the mean
- * that are free in every 8 x 8 tile and whose coefficients vary linearly over it (Frisch & Waugh 1933), so that local
- * illumination does not bias it. Even derivatives resemble the mean locally, so their leakage would shift the offset.
- */
-SensorNoise_EXPORT ResponsesWithoutMotion
-RemoveMotionLeakage(const IlluminationResponses & data, const ParallelFor & parallelFor);
+/** Estimates the leakage of motion into the responses: kappa_k times the derivatives, with kappa common to the frame.
+ * It is estimated against lines in the mean that are free in every 8 x 8 tile and whose coefficients vary linearly over
+ * it (Frisch & Waugh 1933), so that local illumination does not bias it. Even derivatives resemble the mean locally, so
+ * their leakage would shift the offset. */
+SensorNoise_EXPORT MotionLeakage
+EstimateMotionLeakage(const IlluminationResponses & data, const ParallelFor & parallelFor = SerialFor);
 
 /** Dark offset from the responses of the pixels to the illumination components. */
 struct LocalOffset
@@ -121,7 +83,8 @@ struct LocalOffset
   bool areParallel{ false };
 };
 
-/** Estimates the dark offset where the illumination is local, from \a responses without motion. The response of a pixel
+/** Estimates the dark offset where the illumination is local, from the responses without motion, which leaks into them
+ * by \a kappa. The response of a pixel
  * to an illumination component is S_j = rho_j (mean - mu), with rho_j nearly linear or quadratic over a tile. Without
  * the slopes and curvature of rho_j, the lines of all tiles and components cross zero at mu. Tiles of 8 to 64 pixels
  * and strips of rows are tried. Linear terms do not suffice where curvature is significant. Where rho_j varies even
@@ -130,9 +93,9 @@ struct LocalOffset
  * If parallel lines explain more, the level that does not flicker differs between tiles, and the lines do not meet.
  * Null if no tile determines a line. Estimator.md, 3.7. */
 SensorNoise_EXPORT std::optional<LocalOffset>
-FindLocalOffset(const IlluminationResponses &            data,
-                const std::vector<std::vector<double>> & responses,
-                const ParallelFor &                      parallelFor = SerialFor);
+FindLocalOffset(const IlluminationResponses & data,
+                const Eigen::MatrixXd &       kappa,
+                const ParallelFor &           parallelFor = SerialFor);
 
 /** Sums that give the standard deviation over time of local illumination for any offset. */
 struct SensorNoise_EXPORT LocalFlicker

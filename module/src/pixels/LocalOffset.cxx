@@ -5,9 +5,11 @@
 #include "base/ChiSquare.h"
 #include "base/Eigen.h"
 #include "base/Constants.h"
+#include "base/Stencils.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/Constants.h"
 #include "pixels/ProjectionSums.h"
+#include "pixels/SurfaceSums.h"
 #include "pixels/VarianceLine.h"
 #include "scene/ReferenceFrame.h"
 
@@ -24,6 +26,14 @@ namespace sensornoise
 
 namespace
 {
+/** Matrices of at most the terms of a surface without 1 and I. */
+struct OtherTerms
+{
+  static constexpr int Most = CurvedTerms - 2;
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, Most, Most>;
+  using Slopes = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::ColMajor, Most, 2>;
+};
+
 /** Returns whether \a number lines of the dispersion \a phi fit a model: they do not disperse by more than chance makes
  * them, or little. A few lines that disperse twice as much as by chance do not fit, either. Where the noise of the
  * means explains more than all, the lines have no meaning. */
@@ -96,89 +106,69 @@ FitTiles(const std::vector<TileLines> & tiles, const IlluminationResponses & dat
   return result;
 }
 
-/** Sums over a tile of the products of the terms of its surface, and of these terms with each response. */
-struct TileMoments
+/** Numbers by which the noise of the means is subtracted from the products of a tile. */
+struct NoiseOfMeans
 {
-  double                                          n{ 0.0 };
-  Eigen::Matrix<double, CurvedTerms, CurvedTerms> gram{ Eigen::Matrix<double, CurvedTerms, CurvedTerms>::Zero() };
-  std::vector<CurvedSurface>                      products;
+  double      frames;    ///< number of frames T
+  double      ofTerms;   ///< variance of I times the weight, 1 / T
+  double      ofProduct; ///< covariance of I with a response, relative to the response: gain / T [1/DN]
+  std::size_t responses; ///< number of responses
 
-  /** Returns the sums of 1 and I after the regression of both on the other terms of the first \a terms (Frisch & Waugh
-   * 1933). Null if the contrast of the tile does not determine I x and I y: they differ from x and y by no more than
-   * the noise of the means of \a frames frames. */
-  std::optional<TileLines>
-  WithoutPlace(double frames, int terms) const
-  {
-    const Eigen::Matrix2d ofPlace = gram.block<2, 2>(2, 2);
-    const Eigen::Matrix2d both = gram.block<2, 2>(2, 4);
-    const Eigen::Matrix2d contrast = gram.block<2, 2>(4, 4) - both.transpose() * ofPlace.ldlt().solve(both);
-    const double          noise = n / (12.0 * frames); // noise of the coefficient of I x: the mean square of x is 1/12
-    if (!(n > InPattern.leastTilePixels && Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(contrast).eigenvalues()(0) >
-                                             InPattern.leastTileContrast * noise))
-    {
-      return std::nullopt;
-    }
-    const Eigen::MatrixXd slopes = gram.block(2, 2, terms - 2, terms - 2).ldlt().solve(gram.block(2, 0, terms - 2, 2));
-    const Eigen::Matrix2d left = gram.topLeftCorner<2, 2>() - gram.block(0, 2, 2, terms - 2) * slopes;
-    TileLines             sums{ left(0, 0), left(0, 1), left(1, 1), {}, {} };
-    for (const CurvedSurface & product : products)
-    {
-      const Eigen::Vector2d own = product.head<2>() - slopes.transpose() * product.segment(2, terms - 2);
-      sums.r1.push_back(own(0));
-      sums.r2.push_back(own(1));
-    }
-    const double determinant = sums.Determinant();
-    const bool   isLine = determinant > InPattern.leastTileContrast * sums.g11 * n / frames &&
-                        determinant > 1e-6 * sums.g11 * std::abs(sums.g22);
-    return isLine ? std::optional<TileLines>(std::move(sums)) : std::nullopt;
-  }
+  explicit NoiseOfMeans(const IlluminationResponses & data)
+    : frames(static_cast<double>(data.frame.frames))
+    , ofTerms(1.0 / frames)
+    , ofProduct(data.line.gain / frames)
+    , responses(data.factors)
+  {}
 };
 
-/** Returns the sums of the tiles of a partition. */
-std::vector<TileMoments>
-SumTiles(const IlluminationResponses &            data,
-         const std::vector<std::vector<double>> & responses,
-         std::size_t                              tileHeight,
-         std::size_t                              tileWidth)
+/** Returns the sums of 1 and I over \a tile after the regression of both on the other terms of the first \a terms
+ * (Frisch & Waugh 1933). Null if the contrast of the tile does not determine I x and I y: they differ from x and y by
+ * no more than the noise of the means. */
+std::optional<TileLines>
+WithoutPlace(const SurfaceSums & tile, const NoiseOfMeans & noise, Eigen::Index terms)
 {
-  const ReferenceFrame &   frame = data.frame;
-  const std::size_t        width = frame.geometry.width;
-  const std::size_t        factors = responses.size();
-  const auto               frames = static_cast<double>(frame.frames);
-  const Tiles              tiles{ tileHeight, tileWidth, (width + tileWidth - 1) / tileWidth };
-  std::vector<TileMoments> moments(tiles.across * ((frame.geometry.height + tileHeight - 1) / tileHeight));
-  for (TileMoments & own : moments)
+  const double n = tile.NumberOfPixels();
+  if (!(n > InPattern.leastTilePixels))
   {
-    own.products.assign(factors, CurvedSurface::Zero());
+    return std::nullopt;
   }
-  for (std::size_t p = 0; p < data.mask.size(); ++p)
+  const SurfaceSums::Gram gram = tile.ProductsOfTerms(noise.ofTerms);
+  const Eigen::Matrix2d   ofPlace = gram.block<2, 2>(2, 2);
+  const Eigen::Matrix2d   both = gram.block<2, 2>(2, 4);
+  const Eigen::Matrix2d   contrast = gram.block<2, 2>(4, 4) - both.transpose() * ofPlace.ldlt().solve(both);
+  // The noise of the coefficient of I x: the mean square of x is 1/12.
+  const double ofChance = n / (12.0 * noise.frames);
+  if (!(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(contrast).eigenvalues()(0) >
+        InPattern.leastTileContrast * ofChance))
   {
-    if (data.mask[p] != 0)
-    {
-      const double        w = 1.0 / data.line.At(frame.neighbourMean[p]);
-      const double        centred = frame.mean[p] - data.centreDn;
-      const Surface       linear = tiles.SurfaceAt(p, width, centred);
-      const Surface       ofLinear = (Surface() << 0.0, 1.0, 0.0, 0.0, linear.segment<2>(2)).finished();
-      const CurvedSurface terms = WithCurvature(linear, linear(2), linear(3));
-      const CurvedSurface ofMean = WithCurvature(ofLinear, linear(2), linear(3)); // derivative by I
-      TileMoments &       own = moments[tiles.Of(p, width)];
-      own.n += 1.0;
-      own.gram += w * terms * terms.transpose() - ofMean * ofMean.transpose() / frames; // the noise of the mean
-      for (std::size_t j = 0; j < factors; ++j)
-      {
-        own.products[j] += w * responses[j][p] * (terms - data.line.gain / frames * ofMean);
-      }
-    }
+    return std::nullopt;
   }
-  return moments;
+  const OtherTerms::Slopes slopes =
+    OtherTerms::Square(gram.block(2, 2, terms - 2, terms - 2)).ldlt().solve(gram.block(2, 0, terms - 2, 2));
+  const Eigen::Matrix2d left = gram.topLeftCorner<2, 2>() - gram.block(0, 2, 2, terms - 2) * slopes;
+  TileLines             sums{ left(0, 0), left(0, 1), left(1, 1), {}, {} };
+  for (std::size_t j = 0; j < noise.responses; ++j)
+  {
+    const CurvedSurface   product = tile.ProductsWith(j, noise.ofProduct);
+    const Eigen::Vector2d own = product.head<2>() - slopes.transpose() * product.segment(2, terms - 2);
+    sums.r1.push_back(own(0));
+    sums.r2.push_back(own(1));
+  }
+  const double determinant = sums.Determinant();
+  const bool   isLine = determinant > InPattern.leastTileContrast * sums.g11 * n / noise.frames &&
+                      determinant > 1e-6 * sums.g11 * std::abs(sums.g22);
+  return isLine ? std::optional<TileLines>(std::move(sums)) : std::nullopt;
 }
 
 /** Returns whether the illumination is curved within \a tiles: whether y^2, x^2 and x y times the signal above \a zero
  * explain more of the responses than chance does. In strips, y^2 does not count: rows behind a rolling shutter differ,
  * but all of a strip have nearly the same levels. */
 bool
-IsCurvedWithin(const std::vector<TileMoments> & tiles, double zero, bool areStrips)
+IsCurvedWithin(const std::vector<SurfaceSums> & tiles, const NoiseOfMeans & noise, double zero, bool areStrips)
 {
+  using OfSignal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, LinearTerms, LinearTerms>;
+  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, LinearTerms, 1>;
   const Eigen::Index known = LinearTerms / 2 + (areStrips ? 1 : 0); // 1, x, y, and y^2 in strips
   const Eigen::Index tested = LinearTerms - known;
   Eigen::Matrix<double, CurvedTerms, LinearTerms> ofSignal =
@@ -192,24 +182,26 @@ IsCurvedWithin(const std::vector<TileMoments> & tiles, double zero, bool areStri
   }
   double explained = 0.0;
   double number = 0.0;
-  for (const TileMoments & tile : tiles)
+  for (const SurfaceSums & tile : tiles)
   {
-    if (!(tile.n > InPattern.leastTilePixels))
+    if (!(tile.NumberOfPixels() > InPattern.leastTilePixels))
     {
       continue;
     }
-    const Eigen::MatrixXd gram = ofSignal.transpose() * tile.gram * ofSignal;
-    const Eigen::MatrixXd slopes = gram.topLeftCorner(known, known).ldlt().solve(gram.topRightCorner(known, tested));
-    const Eigen::MatrixXd left = gram.bottomRightCorner(tested, tested) - gram.bottomLeftCorner(tested, known) * slopes;
-    if (!(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(left).eigenvalues()(0) > 0.0))
+    const Eigen::Matrix<double, LinearTerms, LinearTerms> gram =
+      ofSignal.transpose() * tile.ProductsOfTerms(noise.ofTerms) * ofSignal;
+    const OfSignal slopes = OfSignal(gram.topLeftCorner(known, known)).ldlt().solve(gram.topRightCorner(known, tested));
+    const OfSignal left = gram.bottomRightCorner(tested, tested) - gram.bottomLeftCorner(tested, known) * slopes;
+    if (!(Eigen::SelfAdjointEigenSolver<OfSignal>(left, Eigen::EigenvaluesOnly).eigenvalues()(0) > 0.0))
     {
       continue;
     }
-    for (const CurvedSurface & product : tile.products)
+    const Eigen::LDLT<OfSignal> solver(left);
+    for (std::size_t j = 0; j < noise.responses; ++j)
     {
-      const Eigen::VectorXd all = ofSignal.transpose() * product;
-      const Eigen::VectorXd own = all.tail(tested) - slopes.transpose() * all.head(known);
-      explained += own.dot(left.ldlt().solve(own));
+      const Eigen::Matrix<double, LinearTerms, 1> all = ofSignal.transpose() * tile.ProductsWith(j, noise.ofProduct);
+      const Column                                own = all.tail(tested) - slopes.transpose() * all.head(known);
+      explained += own.dot(solver.solve(own));
       number += static_cast<double>(tested);
     }
   }
@@ -218,14 +210,15 @@ IsCurvedWithin(const std::vector<TileMoments> & tiles, double zero, bool areStri
 
 /** Returns the fit of lines after the first \a terms of the surface of each tile. Null: there is none. */
 std::optional<LocalOffset>
-FitPartition(const std::vector<TileMoments> & moments, const IlluminationResponses & data, int terms)
+FitPartition(const std::vector<SurfaceSums> & tiles, const IlluminationResponses & data, int terms)
 {
+  const NoiseOfMeans     noise(data);
   std::vector<TileLines> lines;
-  for (const TileMoments & own : moments)
+  for (const SurfaceSums & tile : tiles)
   {
-    if (const std::optional<TileLines> line = own.WithoutPlace(static_cast<double>(data.frame.frames), terms))
+    if (std::optional<TileLines> line = WithoutPlace(tile, noise, terms))
     {
-      lines.push_back(*line);
+      lines.push_back(std::move(*line));
     }
   }
   return lines.empty() ? std::nullopt : FitTiles(lines, data);
@@ -234,9 +227,8 @@ FitPartition(const std::vector<TileMoments> & moments, const IlluminationRespons
 /** Division of the frame into tiles that is tried. */
 struct TriedTiles
 {
-  std::size_t height; ///< height of a tile [pixel]
-  std::size_t width;  ///< width of a tile [pixel]
-  bool        isOfStrips;
+  std::vector<SurfaceSums> tiles;
+  bool                     isOfStrips;
   /** Whether the surfaces may be curved: not in a tile of few pixels, nor in a strip, where the illumination is no
    * curve of second order. */
   bool mayBeCurved;
@@ -244,23 +236,91 @@ struct TriedTiles
 
 /** Returns the fits of a partition: with linear surfaces, and with curved ones if they are allowed. */
 std::vector<LocalOffset>
-FitSurfaces(const TriedTiles &                       partition,
-            const IlluminationResponses &            data,
-            const std::vector<std::vector<double>> & responses)
+FitSurfaces(const TriedTiles & partition, const IlluminationResponses & data)
 {
-  const std::vector<TileMoments> tiles = SumTiles(data, responses, partition.height, partition.width);
-  std::vector<LocalOffset>       fits;
-  if (std::optional<LocalOffset> fit = FitPartition(tiles, data, LinearTerms))
+  std::vector<LocalOffset> fits;
+  if (std::optional<LocalOffset> fit = FitPartition(partition.tiles, data, LinearTerms))
   {
-    fit->doLinesMeet = fit->doLinesMeet && !IsCurvedWithin(tiles, fit->offset, partition.isOfStrips);
+    fit->doLinesMeet =
+      fit->doLinesMeet && !IsCurvedWithin(partition.tiles, NoiseOfMeans(data), fit->offset, partition.isOfStrips);
     fits.push_back(*fit);
   }
-  if (std::optional<LocalOffset> fit = partition.mayBeCurved ? FitPartition(tiles, data, CurvedTerms) : std::nullopt)
+  if (std::optional<LocalOffset> fit =
+        partition.mayBeCurved ? FitPartition(partition.tiles, data, CurvedTerms) : std::nullopt)
   {
     fit->doLinesMeet = fit->doLinesMeet && fit->tiles > 1; // only the lines of other tiles test it
     fits.push_back(*fit);
   }
   return fits;
+}
+
+constexpr std::size_t SmallestSide = 8;               // side of the smallest squares [pixel]
+constexpr std::size_t StripHeight = SmallestSide / 2; // height of the narrowest strips [pixel]
+
+/** Squares and strips of the frame. */
+struct SquaresAndStrips
+{
+  std::vector<SurfaceSums> squares; ///< row by row
+  std::vector<SurfaceSums> strips;  ///< whole rows of the frame
+};
+
+/** Returns the sums over the smallest squares and the narrowest strips, which are added from the halves of squares. */
+SquaresAndStrips
+SumSquaresAndStrips(const IlluminationResponses & data, const Eigen::MatrixXd & kappa, const ParallelFor & parallelFor)
+{
+  const std::size_t width = data.frame.geometry.width;
+  const std::size_t height = data.frame.geometry.height;
+  const std::size_t across = (width + SmallestSide - 1) / SmallestSide;
+  const double      ofStrip = static_cast<double>(width) / SmallestSide; // squares in a strip
+  const auto        responsesOf = [&](const PixelOfTile & pixel, double * responses) {
+    const auto derivatives = ApplyStencils(data.frame.mean.data(), width, pixel.index);
+    for (std::size_t j = 0; j < data.factors; ++j)
+    {
+      responses[j] = data.coordinates.At(pixel.index, j);
+      for (std::size_t k = 0; k < LeakageDerivatives; ++k)
+      {
+        responses[j] -= kappa(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)) * derivatives[k];
+      }
+    }
+  };
+  SquaresAndStrips sums;
+  sums.squares.assign(across * ((height + SmallestSide - 1) / SmallestSide), SurfaceSums(data.factors));
+  sums.strips.assign((height + StripHeight - 1) / StripHeight, SurfaceSums(data.factors));
+  parallelFor((height + SmallestSide - 1) / SmallestSide, [&](std::size_t row) {
+    for (std::size_t half = 0; half < 2 && 2 * row + half < sums.strips.size(); ++half)
+    {
+      const std::size_t              strip = 2 * row + half;
+      const std::vector<SurfaceSums> halves =
+        SumRowOfTiles(data, strip * StripHeight, StripHeight, SmallestSide, data.factors, responsesOf);
+      for (std::size_t x = 0; x < across; ++x)
+      {
+        sums.squares[row * across + x].AddPart(halves[x], Move(0, 1.0), Move(half, 2.0));
+        sums.strips[strip].AddPart(halves[x], Move(x, ofStrip), Move(0, 1.0));
+      }
+    }
+  });
+  return sums;
+}
+
+/** Returns the partitions that are tried: squares of 8 to 64 pixels, and strips of 4 and 16 rows. */
+std::vector<TriedTiles>
+MakePartitions(const IlluminationResponses & data, const Eigen::MatrixXd & kappa, const ParallelFor & parallelFor)
+{
+  SquaresAndStrips         sums = SumSquaresAndStrips(data, kappa, parallelFor);
+  std::vector<TriedTiles>  partitions;
+  std::size_t              across = (data.frame.geometry.width + SmallestSide - 1) / SmallestSide;
+  std::vector<SurfaceSums> squares = std::move(sums.squares);
+  for (std::size_t side = SmallestSide; side <= 64; side *= 2)
+  {
+    std::vector<SurfaceSums> larger = JoinTiles(squares, across, 2, 2);
+    partitions.push_back({ std::move(squares), false, side > SmallestSide });
+    squares = std::move(larger);
+    across = (across + 1) / 2;
+  }
+  std::vector<SurfaceSums> wide = JoinTiles(sums.strips, 1, 1, 4);
+  partitions.push_back({ std::move(sums.strips), true, false });
+  partitions.push_back({ std::move(wide), true, false });
+  return partitions;
 }
 
 /** Returns the fit of the smallest standard error of those whose lines meet, and whose offset agrees with the weighted
@@ -294,20 +354,11 @@ ChoosePartition(std::vector<LocalOffset> fits)
 } // namespace
 
 std::optional<LocalOffset>
-FindLocalOffset(const IlluminationResponses &            data,
-                const std::vector<std::vector<double>> & responses,
-                const ParallelFor &                      parallelFor)
+FindLocalOffset(const IlluminationResponses & data, const Eigen::MatrixXd & kappa, const ParallelFor & parallelFor)
 {
-  const std::size_t                            width = data.frame.geometry.width;
-  constexpr std::size_t                        trials = 6;
-  const std::array<TriedTiles, trials>         partitions{ { { 64, 64, false, true },
-                                                             { 32, 32, false, true },
-                                                             { 16, 16, false, true },
-                                                             { 8, 8, false, false },
-                                                             { 4, width, true, false },
-                                                             { 16, width, true, false } } };
-  std::array<std::vector<LocalOffset>, trials> fits;
-  parallelFor(trials, [&](std::size_t trial) { fits[trial] = FitSurfaces(partitions[trial], data, responses); });
+  const std::vector<TriedTiles>         partitions = MakePartitions(data, kappa, parallelFor);
+  std::vector<std::vector<LocalOffset>> fits(partitions.size());
+  parallelFor(partitions.size(), [&](std::size_t trial) { fits[trial] = FitSurfaces(partitions[trial], data); });
   std::vector<LocalOffset> found;
   for (const std::vector<LocalOffset> & ofPartition : fits)
   {
@@ -321,38 +372,6 @@ FindLocalOffset(const IlluminationResponses &            data,
     chosen->doLinesMeet = false;
   }
   return chosen;
-}
-
-double
-LocalFlicker::Sd(double offset) const
-{
-  const double flux = wII - 2.0 * offset * wI + offset * offset * w;
-  return std::sqrt(std::max(0.0, energy / (flux * (frames - 1.0))));
-}
-
-LocalFlicker
-SumLocalFlicker(const IlluminationResponses & data)
-{
-  const ReferenceFrame & frame = data.frame;
-  const std::size_t      factors = data.factors;
-  LocalFlicker           sums;
-  sums.frames = static_cast<double>(frame.frames);
-  for (std::size_t p = 0; p < data.mask.size(); ++p)
-  {
-    if (data.mask[p] != 0)
-    {
-      const double noise = data.line.At(frame.neighbourMean[p]);
-      const double centred = frame.mean[p] - data.centreDn;
-      for (std::size_t j = 0; j < factors; ++j)
-      {
-        sums.energy += std::pow(data.coordinates.At(p, j), 2) / noise - 1.0;
-      }
-      sums.w += 1.0 / noise;
-      sums.wI += centred / noise;
-      sums.wII += centred * centred / noise;
-    }
-  }
-  return sums;
 }
 
 } // namespace sensornoise

@@ -95,9 +95,9 @@ ReestimateComponents(const FrameSums &        sums,
     reestimated.isOffsetDrift = IsOffsetDrift(illumination);
     if (!reestimated.isOffsetDrift)
     {
-      const ResponsesWithoutMotion responses = RemoveMotionLeakage(illumination, parallelFor);
-      reestimated.isMotionLocal = responses.isMotionLocal;
-      reestimated.localOffset = FindLocalOffset(illumination, responses.responses, parallelFor);
+      const MotionLeakage leakage = EstimateMotionLeakage(illumination, parallelFor);
+      reestimated.isMotionLocal = leakage.isMotionLocal;
+      reestimated.localOffset = FindLocalOffset(illumination, leakage.kappa, parallelFor);
     }
     reestimated.localFlicker = SumLocalFlicker(illumination);
   }
