@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -43,7 +44,8 @@ struct ExcessOfTiles
   double ofShot{ 0.0 };
 };
 
-ExcessOfTiles
+/** Returns the excess of \a tiles. Null: there are too few of them. */
+std::optional<ExcessOfTiles>
 SummariseExcess(const std::vector<TileExcess> & tiles)
 {
   std::vector<double> excess;
@@ -59,7 +61,7 @@ SummariseExcess(const std::vector<TileExcess> & tiles)
   }
   if (excess.size() < InParts.fewestTiles || !(shot > 0.0))
   {
-    return {};
+    return std::nullopt;
   }
   const double        median = QuantileOf(excess, 0.5);
   std::vector<double> distances;
@@ -68,7 +70,7 @@ SummariseExcess(const std::vector<TileExcess> & tiles)
   });
   const double scatter = QuantileOf(std::move(distances), 0.5) / MedianOfNormal;
   const double chance = QuantileOf(std::move(errors), 0.5);
-  return { median, std::sqrt(std::max(0.0, scatter * scatter - chance * chance)), sum / shot };
+  return ExcessOfTiles{ median, std::sqrt(std::max(0.0, scatter * scatter - chance * chance)), sum / shot };
 }
 
 /** Returns the pixels that are left out as not static, and have no used pixel beyond a neighbourhood, at eight places
@@ -131,18 +133,22 @@ ExcessOfLeftOut(const ProjectedVariance &         projected,
     });
     return SummariseExcess(TilesOfMeasured(projected, reference, part, parallelFor).places);
   };
-  // The smoother half may lie between edges that are processed in another way.
-  const double        middle = Quantile(classes, 0.5);
-  const double        upper = Quantile(classes, 0.75);
-  const double        highest = Quantile(classes, 1.0);
-  const ExcessOfTiles rough = excessBetween(middle, highest);
-  if (!(rough.spread < InParts.largestSpread * rough.median))
+  const double middle = Quantile(classes, 0.5);
+  const double upper = Quantile(classes, 0.75);
+  const double highest = Quantile(classes, 1.0);
+  const auto   rough = excessBetween(middle, highest);
+  if (!(rough && rough->spread < InParts.largestSpread * rough->median))
   {
     return 0.0;
   }
-  // Motion adds the more variance, the rougher the scene is.
-  const double least = (1.0 - InParts.largestSpread) * excessBetween(upper, highest).median;
-  return excessBetween(middle, upper).median > least ? rough.ofShot : 0.0;
+  // Motion adds the more variance, the rougher the scene is. The smoother half may lie between edges that are processed
+  // in another way, so the quarters of the rougher half are compared, if they have tiles enough.
+  const auto roughest = excessBetween(upper, highest);
+  const auto third = excessBetween(middle, upper);
+  const bool areQuarters = roughest && third;
+  const auto smoother = areQuarters ? third : excessBetween(-1.0, middle);
+  const auto rougher = areQuarters ? roughest : rough;
+  return smoother && smoother->median > (1.0 - InParts.largestSpread) * rougher->median ? rough->ofShot : 0.0;
 }
 
 } // namespace sensornoise
