@@ -171,32 +171,36 @@ ProductOfParts(const std::vector<double> & sums)
   return product;
 }
 
+/** Returns the number of pixels of a line in a part of a tile. */
+std::size_t
+PixelsOfPart(const SampleTiles & tiles)
+{
+  return tiles.side / PartsOfTile;
+}
+
 /** A pixel of a line, with its weight \a w = 1 / V [1/DN^2] and signal \a z [DN]. */
 struct PixelOfLine
 {
-  std::size_t part;
   std::size_t tile;
   std::size_t inTile;
   double      w;
   double      z;
 };
 
-/** Returns the pixels of line \a line of \a tiles, which lie side by side, in the order of the frame. */
+/** Returns the pixels of line \a line of \a tiles, which lie side by side, in the order of the frame. Each part of a
+ * tile has PixelsOfPart() of them. */
 std::vector<PixelOfLine>
 PixelsOfLine(const NoiseResiduals & residuals, const std::vector<std::size_t> & tiles, LineAxis axis, std::size_t line)
 {
   const SampleTiles &      of = residuals.GetTiles();
-  const std::size_t        length = of.side / PartsOfTile;
   std::vector<PixelOfLine> pixels;
   pixels.reserve(tiles.size() * of.side);
-  for (std::size_t part = 0; part < PartsOfTile * tiles.size(); ++part)
+  for (const std::size_t tile : tiles)
   {
-    const std::size_t tile = tiles[part / PartsOfTile];
-    for (std::size_t k = part % PartsOfTile * length; k < (part % PartsOfTile + 1) * length; ++k)
+    for (std::size_t k = 0; k < PartsOfTile * PixelsOfPart(of); ++k)
     {
       const std::size_t p = of.InTile(axis, line, k);
-      pixels.push_back({ part,
-                         tile,
+      pixels.push_back({ tile,
                          p,
                          static_cast<double>(residuals.WeightOf(tile)[p]),
                          static_cast<double>(residuals.SignalOf(tile)[p]) });
@@ -208,15 +212,17 @@ PixelsOfLine(const NoiseResiduals & residuals, const std::vector<std::size_t> & 
 LineIlluminationProducts
 ProductsOfLine(const NoiseResiduals & residuals, const std::vector<PixelOfLine> & pixels)
 {
-  const std::size_t   parts = pixels.empty() ? 0 : pixels.back().part + 1;
+  const std::size_t   length = PixelsOfPart(residuals.GetTiles());
+  const std::size_t   parts = pixels.size() / length;
   std::vector<double> constant(parts, 0.0);
   std::vector<double> mixed(parts, 0.0);
   std::vector<double> square(parts, 0.0);
-  for (const PixelOfLine & pixel : pixels)
+  for (std::size_t i = 0; i < pixels.size(); ++i)
   {
-    constant[pixel.part] += pixel.w;
-    mixed[pixel.part] += pixel.w * pixel.z;
-    square[pixel.part] += pixel.w * pixel.z * pixel.z;
+    const auto & [tile, inTile, w, z] = pixels[i];
+    constant[i / length] += w;
+    mixed[i / length] += w * z;
+    square[i / length] += w * z * z;
   }
   LineIlluminationProducts products;
   products.constant = ProductOfParts(constant);
@@ -226,14 +232,20 @@ ProductsOfLine(const NoiseResiduals & residuals, const std::vector<PixelOfLine> 
   std::vector<double> signalNoise(parts);
   for (std::size_t t = 0; t < residuals.GetTiles().frames; ++t)
   {
-    std::fill(noise.begin(), noise.end(), 0.0);
-    std::fill(signalNoise.begin(), signalNoise.end(), 0.0);
-    for (const PixelOfLine & pixel : pixels)
+    for (std::size_t part = 0; part < parts; ++part)
     {
-      const float * const values = residuals.OfTile(pixel.tile) + t * residuals.GetTiles().Pixels();
-      const double        weighed = pixel.w * static_cast<double>(values[pixel.inTile]);
-      noise[pixel.part] += weighed;
-      signalNoise[pixel.part] += weighed * pixel.z;
+      double ofPart = 0.0;
+      double signalOfPart = 0.0;
+      for (std::size_t i = part * length; i < (part + 1) * length; ++i)
+      {
+        const auto & [tile, inTile, w, z] = pixels[i];
+        const float * const values = residuals.OfTile(tile) + t * residuals.GetTiles().Pixels();
+        const double        weighed = w * static_cast<double>(values[inTile]);
+        ofPart += weighed;
+        signalOfPart += weighed * z;
+      }
+      noise[part] = ofPart;
+      signalNoise[part] = signalOfPart;
     }
     products.noise += ProductOfParts(noise) / residuals.GetDof();
     products.signalNoise += ProductOfParts(signalNoise) / residuals.GetDof();
