@@ -240,16 +240,20 @@ CompareWithNeighbours(const NoiseResiduals & residuals, const ParallelFor & para
   for (const std::vector<Neighbour> & neighbours : MeansOfNeighbours)
   {
     parallelFor(count, [&](std::size_t i) { sample[i] = CompareTile(*products[i], size, neighbours); });
-    const auto lower = [&](float Comparison::* member, std::vector<float> & ratios) {
-      const double median = MedianOf(sample, member);
-      for (std::size_t p = 0; p < ratios.size(); ++p)
-      {
-        const float own = sample[p / size][p % size].*member;
-        ratios[p] = own < ratios[p] * median ? own / static_cast<float>(median) : ratios[p];
-      }
+    std::array<double, 2> medians{};
+    parallelFor(medians.size(), [&](std::size_t k) {
+      medians[k] = MedianOf(sample, k == 0 ? &Comparison::difference : &Comparison::sum);
+    });
+    const auto lower = [](float own, double median, float & ratio) {
+      ratio = own < ratio * median ? own / static_cast<float>(median) : ratio;
     };
-    lower(&Comparison::difference, smallest.differences);
-    lower(&Comparison::sum, smallest.sums);
+    parallelFor(count, [&](std::size_t i) {
+      for (std::size_t p = 0; p < size; ++p)
+      {
+        lower(sample[i][p].difference, medians[0], smallest.differences[i * size + p]);
+        lower(sample[i][p].sum, medians[1], smallest.sums[i * size + p]);
+      }
+    });
   }
   return smallest;
 }
