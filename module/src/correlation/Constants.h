@@ -87,6 +87,9 @@ struct CorrelationConstants
    * bright pixels [1]. Chosen by the effect on the gain, which is as large: a brighter-fatter effect of 2 % at full
    * well makes 0.02. */
   double leastEffect{ 0.0025 };
+  /** Least covariance of neighbours in the median tile, relative to the mean of all tiles [1]: a filter acts
+   * everywhere, and details of the scene that move act in few tiles. Chosen empirically. */
+  double leastTypical{ 0.5 };
   ///@}
 
   /** \name The total covariance over spatial lags */

@@ -4,10 +4,12 @@
 #define sensornoise_mosaic_MosaicPasses_h
 
 #include "base/FreeMemory.h"
+#include "correlation/ColourCovariance.h"
 #include "sensornoise/Parallel.h"
 #include "moments/FrameThumbnails.h"
 #include "mosaic/MosaicGeometry.h"
 #include "base/ParallelWork.h"
+#include "refined/RefinedReport.h"
 #include "sensornoise/Report.h"
 
 #include <algorithm>
@@ -28,9 +30,9 @@ namespace sensornoise
 /** \class MosaicPasses
  * \brief Passes of a method over the four planes of a mosaic together: each pass reads the stack once for all planes.
  *
- * Usage as RefinedPasses or PublishedPasses. The results of each plane are identical with the results of the method on
- * that plane alone. The planes' pixels are read at their positions in the mosaic, one part of the frame for all planes
- * while it is in the cache.
+ * Usage as RefinedPasses or PublishedPasses. The results of each plane are those of the method on that plane alone,
+ * unless the noise of neighbours, which are in other planes, is correlated. The planes' pixels are read at their
+ * positions in the mosaic, one part of the frame for all planes while it is in the cache.
  *
  * \tparam TPixel the type of the frames' pixels.
  * \tparam TMethod RefinedPasses<TPixel> or PublishedPasses<TPixel>. */
@@ -56,6 +58,10 @@ public:
     {
       m_Methods.push_back(makeMethod(plane, m_Work.WithinPlane()));
       m_Methods.back().SetLayout(geometry.LayoutOf(plane));
+      if constexpr (TMethod::HasManySums)
+      {
+        m_Methods.back().KeepSample();
+      }
     }
   }
 
@@ -148,26 +154,13 @@ public:
   void
   EndPass()
   {
-    if (m_Methods.front().IsFirstPass())
-    {
-      this->LeaveOutUnlike();
-    }
+    this->EndPassOfPlanes();
     if constexpr (TMethod::HasManySums)
     {
-      // If some planes need one reading more than others, their passes differ, and all rows are processed in one pass.
-      const auto isReady = [](const TMethod & method) { return method.IsBeforeProjections(); };
-      if (m_ManySums && std::all_of(m_Methods.begin(), m_Methods.end(), isReady))
+      if (this->IsDone())
       {
-        this->EndPassBeforeLast();
-        return;
+        this->AddNeighbours();
       }
-    }
-    this->EndPlanes(m_First, m_Last);
-    if (this->IsPassOfRedRows() && this->AreDone(RedRows))
-    {
-      m_First = RedRows;
-      m_Last = BayerPlanes.size();
-      this->EndPlanes(m_First, m_Last);
     }
   }
 
@@ -214,6 +207,56 @@ private:
   {
     return std::all_of(
       m_Methods.begin(), m_Methods.begin() + planes, [](const TMethod & method) { return method.IsDone(); });
+  }
+
+  void
+  EndPassOfPlanes()
+  {
+    if (m_Methods.front().IsFirstPass())
+    {
+      this->LeaveOutUnlike();
+    }
+    if constexpr (TMethod::HasManySums)
+    {
+      // If some planes need one reading more than others, their passes differ, and all rows are processed in one pass.
+      const auto isReady = [](const TMethod & method) { return method.IsBeforeProjections(); };
+      if (m_ManySums && std::all_of(m_Methods.begin(), m_Methods.end(), isReady))
+      {
+        this->EndPassBeforeLast();
+        return;
+      }
+    }
+    this->EndPlanes(m_First, m_Last);
+    if (this->IsPassOfRedRows() && this->AreDone(RedRows))
+    {
+      m_First = RedRows;
+      m_Last = BayerPlanes.size();
+      this->EndPlanes(m_First, m_Last);
+    }
+  }
+
+  /** Adds the covariances of neighbours, which have different colours, to the gains if those of any plane are
+   * significant. */
+  void
+  AddNeighbours()
+  {
+    SampledPlanes planes;
+    for (std::size_t k = 0; k < m_Methods.size(); ++k)
+    {
+      planes.noise[k] = &m_Methods[k].GetSample();
+      planes.corners[k] = CornerOf(m_Geometry.pattern, BayerPlanes[k]);
+    }
+    const auto covariances = MeasureNeighbourCovariance(planes, m_ParallelFor);
+    bool       areCorrelated = false;
+    for (std::size_t k = 0; k < m_Methods.size(); ++k)
+    {
+      areCorrelated = areCorrelated || HasCorrelatedNeighbours(m_Methods[k].GetReport(), covariances[k]);
+      m_Methods[k].ReleaseSample();
+    }
+    for (std::size_t k = 0; areCorrelated && k < m_Methods.size(); ++k)
+    {
+      AddToGain(m_Methods[k].GetReport(), covariances[k]);
+    }
   }
 
   /** Ends the first pass of all planes, and leaves out the frames that deviate from the others in any plane. */

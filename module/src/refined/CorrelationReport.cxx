@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/RefinedReport.h"
 
+#include "base/ChiSquare.h"
 #include "base/Constants.h"
 #include "base/Text.h"
 #include "correlation/Constants.h"
 #include "refined/Constants.h"
+#include "report/Quantities.h"
 
 #include <algorithm>
 #include <array>
@@ -286,6 +288,52 @@ WarnOfCorrelation(Report & report, const NoiseCorrelation & correlation)
     case NoiseKind::NotMeasured:
       break;
   }
+}
+
+bool
+HasCorrelatedNeighbours(const Report & report, const NeighbourCovariance & covariance)
+{
+  return report.varianceSlope.value &&
+         covariance.slope.Exceeds(InCorrelation.leastEffect * *report.varianceSlope.value, Significance.severalTests) &&
+         covariance.typical / covariance.slope.value > InCorrelation.leastTypical;
+}
+
+void
+AddToGain(Report & report, const NeighbourCovariance & covariance)
+{
+  if (!report.gain.value || !report.gain.interval95 || !report.varianceSlope.value)
+  {
+    return;
+  }
+  // The excess noise factor divides both.
+  const double relative = covariance.slope.value / *report.varianceSlope.value;
+  const double before = *report.gain.value;
+  const double added = relative * before;
+  const double ofSlope = covariance.slope.standardError / *report.varianceSlope.value * before;
+  const double random = std::hypot(report.gain.standardError.value_or(0.0), ofSlope);
+  const double error = std::hypot(random, 0.5 * added); // how far the noise spreads is not known
+  const double reach = NormalQuantile(0.975) * error;
+  report.gain.value = before + added;
+  report.gain.standardError = error;
+  report.gain.interval95 = Interval{ before + added - reach, before + added + reach };
+  report.covariance.reset();
+  report.gainByParts.clear();
+  for (Quantity * const quantity :
+       { &report.intercept, &report.readNoise, &report.readNoiseMedian, &report.readNoiseElectrons })
+  {
+    *quantity = Quantity::Without(EstimateStatus::NotIdentifiable);
+  }
+  if (report.noiseCorrelation)
+  {
+    report.noiseCorrelation->kind = "filtered";
+  }
+  report.Warn(WarningCode::NoiseCorrelated,
+              "the noise of neighbouring pixels of different colours is correlated: their covariances add " +
+                PercentApart(relative, InCorrelation.leastEffect) +
+                " to the slope of the variance. The camera smooths or sharpens its frames or subtracts crosstalk, or "
+                "charge couples neighbours. The interval of the gain contains the gain without them" +
+                Consequence(report, "Set the camera to raw frames"));
+  FileStatuses(report);
 }
 
 } // namespace sensornoise

@@ -282,6 +282,7 @@ MeasurePixelNoise(ResidualSquares                          squares,
                   const RefinedSettings &                  settings,
                   const QuantisationNoise &                quantisationNoise,
                   bool                                     isOneScene,
+                  bool                                     keepsSample,
                   const ParallelFor &                      parallelFor)
 {
   const double              quantisationDn2 = quantisationNoise.darkVarianceDn2;
@@ -311,7 +312,7 @@ MeasurePixelNoise(ResidualSquares                          squares,
     variance.quantisationNoise = quantisationNoise;
     return variance;
   };
-  PixelNoise noise{ fit(1.0), {}, {}, allowed.lines, PixelMap() };
+  PixelNoise noise{ fit(1.0), {}, {}, allowed.lines, PixelMap(), {} };
   if (!noise.variance.line.isDetermined)
   {
     return noise;
@@ -358,6 +359,10 @@ MeasurePixelNoise(ResidualSquares                          squares,
   if (noise.correlation.kind != NoiseKind::NotMeasured)
   {
     noise.lines.left = EstimateLineIlluminationChange(residuals, allowed.lines.axis, parallelFor);
+  }
+  if (keepsSample)
+  {
+    noise.sampled = SampledNoise(residuals);
   }
   FindOtherCauses(noise.correlation, residuals, repeated, MovesLittle(comparison.scene.model), parallelFor);
   noise.correctedVariance = std::move(projected).TakeVarianceAt(noise.variance.correctingGain);

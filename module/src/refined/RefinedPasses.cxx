@@ -447,6 +447,7 @@ RefinedPasses<TPixel>::MeasureNoise()
                                     m_Settings,
                                     quantisationNoise,
                                     !m_Thumbnails.FindChange(counted).IsLarge(),
+                                    m_KeepsSample,
                                     m_ParallelFor));
   if (!m_Noise->variance.line.isDetermined)
   {

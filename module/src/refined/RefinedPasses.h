@@ -77,6 +77,35 @@ public:
     m_IsWithoutMerging = true;
   }
 
+  /** Declares that the noise of the sample is kept for the planes of a mosaic: its covariance with the noise of the
+   * neighbours, which are in other planes, is measured when all planes are. Call it before the third pass. */
+  void
+  KeepSample()
+  {
+    m_KeepsSample = true;
+  }
+  /** Returns the noise of the sample, empty if there is none. */
+  const SampledNoise &
+  GetSample() const
+  {
+    static const SampledNoise none;
+    return m_Noise ? m_Noise->sampled : none;
+  }
+  void
+  ReleaseSample()
+  {
+    if (m_Noise)
+    {
+      m_Noise->sampled = {};
+    }
+  }
+  /** The report, to which the covariance with the pixels of other planes may be added. */
+  Report &
+  GetReport()
+  {
+    return m_Report;
+  }
+
   /** Returns whether the report is available. This is after NumberOfPasses passes or more. Each further pass reads the
    * stack once more: one for the moments if frames are left out, one after these if the illumination changes strongly
    * (LevelProjection), and others, as the third, if RefinedSettings::memoryLimitBytes requires them. */
@@ -261,6 +290,7 @@ private:
   std::optional<const NothingToMeasure>      m_FailureReason;
   bool                                       m_HasScene{ false };
   bool                                       m_IsWithoutMerging{ false };
+  bool                                       m_KeepsSample{ false };
   bool                                       m_IsDone{ false };
   Report                                     m_Report;
 };

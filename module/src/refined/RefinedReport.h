@@ -60,6 +60,16 @@ WarnOfOffset(Report & report, const RefinedResults & found, const RefinedEstimat
 SensorNoise_EXPORT void
 WarnOfCorrelation(Report & report, const NoiseCorrelation & correlation);
 
+/** Returns whether the noise of a pixel of a plane is correlated with the noise of its neighbours, which are in the
+ * other planes of a mosaic, significantly and by a size that the gain is to contain. */
+SensorNoise_EXPORT bool
+HasCorrelatedNeighbours(const Report & report, const NeighbourCovariance & covariance);
+
+/** Adds the covariance with the neighbours to the gain of a plane, with a warning. Whether read noise is spread, too,
+ * is not known, so that intercept and read noise are not identifiable then. */
+SensorNoise_EXPORT void
+AddToGain(Report & report, const NeighbourCovariance & covariance);
+
 } // namespace sensornoise
 
 #endif

@@ -4,6 +4,7 @@
 #define sensornoise_refined_RefinedResults_h
 
 #include "SensorNoiseExport.h"
+#include "correlation/ColourCovariance.h"
 #include "correlation/FrameSample.h"
 #include "correlation/NoiseCorrelation.h"
 #include "correlation/NoiseResiduals.h"
@@ -251,14 +252,15 @@ struct PixelNoise
   FrameNoise       frames; ///< indices among the distinct frames
   LineIllumination lines;
   /** Variance without flicker and motion [DN^2]; 0 at pixels that are not usable; empty: there is no line. */
-  PixelMap correctedVariance;
+  PixelMap     correctedVariance;
+  SampledNoise sampled; ///< noise of the sample; empty if it was not to be kept
 };
 
 /** Fits the variance and measures the noise correlation. If the correlation is strong, the mean variance of a tile
  * scatters more, and the pixels are tested a second time for a static scene. The remainder of \a quantisationNoise is
  * subtracted from the variance of the pixels before it is fitted, and \a quantisationNoise becomes a member of the
- * result. The noise of the frames is compared only if \a isOneScene. If too few pixels remain for a line, only the
- * variance is set.
+ * result. The noise of the frames is compared only if \a isOneScene. The noise of the sample is kept if \a keepsSample.
+ * If too few pixels remain for a line, only the variance is set.
  */
 SensorNoise_EXPORT PixelNoise
 MeasurePixelNoise(ResidualSquares                          squares,
@@ -268,6 +270,7 @@ MeasurePixelNoise(ResidualSquares                          squares,
                   const RefinedSettings &                  settings,
                   const QuantisationNoise &                quantisationNoise,
                   bool                                     isOneScene,
+                  bool                                     keepsSample,
                   const ParallelFor &                      parallelFor);
 
 } // namespace sensornoise
