@@ -233,6 +233,7 @@ EstimateCorrelation(NoiseSample                       sample,
                            SeriesOf(settings, distinct, means),
                                   { mean, taken, blackDn, !std::isnan(settings.offsetDn) },
                            parallelFor);
+  residuals.SetTimes(FindFrameTimes(residuals, distinct, parallelFor));
   if (const InterpolatedPixels found = FindInterpolatedPixels(residuals, parallelFor); !found.pixels.empty())
   {
     found.LeaveOutOf(taken);

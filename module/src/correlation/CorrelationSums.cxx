@@ -168,9 +168,10 @@ CorrelationSums::CorrelationSums(const NoiseResiduals & residuals,
   , m_ParallelFor(parallelFor)
   , m_Tiles(residuals.GetTiles().origins.size())
   , m_Lags{ Lag{} }
-  , m_OfUnequalFrames(
-      residuals.GetUnequalFrames().GetGain() / residuals.GetDof() *
-      residuals.GetUnequalFrames().Autocovariance(residuals.GetBasis(), residuals.GetTiles().frames / 3))
+  , m_OfUnequalFrames(residuals.GetUnequalFrames().GetGain() / residuals.GetDof() *
+                      residuals.GetUnequalFrames().Autocovariance(residuals.GetBasis(),
+                                                                  residuals.GetTiles().frames / 3,
+                                                                  residuals.GetTimes()))
 {
   for (int distance = 1; distance <= rings; ++distance)
   {

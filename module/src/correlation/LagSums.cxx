@@ -133,6 +133,23 @@ RestoreCovariance(const float * projection, double dof, std::ptrdiff_t shift, st
 }
 } // namespace
 
+namespace
+{
+/** Adds the products of the frames of \a tile that are \a lag.t frames apart in time, where some frames are missing. */
+void
+AddProductsOfTimes(const NoiseResiduals & residuals, std::size_t tile, const Lag & lag, std::vector<float> & products)
+{
+  const SampleTiles &  tiles = residuals.GetTiles();
+  const std::size_t    size = tiles.Pixels();
+  const std::ptrdiff_t shift = static_cast<std::ptrdiff_t>(lag.y) * static_cast<std::ptrdiff_t>(tiles.side) + lag.x;
+  const float * const  values = residuals.OfTile(tile);
+  for (const auto & [first, second] : residuals.GetTimes().PairsAt(static_cast<std::size_t>(lag.t), tiles.frames))
+  {
+    AddProductsOfFrames<1>(values + first * size, values + second * size + shift, size, shift, products.data());
+  }
+}
+} // namespace
+
 std::vector<std::vector<float>>
 SumProducts(const NoiseResiduals & residuals, std::size_t tile, const std::vector<Lag> & lags)
 {
@@ -147,6 +164,10 @@ SumProducts(const NoiseResiduals & residuals, std::size_t tile, const std::vecto
       const float * here = residuals.OfTile(tile) + first * size;
       for (std::size_t k = 0; k < lags.size(); ++k)
       {
+        if (lags[k].t != 0 && !residuals.GetTimes().AreConsecutive())
+        {
+          continue;
+        }
         const auto           later = static_cast<std::size_t>(lags[k].t);
         const std::ptrdiff_t shift =
           static_cast<std::ptrdiff_t>(lags[k].y) * static_cast<std::ptrdiff_t>(tiles.side) + lags[k].x;
@@ -164,6 +185,13 @@ SumProducts(const NoiseResiduals & residuals, std::size_t tile, const std::vecto
       }
     }
   });
+  for (std::size_t k = 0; k < lags.size(); ++k)
+  {
+    if (lags[k].t != 0 && !residuals.GetTimes().AreConsecutive())
+    {
+      AddProductsOfTimes(residuals, tile, lags[k], products[k]);
+    }
+  }
   const auto axis = residuals.GetSubtractedLines();
   const auto waves = residuals.WaveProjectionsOf(tile);
   for (std::size_t k = 0; k < lags.size(); ++k)

@@ -60,7 +60,7 @@ FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
   const CorrelationSums::Lags space = sums.Ring(1, AllRings);
   const CorrelationSums::Lags within = sums.Ring(1, found.reach);
   const CorrelationSums::Lags time = sums.TimeLags();
-  const AutocovarianceFit     fit(sums.GetResiduals().GetBasis(), time.size());
+  const AutocovarianceFit     fit(sums.GetResiduals().GetBasis(), time.size(), sums.GetResiduals().GetTimes());
   const JackknifeEstimate     estimate = Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
     const CommonNoise   common = FindCommonNoise(tiles.shared);
     std::vector<double> figures{ common.rows[0], common.columns[0] };
@@ -128,11 +128,12 @@ FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
  * scatter depends on the correlation of the frames. For normal noise of the covariance S = P R P, E[sum r^4] = 3 sum_t
  * S_tt^2 and E[(sum r^2)^2] = (tr S)^2 + 2 tr S^2. */
 void
-CorrectKurtosisForTemporalCorrelation(const Eigen::MatrixXd & basis, NoiseCorrelation & found)
+CorrectKurtosisForTemporalCorrelation(const NoiseResiduals & residuals, NoiseCorrelation & found)
 {
-  const Eigen::MatrixXd shared = CorrelationOfFrames(found.time, basis.rows());
-  const Eigen::MatrixXd projection = ResidualProjection(basis);
-  const auto            kurtosisOf = [](const Eigen::MatrixXd & covariance) {
+  const Eigen::MatrixXd & basis = residuals.GetBasis();
+  const Eigen::MatrixXd   shared = CorrelationOfFrames(found.time, basis.rows(), residuals.GetTimes());
+  const Eigen::MatrixXd   projection = ResidualProjection(basis);
+  const auto              kurtosisOf = [](const Eigen::MatrixXd & covariance) {
     const double trace = covariance.trace();
     return covariance.diagonal().squaredNorm() / (trace * trace + 2.0 * covariance.squaredNorm());
   };
@@ -148,7 +149,7 @@ CorrectKurtosisForTemporalCorrelation(const Eigen::MatrixXd & basis, NoiseCorrel
 void
 CompareSteps(const NoiseResiduals & residuals, const ParallelFor & parallelFor, NoiseCorrelation & found)
 {
-  const Eigen::MatrixXd  shared = CorrelationOfFrames(found.time, residuals.GetBasis().rows());
+  const Eigen::MatrixXd  shared = CorrelationOfFrames(found.time, residuals.GetBasis().rows(), residuals.GetTimes());
   const MeasuredNumber & own = found.kurtosis.front();
   const double           ratio = KurtosisRatioOfRecursion(found.time.front().coefficient.value);
   found.kurtosisOfSteps = KurtosisOfFrameDifferences(residuals, shared, parallelFor);
@@ -350,7 +351,7 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double quantisationDn2
   }
   if (inTime)
   {
-    CorrectKurtosisForTemporalCorrelation(residuals.GetBasis(), found);
+    CorrectKurtosisForTemporalCorrelation(residuals, found);
     CompareSteps(residuals, parallelFor, found);
     found.upperTail = {}; // common changes of the frames, as flicker, need not be normally distributed
   }

@@ -37,7 +37,7 @@ UnequalFrames::KeepFirst(Eigen::Index frames)
 }
 
 Eigen::VectorXd
-UnequalFrames::Autocovariance(const Eigen::MatrixXd & basis, std::size_t lags) const
+UnequalFrames::Autocovariance(const Eigen::MatrixXd & ofFrames, std::size_t lags, const FrameTimes & times) const
 {
   const auto      last = static_cast<Eigen::Index>(lags);
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(last + 1);
@@ -46,7 +46,8 @@ UnequalFrames::Autocovariance(const Eigen::MatrixXd & basis, std::size_t lags) c
     return sums;
   }
   // P Gamma P = Gamma - Q (Gamma Q)' - (Gamma Q) Q' + Q (Q' Gamma Q) Q'
-  const Eigen::MatrixXd weighted = m_Gamma.asDiagonal() * basis;
+  const Eigen::MatrixXd basis = times.Expand(ofFrames);
+  const Eigen::MatrixXd weighted = times.Expand(m_Gamma.asDiagonal() * ofFrames);
   const Eigen::MatrixXd both = basis * (basis.transpose() * weighted);
   for (Eigen::Index d = 0; d <= last; ++d)
   {
@@ -224,6 +225,7 @@ void
 NoiseResiduals::DropFirst(std::size_t frames, const ParallelFor & parallelFor)
 {
   m_Sample.DropFirst(frames);
+  m_Times.DropFirst(frames);
   m_Unequal.KeepLast(static_cast<Eigen::Index>(this->GetTiles().frames));
   m_Basis = BasisOf(m_Basis.bottomRows(m_Basis.rows() - static_cast<Eigen::Index>(frames)), this->GetTiles().frames);
   parallelFor(this->GetTiles().origins.size(), [this](std::size_t i) { this->ProjectTile(i); });

@@ -10,6 +10,7 @@
 #include "sensornoise/StepResults.h"
 #include "correlation/Constants.h"
 #include "correlation/FrameSample.h"
+#include "correlation/FrameTimes.h"
 
 #include <array>
 #include <cstddef>
@@ -67,10 +68,10 @@ public:
   void
   KeepFirst(Eigen::Index frames);
 
-  /** Returns N_d for d = 0 ... lags, for the projection on the complement of an orthonormal \a basis, frames x series;
-   * 0 where frames have equal noise. */
+  /** Returns N_d for d = 0 ... lags, for the projection on the complement of an orthonormal \a basis, frames x series,
+   * of frames at \a times; 0 where frames have equal noise. */
   Eigen::VectorXd
-  Autocovariance(const Eigen::MatrixXd & basis, std::size_t lags) const;
+  Autocovariance(const Eigen::MatrixXd & basis, std::size_t lags, const FrameTimes & times = {}) const;
 
 private:
   Eigen::VectorXd m_Gamma;
@@ -181,6 +182,18 @@ public:
   GetUnequalFrames() const
   {
     return m_Unequal;
+  }
+
+  /** Sets the times of the frames of the sample. Default: all frames are neighbours in time. */
+  void
+  SetTimes(FrameTimes times)
+  {
+    m_Times = std::move(times);
+  }
+  const FrameTimes &
+  GetTimes() const
+  {
+    return m_Times;
   }
 
   /** Leaves out the first frames, which a recursive filter filters less than the others: it cannot filter its first
@@ -324,6 +337,7 @@ private:
   bool                      m_IsBlackKnown{ true };
   double                    m_DarkestSignal{ 0.0 };
   UnequalFrames             m_Unequal;
+  FrameTimes                m_Times;
   std::optional<LineAxis>   m_SubtractedLines;
   /** LineProjectionsOf() for all tiles; empty: no lines were subtracted. */
   std::array<std::vector<float>, 2> m_LineProjections;

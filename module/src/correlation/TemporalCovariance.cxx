@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace sensornoise
 {
@@ -65,28 +66,32 @@ ColumnsOf(const Eigen::MatrixXd & mixing, double ratio)
 } // namespace
 
 Eigen::MatrixXd
-TemporalMixing(const Eigen::MatrixXd & basis, std::size_t lags, std::size_t furthest)
+TemporalMixing(const Eigen::MatrixXd & ofFrames, std::size_t lags, std::size_t furthest, const FrameTimes & times)
 {
-  const auto      rows = static_cast<Eigen::Index>(lags) + 1;
-  const auto      columns = static_cast<Eigen::Index>(furthest) + 1;
-  Eigen::MatrixXd mixing(rows, columns);
+  const auto            rows = static_cast<Eigen::Index>(lags) + 1;
+  const auto            columns = static_cast<Eigen::Index>(furthest) + 1;
+  const auto            frames = static_cast<std::size_t>(ofFrames.rows());
+  const Eigen::MatrixXd basis = times.Expand(ofFrames);
+  const Eigen::VectorXd isMeasured = times.Expand(Eigen::VectorXd::Ones(ofFrames.rows()));
+  Eigen::MatrixXd       mixing(rows, columns);
   for (Eigen::Index k = 0; k < columns; ++k)
   {
     // P B P = B - Q (B Q)' - (B Q) Q' + Q (Q' B Q) Q'
-    const Eigen::MatrixXd shifted = ShiftBothWays(basis, k);
+    const Eigen::MatrixXd shifted = isMeasured.asDiagonal() * ShiftBothWays(basis, k);
     const Eigen::MatrixXd both = basis * (basis.transpose() * shifted);
     for (Eigen::Index d = 0; d < rows; ++d)
     {
-      const double own = d == k ? static_cast<double>(basis.rows() - d) : 0.0;
+      const double own = d == k ? static_cast<double>(times.PairsAt(static_cast<std::size_t>(d), frames).size()) : 0.0;
       mixing(d, k) = own - DiagonalOf(basis, shifted, d) - DiagonalOf(shifted, basis, d) + DiagonalOf(both, basis, d);
     }
   }
   return mixing;
 }
 
-AutocovarianceFit::AutocovarianceFit(const Eigen::MatrixXd & basis, std::size_t lags)
+AutocovarianceFit::AutocovarianceFit(const Eigen::MatrixXd & basis, std::size_t lags, FrameTimes times)
   : m_Basis(basis)
-  , m_Mixing(TemporalMixing(basis, lags, lags))
+  , m_Times(std::move(times))
+  , m_Mixing(TemporalMixing(basis, lags, lags, m_Times))
 {
   this->Solve();
 }
@@ -94,9 +99,9 @@ AutocovarianceFit::AutocovarianceFit(const Eigen::MatrixXd & basis, std::size_t 
 void
 AutocovarianceFit::FindTail(const Eigen::VectorXd & sums)
 {
-  const auto frames = static_cast<std::size_t>(m_Basis.rows());
+  const auto frames = m_Times.Duration(static_cast<std::size_t>(m_Basis.rows()));
   const auto lags = static_cast<std::size_t>(m_Mixing.rows()) - 1;
-  m_Mixing = TemporalMixing(m_Basis, lags, std::max(lags, std::min(frames - 1, lags + LongestTail())));
+  m_Mixing = TemporalMixing(m_Basis, lags, std::max(lags, std::min(frames - 1, lags + LongestTail())), m_Times);
   const Eigen::VectorXd white = m_Mixing.col(0);
   const double          ofWhite = (sums - white * (white.dot(sums) / white.squaredNorm())).squaredNorm();
   double                best = 0.0;
@@ -145,7 +150,8 @@ namespace
 MeasuredNumber
 CoefficientOfBrightPixels(const CorrelationSums & sums)
 {
-  const AutocovarianceFit fit(sums.GetResiduals().GetBasis(), sums.TimeLags().size());
+  const NoiseResiduals &  residuals = sums.GetResiduals();
+  const AutocovarianceFit fit(residuals.GetBasis(), sums.TimeLags().size(), residuals.GetTimes());
   return NumberAt(Jackknife(sums.GetTiles(),
                             [&](const TileSums & tiles) {
                               const Eigen::VectorXd covariance =
@@ -205,13 +211,18 @@ ResidualProjection(const Eigen::MatrixXd & basis)
 }
 
 Eigen::MatrixXd
-CorrelationOfFrames(const std::vector<LagCoefficient> & lags, Eigen::Index frames)
+CorrelationOfFrames(const std::vector<LagCoefficient> & lags, Eigen::Index frames, const FrameTimes & times)
 {
   Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(frames, frames);
   for (const LagCoefficient & lag : lags)
   {
-    correlation.diagonal(lag.lag.t).setConstant(lag.coefficient.value);
-    correlation.diagonal(-lag.lag.t).setConstant(lag.coefficient.value);
+    for (const auto & [first, second] :
+         times.PairsAt(static_cast<std::size_t>(lag.lag.t), static_cast<std::size_t>(frames)))
+    {
+      const auto row = static_cast<Eigen::Index>(first);
+      const auto column = static_cast<Eigen::Index>(second);
+      correlation(row, column) = correlation(column, row) = lag.coefficient.value;
+    }
   }
   return correlation;
 }
@@ -229,12 +240,13 @@ SumOverTime(CorrelationSums & sums, NoiseCorrelation & found)
 {
   found.kind = NoiseKind::Temporal;
   const Eigen::MatrixXd & basis = sums.GetResiduals().GetBasis();
-  AutocovarianceFit       fit(basis, sums.TimeLags().size());
+  const FrameTimes &      times = sums.GetResiduals().GetTimes();
+  AutocovarianceFit       fit(basis, sums.TimeLags().size(), times);
   double                  last = 1.0;
   for (std::size_t known = 0; last > InCorrelation.smallTimeCoefficient && sums.TimeLags().size() > known;)
   {
     known = sums.TimeLags().size();
-    const AutocovarianceFit withoutTail(basis, known);
+    const AutocovarianceFit withoutTail(basis, known, times);
     fit = withoutTail;
     fit.FindTail(sums.ProductsOfFrames(sums.Total()));
     const JackknifeEstimate estimate = Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {

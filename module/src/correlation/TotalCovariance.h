@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "base/Eigen.h"
 #include "correlation/CorrelationSums.h"
+#include "correlation/FrameTimes.h"
 #include "correlation/NoiseCorrelation.h"
 
 #include <array>
@@ -22,9 +23,11 @@ namespace sensornoise
  *
  *     E[sum_t r_t r_(t+d)] = sum_k M_dk R_k,   M_dk = sum_t (P B_k P)_(t, t+d),   d = 0 ... lags, k = 0 ... furthest,
  *
- * where B_0 = I and B_k is the shift by k frames both ways. Exact for any distribution of the noise. */
+ * where B_0 = I and B_k is the shift by k frames both ways. Rows and columns of times without a frame are left out of
+ * B_k, and the sums are over the pairs of frames that are d frames apart in time. Exact for any distribution of the
+ * noise. */
 SensorNoise_EXPORT Eigen::MatrixXd
-TemporalMixing(const Eigen::MatrixXd & basis, std::size_t lags, std::size_t furthest);
+TemporalMixing(const Eigen::MatrixXd & basis, std::size_t lags, std::size_t furthest, const FrameTimes & times = {});
 
 /** \class AutocovarianceFit
  * \brief Autocovariances of the noise, from the sums of products of frames after the projection.
@@ -39,8 +42,9 @@ class SensorNoise_EXPORT AutocovarianceFit
 {
 public:
   /** \param basis orthonormal temporal components that were projected out
-   * \param lags number K of lags */
-  AutocovarianceFit(const Eigen::MatrixXd & basis, std::size_t lags);
+   * \param lags number K of lags
+   * \param times times of the frames */
+  AutocovarianceFit(const Eigen::MatrixXd & basis, std::size_t lags, FrameTimes times = {});
 
   /** Finds the tail: white noise and R_k = A q^k, with the ratio q for which both describe \a sums best. The tail stays
    * 0 if the misfit of these two terms exceeds InCorrelation.largestTailMisfit times the misfit of white noise alone,
@@ -70,6 +74,7 @@ private:
   Solve();
 
   Eigen::MatrixXd    m_Basis;
+  FrameTimes         m_Times;
   Eigen::MatrixXd    m_Mixing; // columns from lag 0 on
   double             m_Ratio{ 0.0 };
   Eigen::MatrixXd    m_Autocovariances; // matrix that turns the sums into autocovariances
@@ -158,9 +163,10 @@ IsCorrelatedInTime(const CorrelationSums & sums, const std::vector<LagCoefficien
 Eigen::MatrixXd
 ResidualProjection(const Eigen::MatrixXd & basis);
 
-/** Returns the correlation matrix of \a frames frames whose coefficients at the temporal lags are \a lags. */
+/** Returns the correlation matrix of \a frames frames at \a times whose coefficients at the temporal lags are \a lags.
+ */
 SensorNoise_EXPORT Eigen::MatrixXd
-CorrelationOfFrames(const std::vector<LagCoefficient> & lags, Eigen::Index frames);
+CorrelationOfFrames(const std::vector<LagCoefficient> & lags, Eigen::Index frames, const FrameTimes & times = {});
 
 /** Returns the noise variance that the projection P = I - Q Q' leaves in each frame if frames have the correlation
  * matrix R, over the noise variance that it leaves of white noise: the diagonal of P R P over the diagonal of P [1].

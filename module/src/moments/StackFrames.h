@@ -217,6 +217,23 @@ public:
     }
     return counted;
   }
+  /** Returns the numbers of the frames that are counted among the frames that are not left out, ascending: repeated
+   * frames are numbered, too. */
+  std::vector<std::size_t>
+  RecordedNumbers() const
+  {
+    std::vector<std::size_t> numbers;
+    std::size_t              recorded = 0;
+    for (std::size_t t = 0; t < m_Originals.size(); ++t)
+    {
+      if (this->IsCounted(t))
+      {
+        numbers.push_back(recorded);
+      }
+      recorded += m_Places[t] != None ? 1 : 0;
+    }
+    return numbers;
+  }
   /** Returns whether all of the frames first ... first + count - 1 are counted; frames beyond the end of the stack are
    * ignored. */
   bool

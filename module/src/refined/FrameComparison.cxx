@@ -141,7 +141,8 @@ CompareFrames(const StaticVariance &   variance,
   if (isTemporal)
   {
     const Eigen::MatrixXd & basis = by.residuals.GetBasis();
-    remaining = RemainingOfCorrelated(basis, CorrelationOfFrames(correlation.time, basis.rows()));
+    remaining =
+      RemainingOfCorrelated(basis, CorrelationOfFrames(correlation.time, basis.rows(), by.residuals.GetTimes()));
   }
   const auto compareOn = [&](const std::vector<std::uint8_t> & pixels) {
     FrameEnergies energies(by.residuals, pixels, parallelFor);

@@ -277,6 +277,7 @@ SubtractWavesOfDarkFrames(NoiseResiduals & residuals, const RefinedSettings & se
 PixelNoise
 MeasurePixelNoise(ResidualSquares                          squares,
                   FrameSample                              sample,
+                  const std::vector<std::size_t> &         frameNumbers,
                   const StaticScene &                      scene,
                   const std::optional<const SceneSeries> & series,
                   const RefinedSettings &                  settings,
@@ -340,6 +341,7 @@ MeasurePixelNoise(ResidualSquares                          squares,
   };
   allowForFrames();
   SubtractWavesOfDarkFrames(residuals, settings, parallelFor);
+  residuals.SetTimes(FindFrameTimes(residuals, frameNumbers, parallelFor));
   noise.correlation = MeasureWithoutInterference(residuals, quantisationDn2, parallelFor);
   const double varianceInflation = VarianceInflation(noise.correlation.space);
   if (noise.correlation.IsCorrelated() && varianceInflation > InRefined.leastVarianceInflation)

@@ -442,6 +442,7 @@ RefinedPasses<TPixel>::MeasureNoise()
   const QuantisationNoise        quantisationNoise = this->FindQuantisationNoise();
   m_Noise.emplace(MeasurePixelNoise(m_Projections->TakeSquares(),
                                     m_Projections->TakeSample(),
+                                    m_Distinct.RecordedNumbers(),
                                     *m_Scene,
                                     m_Series,
                                     m_Settings,

@@ -259,12 +259,14 @@ struct PixelNoise
 /** Fits the variance and measures the noise correlation. If the correlation is strong, the mean variance of a tile
  * scatters more, and the pixels are tested a second time for a static scene. The remainder of \a quantisationNoise is
  * subtracted from the variance of the pixels before it is fitted, and \a quantisationNoise becomes a member of the
- * result. The noise of the frames is compared only if \a isOneScene. The noise of the sample is kept if \a keepsSample.
- * If too few pixels remain for a line, only the variance is set.
+ * result. \a frameNumbers are the numbers of the frames of \a sample among the recorded frames. The noise of the frames
+ * is compared only if \a isOneScene. The noise of the sample is kept if \a keepsSample. If too few pixels remain for a
+ * line, only the variance is set.
  */
 SensorNoise_EXPORT PixelNoise
 MeasurePixelNoise(ResidualSquares                          squares,
                   FrameSample                              sample,
+                  const std::vector<std::size_t> &         frameNumbers,
                   const StaticScene &                      scene,
                   const std::optional<const SceneSeries> & series,
                   const RefinedSettings &                  settings,
