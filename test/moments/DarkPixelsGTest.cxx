@@ -98,6 +98,40 @@ TEST(SensorNoiseDarkPixels, DefectivePixelsAreCountedAndLeftOut)
   EXPECT_LE(two.numberDefective, 100u);
 }
 
+// A cosmic ray is in one frame. Its charge adds the variance 2 a^2 per hit, 18 DN^2 on average here, twice the noise.
+TEST(SensorNoiseDarkPixels, ValuesOfCosmicRaysAreLeftOut)
+{
+  constexpr double      chance = 0.001;
+  constexpr double      meanDn = 100.0;
+  const DarkSensor      sensor = MakeDarkSensor(20000, 4.0, LogNormalNoise(0.3));
+  Stack<unsigned short> stack = DarkStackOf<unsigned short>(sensor, 16);
+  const KnownOffset     without = MeasureDarkStack(stack);
+  CounterSeededRandom   random(3);
+  std::size_t           hits = 0;
+  for (unsigned short & value : stack.pixels)
+  {
+    if (random.Uniform() < chance)
+    {
+      value = static_cast<unsigned short>(value - meanDn * std::log(1.0 - random.Uniform()));
+      ++hits;
+    }
+  }
+  const KnownOffset dark = MeasureDarkStack(stack);
+  EXPECT_LT(without.numberDefective, 3U); // 0.2 are expected by chance
+  EXPECT_GT(dark.numberDefective, hits / 2);
+  EXPECT_LT(dark.numberDefective, hits);
+  EXPECT_NEAR(dark.valueDn, without.valueDn, without.standardErrorDn);
+  EXPECT_NEAR(dark.variance->valueDn2, without.variance->valueDn2, 0.02 * without.variance->valueDn2);
+}
+
+TEST(SensorNoiseDarkPixels, AFrameOfAnotherLevelIsNoSpikeOfItsPixels)
+{
+  const DarkSensor    sensor = MakeDarkSensor(20000, 4.0, LogNormalNoise(0.3));
+  std::vector<double> drift(16, 0.0);
+  drift[5] = 200.0;
+  EXPECT_EQ(MeasureDarkStack(DarkStackOf<unsigned short>(sensor, 16, drift)).numberDefective, 0U);
+}
+
 TEST(SensorNoiseDarkPixels, OneFrameHasNoMapsAndNoVariance)
 {
   const DarkSensor  sensor = MakeDarkSensor(4096, 4.0, LogNormalNoise(0.3));

@@ -152,6 +152,13 @@ DarkDrift::GetSumOfSquaresDn2() const
 }
 
 double
+DarkDrift::GetRangeDn() const
+{
+  const auto [low, high] = std::minmax_element(m_LevelsDn.begin(), m_LevelsDn.end());
+  return m_LevelsDn.empty() ? 0.0 : *high - *low;
+}
+
+double
 DarkDrift::GetVarianceDn2(double pixelVarianceDn2) const
 {
   if (m_LevelsDn.size() < 2 || m_LevelPixels < 2.0)
@@ -292,6 +299,59 @@ ChanceOfConstantValue(double noiseDn, double stepDn, double frames)
   return std::pow(std::erf(stepDn / (noiseDn * std::sqrt(8.0))), frames - 1.0);
 }
 
+/** Returns the median of the variances of the usable pixels [DN^2]. A variance below the quantization noise is not
+ * significant. */
+double
+MedianVarianceDn2(const DarkMaps & maps)
+{
+  const double factor = MedianToMeanOfVariance(static_cast<double>(maps.frames) - 1.0);
+  return std::max(QuantileOf(UsableValues(maps.varianceDn2, maps.usable), 0.5),
+                  factor * maps.stepDn * maps.stepDn / 12.0);
+}
+
+/** Marks the pixels with one value beyond chance, as by a cosmic ray, as not usable. Returns their number.
+ *
+ * The extreme value is compared with the other values of its pixel by Student's t, at the significance of many tests:
+ * of 16 values, a pixel in 10^5 is left out by chance, which changes no mean. The standard deviation is at least the
+ * typical one. The distance is without the drift of the level, which may be in one frame, too. A pixel that is noisy in
+ * all frames stays, as its other values are noisy. */
+template <typename TPixel>
+std::size_t
+ExcludeSpikes(DarkMaps & maps, const TemporalMaps<TPixel> & ofStack, double driftDn)
+{
+  const auto n = static_cast<double>(maps.frames);
+  if (maps.frames < 3)
+  {
+    return 0; // one value has no scatter
+  }
+  const double typicalDn2 = MedianVarianceDn2(maps) / MedianToMeanOfVariance(n - 1.0);
+  if (!(typicalDn2 > 0.0))
+  {
+    return 0; // nothing to compare with
+  }
+  const double chance = 0.5 * std::erfc(Significance.manyTests / std::sqrt(2.0));
+  const double t = StudentQuantile(1.0 - chance, n - 2.0);
+  std::size_t  spikes = 0;
+  for (std::size_t p = 0; p < maps.usable.size(); ++p)
+  {
+    if (maps.usable[p] == 0)
+    {
+      continue;
+    }
+    const double furthest =
+      std::max(ofStack.GetMaximum(p) - maps.offsetDn[p], maps.offsetDn[p] - ofStack.GetMinimum(p));
+    const double distance = std::max(0.0, furthest - driftDn);
+    const double squareDn2 = distance * distance * n / (n - 1.0);
+    const double othersDn2 = ((n - 1.0) * maps.varianceDn2[p] - squareDn2) / (n - 2.0);
+    if (squareDn2 > t * t * std::max(typicalDn2, othersDn2))
+    {
+      maps.usable[p] = 0;
+      ++spikes;
+    }
+  }
+  return spikes;
+}
+
 /** Marks the defective pixels as not usable. Returns their number. */
 template <typename TPixel>
 std::size_t
@@ -299,9 +359,7 @@ ExcludeDefective(DarkMaps & maps, const TemporalMaps<TPixel> & ofStack)
 {
   const double dof = static_cast<double>(maps.frames) - 1.0;
   const double factor = MedianToMeanOfVariance(dof);
-  // A variance below the quantization noise is not significant.
-  const double medianDn2 =
-    std::max(QuantileOf(UsableValues(maps.varianceDn2, maps.usable), 0.5), factor * maps.stepDn * maps.stepDn / 12.0);
+  const double medianDn2 = MedianVarianceDn2(maps);
   if (!(medianDn2 > 0.0))
   {
     return 0; // nothing to compare with
@@ -356,6 +414,7 @@ MeasureDarkFrames(TemporalMoments<TPixel>           moments,
   DarkSurvey           survey = SurveyPixels<TPixel>(ofStack, frames, dnSettings, mask, parallelFor, drift);
   RequireDarkLevel(survey);
   DarkMaps &          maps = survey.maps;
+  const std::size_t   spikes = ExcludeSpikes<TPixel>(maps, ofStack, drift.GetRangeDn());
   std::vector<double> levels = UsableValues(maps.offsetDn, maps.usable);
   const double        low = Quantile(levels, 0.16);
   const double        high = Quantile(levels, 0.84);
@@ -369,7 +428,7 @@ MeasureDarkFrames(TemporalMoments<TPixel>           moments,
   dark.darkFrames = maps.frames;
   if (dark.darkFrames > 1)
   {
-    dark.numberDefective = ExcludeDefective<TPixel>(maps, ofStack);
+    dark.numberDefective = spikes + ExcludeDefective<TPixel>(maps, ofStack);
     const std::vector<double> variances = UsableValues(maps.varianceDn2, maps.usable);
     const MeanOfPixels        mean = MeanWithin(variances, 0.0, std::numeric_limits<double>::max());
     dark.variance = { mean.value, mean.standardError };

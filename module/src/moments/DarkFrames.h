@@ -134,6 +134,10 @@ public:
   double
   SquaresWithoutDrift(std::size_t p, double sumOfSquaresDn2, double meanDn) const;
 
+  /** Returns the difference of the highest and the lowest common level [DN]; 0 without frames. */
+  double
+  GetRangeDn() const;
+
   /** Returns the variance over time of the common level of all pixels [DN^2]; 0 below two frames.
    * \param pixelVarianceDn2 variance of a typical pixel without the drift [DN^2]; its contribution to the variance of
    * the levels is subtracted */
@@ -190,8 +194,9 @@ MeanWithin(const std::vector<double> & values, double low, double high);
  * Two frames or more also yield the temporal variance of every pixel. The mean variance is over all pixels that are
  * not defective. It includes noisy pixels, because their noise is in the bright frames as well. A pixel is defective
  * if its noise exceeds InMoments.defectiveNoiseFactor times the typical noise. It is also defective if it never
- * changed although a typical pixel does with a probability of at least 1 - 1e-6. The standard error of the mean is the
- * scatter of the pixels. The read noise of the median pixel, see MedianReadNoiseOf(), is returned with it.
+ * changed although a typical pixel does with a probability of at least 1 - 1e-6. Pixels with one value beyond chance,
+ * as by a cosmic ray, are left out of offset and variance, and are counted as defective. The standard error of the mean
+ * is the scatter of the pixels. The read noise of the median pixel, see MedianReadNoiseOf(), is returned with it.
  *
  * The moments are consumed: their memory holds the maps.
  * \param drift drift of the same frames, which is removed from all variances; without it a level that drifts adds to
