@@ -295,6 +295,25 @@ TEST(SensorNoiseRefinedWarnings, IlluminationOfFinePatternsIsNoFilter)
   EXPECT_NE(MakeText(report).find("grows with the square of the signal"), std::string::npos) << MakeText(report);
 }
 
+// A camera conceals lost rows by the row above: 2 % of the rows, others in each frame.
+TEST(SensorNoiseRefinedWarnings, ConcealedRowsAreNoFilter)
+{
+  Stack<GreyValue>            stack = Simulate<GreyValue>(StaticCamera(Frames), Size, Size);
+  std::mt19937                random(8);
+  std::bernoulli_distribution isLost(0.02);
+  for (std::size_t row = 1; row < Frames * Size; ++row)
+  {
+    if (row % Size != 0 && isLost(random))
+    {
+      std::copy_n(stack.pixels.data() + (row - 1) * Size, Size, stack.pixels.data() + row * Size);
+    }
+  }
+  const Report report = Measure(stack, {}).GetReport();
+  EXPECT_NE(report.gain.status, EstimateStatus::Identified) << MakeText(report);
+  ASSERT_TRUE(HasWarning(report, WarningCode::NoiseNotLinear)) << MakeText(report);
+  EXPECT_NE(MakeText(report).find("copies of the row before them"), std::string::npos) << MakeText(report);
+}
+
 // Half of the blocks of 8 x 8 pixels repeat the previous frame.
 TEST(SensorNoiseRefinedWarnings, SkippedBlocksAreNoFilter)
 {

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -263,6 +264,76 @@ FrameSample::RepeatedFraction(const std::vector<std::uint8_t> & mask, double ste
   }
   const double byNoise = count[1] * count[1] / std::max(1.0, count[2]);
   return pairs > 0.0 ? std::max(0.0, count[0] - byNoise) / pairs : 0.0;
+}
+
+namespace
+{
+/** Pixels of a line of a tile, each with its neighbour in the line before. */
+using LinePairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+/** Returns for each line, in one frame of a tile, whether it equals the line before it. No line does where more than
+ * half of the pairs of the other lines are equal: quantization hides the noise of this frame. */
+std::vector<std::uint8_t>
+FindCopiedLines(const std::uint16_t * values, const std::vector<LinePairs> & lines)
+{
+  std::vector<std::uint8_t> isCopy(lines.size(), 0);
+  std::size_t               pairs = 0;
+  std::size_t               equalPairs = 0;
+  for (std::size_t line = 0; line < lines.size(); ++line)
+  {
+    const auto equal =
+      static_cast<std::size_t>(std::count_if(lines[line].begin(), lines[line].end(), [values](const auto & p) {
+        return values[p.first] == values[p.second];
+      }));
+    isCopy[line] = equal == lines[line].size() ? 1 : 0;
+    pairs += isCopy[line] != 0 ? 0 : lines[line].size();
+    equalPairs += isCopy[line] != 0 ? 0 : equal;
+  }
+  return 2 * equalPairs < pairs ? isCopy : std::vector<std::uint8_t>(lines.size(), 0);
+}
+} // namespace
+
+double
+FrameSample::CopiedFraction(const std::vector<std::uint8_t> & mask, LineAxis axis) const
+{
+  double            all = 0.0;
+  double            copies = 0.0;
+  const std::size_t every = std::max<std::size_t>(1, m_Tiles.origins.size() / SampleTiles::EnoughTiles);
+  for (std::size_t i = 0; i < m_Tiles.origins.size() && !m_Integers.empty(); i += every)
+  {
+    const auto             isTaken = [&](std::size_t p) { return mask[m_Tiles.PixelOf(i, p, m_Width)] != 0; };
+    std::vector<LinePairs> lines;
+    for (std::size_t line = 1; line < m_Tiles.side; ++line)
+    {
+      LinePairs pairs;
+      for (std::size_t k = 0; k < m_Tiles.side; ++k)
+      {
+        const std::size_t before = m_Tiles.InTile(axis, line - 1, k);
+        const std::size_t own = m_Tiles.InTile(axis, line, k);
+        if (isTaken(before) && isTaken(own))
+        {
+          pairs.emplace_back(before, own);
+        }
+      }
+      if (pairs.size() >= SampleTiles::SmallSide)
+      {
+        lines.push_back(std::move(pairs));
+      }
+    }
+    std::vector<std::size_t> ofLines(lines.size(), 0);
+    for (std::size_t t = 0; t < m_Tiles.frames; ++t)
+    {
+      const auto isCopy = FindCopiedLines(m_Integers.data() + m_Tiles.PlaceOf(i, t), lines);
+      std::transform(isCopy.begin(), isCopy.end(), ofLines.begin(), ofLines.begin(), std::plus<std::size_t>());
+    }
+    for (const std::size_t count : ofLines)
+    {
+      const bool isOfFrames = 2 * count <= m_Tiles.frames;
+      all += isOfFrames ? static_cast<double>(m_Tiles.frames) : 0.0;
+      copies += isOfFrames ? static_cast<double>(count) : 0.0;
+    }
+  }
+  return all > 0.0 ? copies / all : 0.0;
 }
 
 NoiseSample

@@ -234,6 +234,15 @@ public:
   double
   RepeatedFraction(const std::vector<std::uint8_t> & mask, double stepDn) const;
 
+  /** Returns the fraction of the lines of the tiles that equal the line before them in single frames [1]; 0 for
+   * floating-point numbers. A line counts if SampleTiles::SmallSide of its pixels and of their neighbours in the line
+   * before are in \a mask. Tiles of a frame in which more than half of the pairs of neighbours are equal show nothing,
+   * as quantization hides their noise. Otherwise so many pairs are equal with a probability of at most 2e-5. A line
+   * that is a copy in more than half of the frames is a property of the sensor, and does not count. Estimator.md, 3.12.
+   */
+  double
+  CopiedFraction(const std::vector<std::uint8_t> & mask, LineAxis axis) const;
+
   /** Returns the values above \a mean, the mean of every pixel [DN]. The sample gives up its memory and is empty
    * afterwards. */
   NoiseSample

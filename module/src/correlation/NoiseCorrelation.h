@@ -128,6 +128,11 @@ struct SensorNoise_EXPORT NoiseCorrelation
   /** Fraction of values that repeat the value in the frame before, beyond statistical scatter, if this makes the class
    * NotLinear; else 0 [1]. */
   double repeatedFraction{ 0.0 };
+  /** Fraction of the lines that are copies of the line before them in single frames, if this makes the class NotLinear;
+   * else 0 [1]. */
+  double copiedFraction{ 0.0 };
+  /** The axis of these lines. */
+  LineAxis copiedAxis{ LineAxis::Rows };
   /** Whether the spatial covariance grows with the squared signal and reaches further than coupled charge: the
    * illumination changes from place to place. The class is then NotLinear. */
   bool isByIllumination{ false };

@@ -25,7 +25,8 @@ struct RefinedConstants
    * the value changes nothing in the cases of estimator.md, 3.13. */
   double largestNonlinearity{ 0.12 };
   /** Largest fraction of values that repeat the value in the frame before, beyond the number that noise explains, where
-   * the noise is correlated [1]. Chosen by its effect: with it, the total covariance over lags is 1 % too large. */
+   * the noise is correlated, and of lines that are copies of the line before [1]. Chosen by its effect: with it, the
+   * total covariance over lags is 1 % too large. */
   double largestRepeatedFraction{ 0.005 };
   /** Largest factor by which the total covariance over lags may change the gain where illumination changes could not be
    * projected out [1]. Chosen by its effect: beyond twice the variance, most of the covariance is not noise. */

@@ -113,6 +113,15 @@ CauseOfNonlinear(const NoiseCorrelation & correlation, const LagCoefficient * sp
            "): a video coder skips blocks, or parts of frames are repeated, so that the gain is not "
            "identifiable. Record raw frames";
   }
+  if (correlation.copiedFraction > 0.0)
+  {
+    const std::string line = correlation.copiedAxis == LineAxis::Rows ? "row" : "column";
+    return PercentApart(correlation.copiedFraction, InRefined.largestRepeatedFraction) + " of the " + line +
+           "s are copies of the " + line + " before them in single frames (expected at most " +
+           Percent(InRefined.largestRepeatedFraction) +
+           "): lost parts of frames were concealed, so that the gain is not identifiable. Record frames without "
+           "losses: at a lower frame rate, or with larger packets or buffers";
+  }
   if (correlation.isByIllumination && space != nullptr)
   {
     return CorrelationOf(*space) +

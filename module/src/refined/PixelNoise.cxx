@@ -97,12 +97,21 @@ LeaveOutEdges(const ReferenceFrame &      frame,
 
 namespace
 {
-/** Finds causes of correlation other than filters: local motion, and parts of frames that \a repeat. It does not search
- * for local motion if the whole scene moves, as the remaining motion of frames has the slopes of the scene, too. */
+/** Fractions of the sample that are copies [1]. */
+struct Copies
+{
+  double pixels;  ///< see FrameSample::RepeatedFraction()
+  double rows;    ///< see FrameSample::CopiedFraction()
+  double columns; ///< see FrameSample::CopiedFraction()
+};
+
+/** Finds causes of correlation other than filters: local motion, and parts of frames that are \a copies. It does not
+ * search for local motion if the whole scene moves, as the remaining motion of frames has the slopes of the scene, too.
+ */
 void
 FindOtherCauses(NoiseCorrelation &     correlation,
                 const NoiseResiduals & residuals,
-                double                 repeated,
+                const Copies &         copies,
                 bool                   movesLittle,
                 const ParallelFor &    parallelFor)
 {
@@ -113,10 +122,17 @@ FindOtherCauses(NoiseCorrelation &     correlation,
   }
   const bool mayRepeat = correlation.kind == NoiseKind::Temporal || correlation.kind == NoiseKind::Enlarged ||
                          correlation.isByIllumination || correlation.isBySensitivity;
-  if (mayRepeat && repeated > InRefined.largestRepeatedFraction)
+  if (mayRepeat && copies.pixels > InRefined.largestRepeatedFraction)
   {
     correlation.kind = NoiseKind::NotLinear; // a filter blends values, and repeats none
-    correlation.repeatedFraction = repeated;
+    correlation.repeatedFraction = copies.pixels;
+  }
+  const double lines = std::max(copies.rows, copies.columns);
+  if (correlation.kind != NoiseKind::NotMeasured && lines > InRefined.largestRepeatedFraction)
+  {
+    correlation.kind = NoiseKind::NotLinear;
+    correlation.copiedFraction = lines;
+    correlation.copiedAxis = copies.rows >= copies.columns ? LineAxis::Rows : LineAxis::Columns;
   }
 }
 
@@ -294,7 +310,9 @@ MeasurePixelNoise(ResidualSquares                          squares,
   const bool                isIdentifiable = settings.offset.has_value() || series->isOffsetIdentifiable;
   const double              zeroDn =
     isIdentifiable ? blackDn : ZeroOfSignal(scene.model.darkestDn, scene.model.brightestDn, blackDn);
-  const double   repeated = sample.RepeatedFraction(chosen, scene.summary.dnRange.quantisationStepDn);
+  const Copies   copies{ sample.RepeatedFraction(chosen, scene.summary.dnRange.quantisationStepDn),
+                       sample.CopiedFraction(chosen, LineAxis::Rows),
+                       sample.CopiedFraction(chosen, LineAxis::Columns) };
   NoiseResiduals residuals(
     std::move(sample), series->basis.GetBasis(), { scene.frame.mean, chosen, zeroDn, isIdentifiable }, parallelFor);
   AllowedLines allowed;
@@ -366,7 +384,7 @@ MeasurePixelNoise(ResidualSquares                          squares,
   {
     noise.sampled = SampledNoise(residuals);
   }
-  FindOtherCauses(noise.correlation, residuals, repeated, MovesLittle(comparison.scene.model), parallelFor);
+  FindOtherCauses(noise.correlation, residuals, copies, MovesLittle(comparison.scene.model), parallelFor);
   noise.correctedVariance = std::move(projected).TakeVarianceAt(noise.variance.correctingGain);
   return noise;
 }
