@@ -8,6 +8,7 @@
 #include "helpers/StackTestHelper.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <gtest/gtest.h>
@@ -306,4 +307,36 @@ TEST(SensorNoiseStackMaps, FrameMeansAreOfFinitePixelsThatAreMeasured)
       { { &sums, PixelLayout::OfPixels(frame.size(), frame.size()), mask.data() } }, frame.data(), 0, 1, SerialFor);
     EXPECT_EQ(sums.GetFrameMeans()[0], isMasked ? 15.0 : 1030.0 / 3.0);
   }
+}
+
+// The steps are 1 DN to 512 DN, 8 DN to 2048 DN, and 32 DN above. 300 pixels are clipped at 3072 DN. Five noisy pixels
+// lie three steps beyond: by the steps of the maxima alone, 32 DN, they are the end of the digital numbers.
+TEST(SensorNoiseStackMaps, TheDepthOfCompandedDataIsTakenAtTheEndOfBothHistograms)
+{
+  TemporalMaps<std::uint16_t> maps;
+  const auto                  add = [&](int low, int high, double mean, double sd) {
+    constexpr std::int32_t centre = TemporalMaps<std::uint16_t>::Centre;
+    maps.minimum.push_back(static_cast<std::int16_t>(low - centre));
+    maps.maximum.push_back(static_cast<std::int16_t>(high - centre));
+    maps.mean.push_back(mean);
+    maps.variance.push_back(sd * sd);
+  };
+  constexpr int clip = 3072;
+  for (int pixel = 0; pixel < 640; ++pixel)
+  {
+    const int dark = pixel % 80; // the lowest value: 40 numbers of either step
+    add(dark < 40 ? 472 + dark : 512 + 8 * (dark - 40), 2048 + 32 * (pixel / 20), 2000.0, 20.0);
+  }
+  for (int pixel = 0; pixel < 300; ++pixel)
+  {
+    add(500, clip, clip - 10.0, 20.0);
+  }
+  for (int pixel = 0; pixel < 5; ++pixel)
+  {
+    add(500, clip + 96, clip - 4.0, 25.0);
+  }
+  std::vector<std::uint8_t> valid(maps.mean.size());
+  const DnRange             range = SummariseStack(maps, {}, SerialFor, valid.data()).dnRange;
+  ASSERT_TRUE(range.steps.IsCompanded());
+  EXPECT_EQ(range.clipHighDn, clip);
 }

@@ -263,7 +263,41 @@ SetClipLevels(const Extremes & extremes, double step, double top, const DnSettin
   range.SetClipSources(lowSource, highSource);
 }
 
+/** Sets the quantization step of \a range, given or found, and returns the spacing of the digital numbers \a valuesDn
+ * [DN]. */
+double
+SetStep(const std::vector<std::int32_t> & valuesDn,
+        const DnHistogram &               minima,
+        const DnHistogram &               maxima,
+        const DnSettings &                settings,
+        DnRange &                         range)
+{
+  range.quantisationStepDn = FindQuantisationStep(valuesDn, range.isRegular);
+  if (settings.quantisationStepDn)
+  {
+    range.quantisationStepDn = *settings.quantisationStepDn;
+  }
+  else
+  {
+    range.steps = FindLocalSteps(WithCounts(valuesDn, minima, maxima));
+  }
+  if (!range.steps.IsCompanded())
+  {
+    return range.quantisationStepDn > 0.0 ? range.quantisationStepDn : 1.0;
+  }
+  range.isRegular = true;
+  range.quantisationStepDn = range.steps.GetTable().front().stepDn;
+  return CommonDivisor(valuesDn);
+}
+
 } // namespace
+
+double
+FindSpacingDn(const DnHistogram & minima, const DnHistogram & maxima, const DnSettings & settings)
+{
+  DnRange range;
+  return SetStep(OccupiedDn(minima, maxima), minima, maxima, settings, range);
+}
 
 DnRange
 FindDnRange(const DnHistogram &   minima,
@@ -277,23 +311,8 @@ FindDnRange(const DnHistogram &   minima,
   {
     throw std::invalid_argument("the stack holds no pixel");
   }
-  DnRange range;
-  range.quantisationStepDn = FindQuantisationStep(valuesDn, range.isRegular);
-  if (settings.quantisationStepDn)
-  {
-    range.quantisationStepDn = *settings.quantisationStepDn;
-  }
-  else
-  {
-    range.steps = FindLocalSteps(WithCounts(valuesDn, minima, maxima));
-  }
-  double step = range.quantisationStepDn > 0.0 ? range.quantisationStepDn : 1.0;
-  if (range.steps.IsCompanded())
-  {
-    step = CommonDivisor(valuesDn);
-    range.isRegular = true;
-    range.quantisationStepDn = range.steps.GetTable().front().stepDn;
-  }
+  DnRange        range;
+  const double   step = SetStep(valuesDn, minima, maxima, settings, range);
   const double   top = SetBitDepth(valuesDn.back(), step, settings, range);
   const Extremes extremes{ minima,
                            maxima,

@@ -158,10 +158,11 @@ FindDnRangeOfIntegers(const TemporalMaps<TPixel> & maps, const DnSettings & sett
         extremes.Add(isHigh == 1 ? maps.GetMaximum(p) : maps.GetMinimum(p));
       }
     }
+  });
+  const double spacingDn = FindSpacingDn(minima, maxima, settings);
+  ForAll(2, parallelFor, [&](std::size_t isHigh) {
     const auto   end = isHigh == 1 ? OutermostLevels::End::High : OutermostLevels::End::Low;
-    bool         isRegular = true;
-    const double step = settings.quantisationStepDn.value_or(FindQuantisationStep(extremes.Occupied(), isRegular));
-    const double level = FindEndOfDnRange(extremes, isHigh == 1, step);
+    const double level = FindEndOfDnRange(isHigh == 1 ? maxima : minima, isHigh == 1, spacingDn);
     (isHigh == 1 ? depths.high : depths.low) = MedianDepth(maps, end, { isHigh == 1 ? level : -level, 0 });
   });
   DnRange dnRange = FindDnRange(minima, maxima, TypicalVariance(maps), settings, depths);

@@ -190,6 +190,12 @@ struct DnCount
 SensorNoise_EXPORT QuantisationSteps
 FindLocalSteps(const std::vector<DnCount> & counts);
 
+/** Returns the spacing of the digital numbers of a stack, by which FindDnRange() finds their ends [DN]: the
+ * quantization step, or the greatest common divisor of the distances of companded numbers. Both histograms together
+ * determine it. */
+SensorNoise_EXPORT double
+FindSpacingDn(const DnHistogram & minima, const DnHistogram & maxima, const DnSettings & settings);
+
 /** Returns the outermost digital number of \a extremes that is not due to stray pixels [DN].
  *
  * This is the highest or the lowest digital number, unless only few pixels lie beyond a saturation level, see
