@@ -340,3 +340,32 @@ TEST(SensorNoiseStackMaps, TheDepthOfCompandedDataIsTakenAtTheEndOfBothHistogram
   ASSERT_TRUE(range.steps.IsCompanded());
   EXPECT_EQ(range.clipHighDn, clip);
 }
+
+TEST(SensorNoiseStackMaps, AValueThatMovesTheMeansOfNeighboursIsReplaced)
+{
+  const auto mapsOf = [](const Stack<float> & stack) {
+    StackMoments<float> sums(Width * Height, Frames);
+    sums.AddFrames(stack.Frame(0), 0, Frames, SerialFor);
+    return MakeStackMaps<float>(sums.Take(), {}, SerialFor, {}, Width);
+  };
+  Stack<float> stack = StackBetween(std::nullopt, std::nullopt).Map<float>([](double value) { return 1.003 * value; });
+  const StackMaps   expected = mapsOf(stack);
+  const std::size_t p = 40 * Width + 57;
+  for (const float spike : { 1e5F, -1e12F, 1e30F })
+  {
+    Stack<float> with = stack;
+    with.pixels[5 * Width * Height + p] = spike;
+    const StackMaps found = mapsOf(with);
+    EXPECT_TRUE(std::isnan(found.variance[p])) << spike;
+    EXPECT_NEAR(found.mean[p], expected.mean[p], 200.0) << spike;
+    EXPECT_EQ(found.valid, expected.valid) << spike;
+    EXPECT_EQ(found.mean[p + 1], expected.mean[p + 1]) << spike;
+  }
+  // A flash changes all pixels of a frame.
+  for (std::size_t i = 0; i < Width * Height; ++i)
+  {
+    stack.pixels[5 * Width * Height + i] *= 1e4F;
+  }
+  const StackMaps flash = mapsOf(stack);
+  EXPECT_EQ(std::count_if(flash.variance.begin(), flash.variance.end(), [](double v) { return std::isnan(v); }), 0);
+}

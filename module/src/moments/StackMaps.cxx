@@ -12,6 +12,7 @@
 #include "moments/TemporalMoments.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -327,19 +328,127 @@ SummariseStack(const TemporalMaps<TPixel> & maps,
   return summary;
 }
 
+namespace
+{
+/** Pixels around a pixel of \a maps, which is not at the border. */
+template <typename TPixel>
+class Surroundings
+{
+public:
+  Surroundings(const TemporalMaps<TPixel> & maps, std::size_t width, std::size_t p)
+    : m_Maps(maps)
+  {
+    std::size_t i = 0;
+    for (const std::size_t row : { p - width, p, p + width })
+    {
+      for (const std::size_t own : { row - 1, row, row + 1 })
+      {
+        if (own != p)
+        {
+          m_Pixels[i++] = own;
+        }
+      }
+    }
+  }
+
+  /** Returns the median of a number of the pixels, of the finite ones; NaN: none is finite. */
+  template <typename TNumberOf>
+  double
+  MedianOf(TNumberOf numberOf) const
+  {
+    std::vector<double> numbers;
+    for (const std::size_t p : m_Pixels)
+    {
+      if (m_Maps.IsFinite(p))
+      {
+        numbers.push_back(numberOf(p));
+      }
+    }
+    return numbers.empty() ? std::numeric_limits<double>::quiet_NaN() : Quantile(numbers, 0.5);
+  }
+
+private:
+  const TemporalMaps<TPixel> & m_Maps;
+  std::array<std::size_t, 8>   m_Pixels{};
+};
+
+/** Returns whether one value of pixel \a p moves the means of the neighbours by more than their noise, see
+ * MakeStackMaps(). \a frames is 3 or more. */
+template <typename TPixel>
+bool
+MovesNeighbours(const TemporalMaps<TPixel> & maps, double frames, std::size_t width, std::size_t p)
+{
+  const double above = maps.GetMaximum(p) - maps.mean[p];
+  const double below = maps.mean[p] - maps.GetMinimum(p);
+  const bool   isHigh = above > below;
+  const double distance = std::max(above, below);
+  // An eighth of the mean of the pixel is in the mean of its neighbour.
+  const double noise = distance / (8.0 * frames);
+  const double others = (frames - 1.0) * maps.variance[p] - distance * distance * frames / (frames - 1.0);
+  if (!(noise * noise * (frames - 2.0) > others))
+  {
+    return false;
+  }
+  const Surroundings<TPixel> around(maps, width, p);
+  const double               varianceOfThese = around.MedianOf([&](std::size_t q) { return maps.variance[q]; });
+  const double               extremeOfThese =
+    around.MedianOf([&](std::size_t q) { return isHigh ? maps.GetMaximum(q) : -maps.GetMinimum(q); });
+  const double beyond = (isHigh ? maps.GetMaximum(p) : -maps.GetMinimum(p)) - extremeOfThese;
+  return noise * noise > varianceOfThese && beyond > 8.0 * frames * std::sqrt(varianceOfThese);
+}
+
+/** Takes the pixels that are not measured out of the means, see MakeStackMaps(). */
+template <typename TPixel>
+void
+ReplaceSpikes(TemporalMaps<TPixel> & maps, std::size_t frames, std::size_t width, const ParallelFor & parallelFor)
+{
+  const std::size_t height = width > 0 ? maps.GetNumberOfPixels() / width : 0;
+  if (frames < 3 || height < 3)
+  {
+    return;
+  }
+  std::vector<std::vector<std::pair<std::size_t, double>>> ofRows(height); // pixels, and the means of their neighbours
+  parallelFor(height - 2, [&](std::size_t inner) {
+    const std::size_t y = inner + 1;
+    for (std::size_t p = y * width + 1; p + 1 < (y + 1) * width; ++p)
+    {
+      if (maps.IsFinite(p) && MovesNeighbours(maps, static_cast<double>(frames), width, p))
+      {
+        const Surroundings<TPixel> around(maps, width, p);
+        ofRows[y].emplace_back(p, around.MedianOf([&](std::size_t q) { return maps.mean[q]; }));
+      }
+    }
+  });
+  for (const auto & row : ofRows)
+  {
+    for (const auto & [p, mean] : row)
+    {
+      maps.mean[p] = mean;
+      maps.variance[p] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+}
+} // namespace
+
 template <typename TPixel>
 StackMaps
 MakeStackMaps(TemporalMoments<TPixel>           moments,
               const DnSettings &                settings,
               const ParallelFor &               parallelFor,
-              const std::vector<std::uint8_t> & mask)
+              const std::vector<std::uint8_t> & mask,
+              std::size_t                       width)
 {
+  const std::size_t    frames = moments.GetNumberOfFrames();
   TemporalMaps<TPixel> ofStack = moments.TakeMaps(parallelFor);
   StackMaps            maps;
   const bool           hasMeasured = std::any_of(mask.begin(), mask.end(), [](std::uint8_t own) { return own != 0; });
   ofStack.mask = hasMeasured ? mask.data() : nullptr; // without any, the report says what the whole frames are
   maps.valid.resize(ofStack.GetNumberOfPixels());
   maps.summary = SummariseStack(ofStack, settings, parallelFor, maps.valid.data());
+  if constexpr (std::is_floating_point_v<TPixel>)
+  {
+    ReplaceSpikes(ofStack, frames, width, parallelFor);
+  }
   maps.mean = std::move(ofStack.mean);
   maps.variance = std::move(ofStack.variance);
   return maps;
@@ -353,7 +462,7 @@ SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 
 #define SensorNoise_INSTANTIATE(TPixel)                        \
   template SensorNoise_EXPORT StackMaps MakeStackMaps<TPixel>( \
-    TemporalMoments<TPixel>, const DnSettings &, const ParallelFor &, const std::vector<std::uint8_t> &)
+    TemporalMoments<TPixel>, const DnSettings &, const ParallelFor &, const std::vector<std::uint8_t> &, std::size_t)
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 #undef SensorNoise_INSTANTIATE
 

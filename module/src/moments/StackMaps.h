@@ -265,13 +265,20 @@ struct StackMaps
 };
 
 /** Makes the maps from the moments, which are consumed: mean and variance take the memory of the sums. The pixels
- * that are 0 in \a mask have no influence on digital numbers, clip levels and counts; empty: all pixels have. */
+ * that are 0 in \a mask have no influence on digital numbers, clip levels and counts; empty: all pixels have.
+ *
+ * A floating-point number may have any size, and one value of one pixel may move the means of the neighbours by more
+ * than their noise. Such a pixel has the median of the means of its neighbours, and the variance NaN: it is not
+ * measured, and the others are measured as if it were one of them. The value lies far beyond all others of the pixel,
+ * and of the neighbours: with another illumination of the frame they would have such values, too. \a width is the
+ * number of columns of a frame; 0: all pixels keep their mean. */
 template <typename TPixel>
 SensorNoise_EXPORT StackMaps
 MakeStackMaps(TemporalMoments<TPixel>           moments,
               const DnSettings &                settings,
               const ParallelFor &               parallelFor,
-              const std::vector<std::uint8_t> & mask = {});
+              const std::vector<std::uint8_t> & mask = {},
+              std::size_t                       width = 0);
 
 /** Returns whether the values of a stack are counts, so that 0 means no event and not a clip level.
  *

@@ -256,7 +256,8 @@ template <typename TPixel>
 void
 RefinedPasses<TPixel>::EndMoments()
 {
-  StackMaps maps = MakeStackMaps<TPixel>(m_Moments.Take(), m_Settings.dnSettings, m_ParallelFor, m_UserMask);
+  StackMaps maps =
+    MakeStackMaps<TPixel>(m_Moments.Take(), m_Settings.dnSettings, m_ParallelFor, m_UserMask, m_Geometry.width);
   const std::vector<double> levels = m_Distinct.OfDistinct(m_Moments.GetFrameMeans());
   m_ExposureFit = FitExposures(m_Settings.exposures, m_Thumbnails, m_Distinct.Counted(), maps);
   const bool isStrong = m_Thumbnails.FindIlluminationChange(m_Distinct.Counted()) > InMoments.strongIlluminationChange;

@@ -36,6 +36,10 @@ UseOf(const ReferenceFrame & frame, const std::vector<std::uint8_t> & valid, std
   {
     return std::isfinite(frame.variance[p]) ? PixelUse::Clipped : PixelUse::NotFinite;
   }
+  if (std::isnan(frame.variance[p]))
+  {
+    return PixelUse::Outlier;
+  }
   if (!(frame.variance[p] > 0.0))
   {
     return PixelUse::Constant;
