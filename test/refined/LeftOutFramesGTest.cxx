@@ -61,6 +61,18 @@ WithFramesOfAnotherGain(const Stack<GreyValue> & stack)
                   { std::size_t{ 20 }, OfAnotherGain(more, stack.frames + 2, 1.5, OffsetDn) } });
 }
 
+/** Returns a stack in which each frame is followed by a frame that equals it. */
+Stack<GreyValue>
+ShowTwice(const Stack<GreyValue> & stack)
+{
+  Shown shown;
+  for (std::size_t t = 0; t < stack.frames; ++t)
+  {
+    shown.insert(shown.end(), { t, t });
+  }
+  return Show(stack, shown);
+}
+
 /** Runs one pass in two processes that read alternate frames. */
 void
 RunSharedPass(RefinedMethod<GreyValue> & one, RefinedMethod<GreyValue> & two, const Stack<GreyValue> & stack)
@@ -283,11 +295,20 @@ TEST(SensorNoiseLeftOutFrames, OfAnotherGainInSeveralProcessesAreThoseOfOne)
   EXPECT_EQ(ToJson(two.GetReport()), ToJson(whole.GetReport()));
 }
 
+TEST(SensorNoiseLeftOutFrames, OfAnotherGainAreLeftOutWithTheFramesThatEqualThem)
+{
+  const auto   unlike = WithFramesOfAnotherGain(NoisyStack(40));
+  const Report report = Measure(ShowTwice(unlike), RefinedSettings()).GetReport();
+  EXPECT_EQ(NamesOf(report.framesLeftOut),
+            "8 other-noise; 9 other-noise; 18 other-noise; 19 other-noise; 40 other-noise; 41 other-noise; ");
+  EXPECT_EQ(report.framesDistinct, 40U);
+}
+
 namespace
 {
-/** Returns the report of a stack in which \a count frames, one in \a every, have another gain. */
-Report
-ReportOfMixed(Stack<GreyValue> stack, std::size_t every, std::size_t count, double gain)
+/** Returns a stack in which \a count frames, one in \a every, have another gain. */
+Stack<GreyValue>
+Mix(Stack<GreyValue> stack, std::size_t every, std::size_t count, double gain)
 {
   for (std::size_t k = 0; k < count; ++k)
   {
@@ -295,9 +316,27 @@ ReportOfMixed(Stack<GreyValue> stack, std::size_t every, std::size_t count, doub
     const auto        frame = OfAnotherGain(stack, t, gain, OffsetDn);
     std::copy(frame.begin(), frame.end(), stack.pixels.begin() + static_cast<std::ptrdiff_t>(t * frame.size()));
   }
-  return Measure(stack, RefinedSettings()).GetReport();
+  return stack;
+}
+
+Report
+ReportOfMixed(const Stack<GreyValue> & stack, std::size_t every, std::size_t count, double gain)
+{
+  return Measure(Mix(stack, every, count, gain), RefinedSettings()).GetReport();
 }
 } // namespace
+
+TEST(SensorNoiseLeftOutFrames, AreAsManyAsWithoutTheFramesThatEqualOthers)
+{
+  for (const std::size_t count : { 9, 12, 17 })
+  {
+    const auto   mixed = Mix(NoisyStack(40), 2, count, 2.0);
+    const Report once = Measure(mixed, RefinedSettings()).GetReport();
+    const Report twice = Measure(ShowTwice(mixed), RefinedSettings()).GetReport();
+    EXPECT_EQ(twice.framesLeftOut.size(), 2 * once.framesLeftOut.size()) << count;
+    EXPECT_EQ(twice.gain.value, once.gain.value) << count;
+  }
+}
 
 TEST(SensorNoiseLeftOutFrames, OfSeveralGainsInHalfOfTheStackGiveNoGain)
 {

@@ -177,6 +177,27 @@ StackPasses<TPixel>::MergeSums(std::istream & in)
   m_InPass.Merge(frames);
 }
 
+namespace
+{
+/** Returns the frames \a originals and all frames that equal them, ascending. */
+std::vector<LeftOutFrame>
+WithRepeated(const std::vector<LeftOutFrame> & originals, const DistinctFrames & distinct)
+{
+  std::vector<LeftOutFrame> all;
+  for (std::size_t t = 0; t < distinct.Given(); ++t)
+  {
+    const auto found = std::find_if(originals.begin(), originals.end(), [&](const LeftOutFrame & each) {
+      return each.frame == distinct.OriginalOf(t);
+    });
+    if (found != originals.end())
+    {
+      all.push_back({ t, found->fault });
+    }
+  }
+  return all;
+}
+} // namespace
+
 template <typename TPixel>
 std::vector<LeftOutFrame>
 StackPasses<TPixel>::FindUnlike() const
@@ -185,18 +206,11 @@ StackPasses<TPixel>::FindUnlike() const
   const DistinctFrames           distinct = m_Moments.FindDistinct();
   const std::vector<std::size_t> counted = distinct.Counted();
   std::vector<LeftOutFrame>      unlike = FindUnlikeFrames(m_Thumbnails.Of(counted));
-  std::vector<LeftOutFrame>      given;
-  for (std::size_t t = 0; t < m_Frames; ++t)
+  for (LeftOutFrame & each : unlike)
   {
-    const auto found = std::find_if(unlike.begin(), unlike.end(), [&](const LeftOutFrame & each) {
-      return counted[each.frame] == distinct.OriginalOf(t);
-    });
-    if (found != unlike.end())
-    {
-      given.push_back({ t, found->fault });
-    }
+    each.frame = counted[each.frame];
   }
-  return given;
+  return WithRepeated(unlike, distinct);
 }
 
 template <typename TPixel>
@@ -240,12 +254,20 @@ StackPasses<TPixel>::RestartWithoutFrames(const std::vector<std::size_t> & place
   std::transform(places.begin(), places.end(), std::back_inserter(found), [&](std::size_t place) {
     return LeftOutFrame{ counted[place], fault };
   });
-  const std::vector<LeftOutFrame> all = JoinUnlikeFrames({ this->GetLeftOut(), found }, m_Frames, largestFraction);
+  // Equal frames count as one, here as in FindUnlike().
+  std::vector<LeftOutFrame> before = this->GetLeftOut();
+  before.erase(
+    std::remove_if(before.begin(),
+                   before.end(),
+                   [this](const LeftOutFrame & each) { return m_Distinct.OriginalOf(each.frame) != each.frame; }),
+    before.end());
+  const std::size_t               originals = m_Distinct.Given() - m_Distinct.Repeated();
+  const std::vector<LeftOutFrame> all = JoinUnlikeFrames({ before, found }, originals, largestFraction);
   if (found.empty() || all.empty())
   {
     return false;
   }
-  m_LeftOut = all;
+  m_LeftOut = WithRepeated(all, m_Distinct);
   m_Distinct = m_Distinct.Without(NumbersOf(found));
   m_IsOfMoments = true;
   this->RestartMoments();
