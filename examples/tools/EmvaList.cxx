@@ -176,6 +176,10 @@ public:
                       "files, and optionally photons and kind. There is no column \"" +
                       name.substr(0, 40) + "\"");
       }
+      if (isExposure && !m_Exposure.empty())
+      {
+        header.Refuse("one column of exposures; there are \"" + m_Exposure + "\" and \"" + name + "\"");
+      }
       m_Exposure = isExposure ? name : m_Exposure;
     }
     if (m_Exposure.empty() || std::find(m_Columns.begin(), m_Columns.end(), "files") == m_Columns.end())

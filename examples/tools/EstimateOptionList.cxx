@@ -181,7 +181,9 @@ AddOutputOptions(CLI::App & app, EstimateOptions & options)
           options.maps,
           "FOLDER",
           "folder for mean, variance, corrected variance and pixel use (.mha); from two dark frames on also the "
-          "pixels' offset and read noise, with the ends of their 95 % intervals")
+          "pixels' offset and read noise, with the ends of their 95 % intervals. Without them, the maps of dark frames "
+          "that an "
+          "earlier estimate wrote into the folder are removed")
     ->group("Output");
   app
     .add_flag(

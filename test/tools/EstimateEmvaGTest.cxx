@@ -289,6 +289,8 @@ TEST_F(EstimateEmvaTool, RefusesListsThatAreNone)
   Refuses("missing.csv" + method, { "missing.csv cannot be read" });
   Refuses(WriteText("list.csv", "time,files\n1,a.tif\n") + method, { "line 1", "time", "exposure" });
   Refuses(WriteText("list.csv", "exposure,photons\n1,2\n") + method, { "line 1", "files" });
+  Refuses(WriteText("list.csv", "exposure_ms,exposure_s,files\n1,2,a.tif\n") + method,
+          { "line 1", "expected one column of exposures", "\"exposure_ms\" and \"exposure_s\"" });
   Refuses(WriteText("list.csv", "exposure,files\n1\n") + method, { "line 2", "2 columns", "there are 1" });
   Refuses(WriteText("list.csv", "exposure,files\n-1,a.tif\n") + method, { "line 2", "\"-1\"" });
   for (const std::string number : { "inf", "1e400", "nan" })

@@ -124,6 +124,7 @@ TEST_F(ExportToolTest, WritesTheMapsOfAFolderIntoAFolder)
 TEST_F(ExportToolTest, RefusesWithASentence)
 {
   IsRefusedBy("report.json --format dng", { "report.json", "no white level", "--white" }, 3);
+  IsRefusedBy("report.json --format fits --channel G1", { "no channel G1 (--channel)", "it has mono" }, 2);
   IsRefusedBy("report.json --format moon", { "moon", "expected one of dng" }, 2);
   IsRefusedBy("report.json --format libcamera --analogue-gain 0", { "analogue gain is 0", "above 0" }, 2);
   IsRefusedBy("report.json --format dng --black nan", { "black or white level is nan", "finite" }, 2);

@@ -128,7 +128,7 @@ ChooseChannel(const std::string & wanted, CameraNoise & noise)
                  channels.end());
   if (channels.empty())
   {
-    throw ExportError("the report " + noise.name + " has no channel " + wanted + "; it has " + found);
+    throw ExportUseError("the report " + noise.name + " has no channel " + wanted + " (--channel); it has " + found);
   }
 }
 
