@@ -47,7 +47,7 @@ MakeLine()
   VarianceLine line;
   line.gain = 0.4;
   line.intercept = 100.0 - 0.4 * BlackDn;
-  line.lowestDn2 = InPixels.lowestFraction * 108.0;
+  line.lowestDn2 = InCommon.lowestFraction * 108.0;
   line.pivotDn = BlackDn + 520.0;
   line.weightSum = 1.0;
   line.spreadDn2 = 1e6 / 12.0;

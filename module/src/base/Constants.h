@@ -3,6 +3,8 @@
 #ifndef sensornoise_base_Constants_h
 #define sensornoise_base_Constants_h
 
+#include <cstddef>
+
 /** \def SENSORNOISE_CONSTANT
  * Precedes a struct of the numbers of the methods, which is a constant. With SENSORNOISE_VARY_CONSTANTS it is a
  * variable, which a program may change before a measurement, to study what a number does (measure-varied-cases). */
@@ -43,10 +45,9 @@ inline constexpr double smallestDivisor = 1e-100;
 /** Numbers that several components use. Numbers of one component are in its own Constants.h. */
 struct CommonConstants
 {
-  /** Quantiles of the mean that represent the darkest and the brightest level [1]. Chosen empirically: 130 of 65536
-   * pixels lie beyond either, so that a single defect is not taken for a level. */
+  /** Quantile of the mean that represents the darkest level, and distance of the brightest one from 1 [1]. Chosen
+   * empirically: 130 of 65536 pixels lie beyond either, so that a single defect is not taken for a level. */
   double darkestQuantile{ 0.002 };
-  double brightestQuantile{ 0.998 };
 
   /** Largest relative error of a number that is reported [1]: with a larger error the number is an order of magnitude.
    * Chosen empirically. The error is relative to the expected size, not to the estimate, so that a number is not
@@ -67,6 +68,36 @@ struct CommonConstants
 
   /** Least fraction of its pixels that a tile or cell needs [1]. Chosen empirically. */
   double leastCoveredFraction{ 0.25 };
+
+  /** Largest number of cells of a frame along either axis: a band of a third of the frame is 8 cells wide. Chosen
+   * empirically: with 32 the medians of 32 pixels scatter more, and static cells are lost. With 12 the neighbours of a
+   * moving object's region are half of this band. */
+  std::size_t mostCells{ 24 };
+  /** Least width of such a cell [pixels]. Chosen empirically. */
+  std::size_t leastCellWidth{ 8 };
+  /** Least number of cells that are compared with a mean frame or by their median. Chosen empirically: two parameters
+   * of the mean frame are fitted to them. */
+  std::size_t fewestCells{ 9 };
+
+  /** Approximate number of pixels for what all pixels need not decide. It bounds the time. Chosen empirically: with 100
+   * frames this number determines a variance to 0.05 %, and the smallest effect that is tested is 0.15 %. Half and
+   * twice this number change no gain of 1024 x 1024 pixels by more than 0.05 of its error. */
+  std::size_t pixelsOfSample{ 65536 };
+
+  /** Least number of levels for a line through them: one more than its two parameters. */
+  std::size_t fewestLevels{ 3 };
+
+  /** Number of times that the pixels or frames that do not fit are excluded and the rest is fitted again. Chosen
+   * empirically: the last fit changes the model by less than the weights need, and two are enough for unlike frames of
+   * one kind. */
+  int roundsOfExclusion{ 5 };
+  /** Largest number of times that a line is fitted, each time with the weights or the correction by the line before.
+   * Chosen empirically: the third one changes a gain by less than 1e-4 of its error. */
+  int roundsOfFit{ 4 };
+
+  /** Lower bound of a line or a prediction where it serves as a variance, as a fraction of the variance of the darkest
+   * levels [1]. Chosen empirically: a fit may become negative. */
+  double lowestFraction{ 0.2 };
 
   /** Smallest ratio of a variance to its expectation from the line [1]: a variance is above 0. Chosen empirically. */
   double leastVarianceRatio{ 0.1 };

@@ -191,13 +191,12 @@ struct CorrelationConstants
 
   /** \name Temporal noise correlation */
   ///@{
-  /** Correlation coefficient of frames above which their covariance is summed [1]. Chosen empirically: slow drifts of
-   * a few pixels make 0.003. */
+  /** Correlation coefficient of frames above which their covariance is summed, until the last two lags are below it
+   * [1]. Chosen empirically: slow drifts of a few pixels make 0.003. */
   double leastTimeCoefficient{ 0.005 };
-  /** Coefficient of the last two lags below which the sum ends [1], and largest number of lags [frames]: of a filter
-   * that keeps three quarters of the previous frame, less than 0.5 % remains after 20 frames. */
-  double smallTimeCoefficient{ 0.005 };
-  int    mostTimeLags{ 24 };
+  /** Largest number of lags [frames]: of a filter that keeps three quarters of the previous frame, less than 0.5 %
+   * remains after 20 frames. */
+  int mostTimeLags{ 24 };
   /** Largest misfit of white noise with a tail, over the misfit of white noise alone [1]: recursive filters of first
    * order have 0.00 to 0.05 by the noise of small frames, means over 4 or 5 frames at least 0.18. */
   double largestTailMisfit{ 0.1 };

@@ -49,7 +49,7 @@ EstimateBlackLevel(const CorrelationSettings &       settings,
     return 0.0;
   }
   const double darkest = Quantile(levels, InCommon.darkestQuantile);
-  return ZeroOfSignal(darkest, Quantile(levels, InCommon.brightestQuantile), 0.0);
+  return ZeroOfSignal(darkest, Quantile(levels, 1.0 - InCommon.darkestQuantile), 0.0);
 }
 
 /** Returns the frames of a sample that do not equal an earlier frame. */

@@ -243,7 +243,7 @@ SumOverTime(CorrelationSums & sums, NoiseCorrelation & found)
   const FrameTimes &      times = sums.GetResiduals().GetTimes();
   AutocovarianceFit       fit(basis, sums.TimeLags().size(), times);
   double                  last = 1.0;
-  for (std::size_t known = 0; last > InCorrelation.smallTimeCoefficient && sums.TimeLags().size() > known;)
+  for (std::size_t known = 0; last > InCorrelation.leastTimeCoefficient && sums.TimeLags().size() > known;)
   {
     known = sums.TimeLags().size();
     const AutocovarianceFit withoutTail(basis, known, times);
@@ -260,7 +260,7 @@ SumOverTime(CorrelationSums & sums, NoiseCorrelation & found)
     last = estimate.value(1);
     // The error by the lags beyond: half of what the tail adds, or what lags that decrease as before would add.
     found.beyondTimeLags = fit.HasTail() ? 0.5 * std::abs(estimate.value(2)) : 2.0 * last;
-    if (last > InCorrelation.smallTimeCoefficient)
+    if (last > InCorrelation.leastTimeCoefficient)
     {
       sums.AddTimeLags(std::min(static_cast<int>(known) + 2, InCorrelation.mostTimeLags));
     }

@@ -43,8 +43,6 @@ struct MomentsConstants
 
   /** \name Counts from 0 */
   ///@{
-  /** Approximate number of pixels from which it is decided whether values are counts. It bounds the time. */
-  std::size_t pixelsOfCounts{ 65536 };
   /** Range of the mean in which the ratio of variance to mean is examined [counts]. Below it, rare events dominate the
    * ratio; above it, a flicker of 3 % adds 2 % to the variance. */
   double leastCount{ 0.25 };
@@ -108,9 +106,6 @@ struct MomentsConstants
   /** A pixel that has the same value in all frames is stuck if the probability of this is lower [1]. Chosen
    * empirically: of 10^6 normal pixels one is called stuck. */
   double chanceOfStuck{ 1e-6 };
-  /** Distance of a pixel from the median beyond which the common level excludes it, in units of the distance between
-   * the quantiles 0.16 and 0.84, two standard deviations [1]. Chosen empirically. */
-  double levelReach{ 3.0 };
   /** Least degrees of freedom and number of pixels for the median read noise. Chosen empirically: with fewer frames the
    * deconvolution is biased by more than 1 %. */
   double      leastDofOfMedian{ 5.0 };
@@ -141,8 +136,6 @@ struct MomentsConstants
   /** Largest number of cells of a frame along each axis. Chosen empirically: a motion of a few pixels changes 16 x 16
    * cells little. */
   std::size_t thumbnailCells{ 16 };
-  /** Least number of cells. Chosen empirically: two parameters of the mean frame are fitted to them. */
-  std::size_t fewestThumbnailCells{ 9 };
   /** Fraction of the variance over the cells that the mean frame does not explain, from which the scene changes [1].
    * Chosen empirically: a block that crosses a third of the frame makes 0.06; another axis than time makes 0.33 or
    * more in all scenes tried. */
@@ -170,15 +163,9 @@ struct MomentsConstants
    * Chosen empirically: a vibration along two axes makes exponentially distributed squares, one in 5 10^12 of them so
    * large. */
   double unlikeZ{ 40.0 };
-  /** Number of patterns in which vibration changes the cells of the frames: the first and second derivatives of the
-   * scene [1]. */
-  int modesOfVibration{ 5 };
   /** Least effect of an unlike frame: the variance that it adds to a pixel, relative to the variance of the pixel [1].
    * Chosen for its effect: it changes the gain by a thousandth. */
   double leastUnlikeEffect{ 1e-3 };
-  /** Number of times that the mean is computed again from the frames most similar to it. Chosen empirically: two are
-   * enough if the unlike frames are of one kind. */
-  int roundsOfUnlikeFrames{ 5 };
   ///@}
 
   /** \name Changes of the illumination */
@@ -197,20 +184,14 @@ struct MomentsConstants
    * of a scene of one level changes strongly [1]. The illumination factor is not known without an offset. Chosen so
    * that an illumination steady to 1 % makes no strong change at 100,000 electrons. */
   double strongChangeOfFlat{ 10.0 };
-  /** Standard error of the slope of a frame, in units of that change, below which the cells have contrast [1]. Chosen
-   * so that noise makes no strong change: the change is three standard errors. */
-  double largestSlopeError{ 1.0 / 3.0 };
   ///@}
 
   /** \name Linearity from exposures
    * Estimator.md, 3.8. */
   ///@{
-  /** Signals between which the linearity error is measured, relative to the signal at saturation [1]: EMVA Standard
-   * 1288, Release 4.0 Linear, 6.7. */
+  /** Distance from 0 and from the signal at saturation of the signals between which the linearity error is measured,
+   * relative to the signal at saturation [1]: EMVA Standard 1288, Release 4.0 Linear, 6.7. */
   double linearityRangeLow{ 0.05 };
-  double linearityRangeHigh{ 0.95 };
-  /** Least number of levels in that range for a linearity error: one more than the two parameters of a line. */
-  std::size_t fewestExposureLevels{ 3 };
   /** Quantile of the signal over the cells that is the brightest signal [1], and least signal of the brightest cells
    * relative to it [1]. Chosen empirically: nearly all cells of a flat field are included. In a scene their signals
    * differ by 6 % rms, which changes the curvature of the mean level by 0.4 %. */

@@ -92,8 +92,9 @@ DarkDrift::Start(const TPixel * frame)
   std::vector<double> values = FiniteValues(frame, m_Sample);
   // At least one DN, so that rounding does not reduce the reach to 0.
   const double leastDn = std::is_integral_v<TPixel> ? 1.0 : 0.0;
-  m_ReachDn =
-    values.empty() ? 0.0 : InMoments.levelReach * std::max(leastDn, Quantile(values, 0.84) - Quantile(values, 0.16));
+  m_ReachDn = values.empty()
+                ? 0.0
+                : 0.5 * Significance.everyPixel * std::max(leastDn, Quantile(values, 0.84) - Quantile(values, 0.16));
   const double medianDn = MedianOf(frame);
   for (std::size_t p = 0; p < m_Mask.size(); ++p)
   {
@@ -419,7 +420,7 @@ MeasureDarkFrames(TemporalMoments<TPixel>           moments,
   const double        low = Quantile(levels, 0.16);
   const double        high = Quantile(levels, 0.84);
   const double        median = Quantile(levels, 0.5);
-  const double        reach = InMoments.levelReach * std::max(high - low, maps.stepDn);
+  const double        reach = 0.5 * Significance.everyPixel * std::max(high - low, maps.stepDn);
   const MeanOfPixels  level = MeanWithin(levels, median - reach, median + reach);
   double              spreadDn2 = 0.25 * (high - low) * (high - low);
   double              driftErrorDn = 0.0;

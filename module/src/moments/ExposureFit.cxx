@@ -85,7 +85,7 @@ struct FitRange
   double
   HighestDn(double offsetDn) const
   {
-    return isClipLevel ? offsetDn + InMoments.linearityRangeHigh * (saturationDn - offsetDn) : saturationDn;
+    return isClipLevel ? offsetDn + (1.0 - InMoments.linearityRangeLow) * (saturationDn - offsetDn) : saturationDn;
   }
   bool
   Holds(double meanDn, double offsetDn) const
@@ -339,11 +339,11 @@ FitExposures(const std::vector<ExposureLevel> & levels, const DnRange & dnRange)
                     std::sqrt(std::max({ dark.pixelNoiseDn2 / frames, ofFrames / frames, dark.patternDn2 })) };
   }
   const Levels within = FindLevels(bright, range, darkDn);
-  if (within.size() < InMoments.fewestExposureLevels)
+  if (within.size() < InCommon.fewestLevels)
   {
     fit.reason = "only " + std::to_string(within.size()) + " of " + std::to_string(levels.size()) +
                  " exposures have a level between " + Text(100.0 * InMoments.linearityRangeLow) + " % and " +
-                 Text(100.0 * InMoments.linearityRangeHigh) + " % of saturation (" + Text(fit.saturationDn) +
+                 Text(100.0 * (1.0 - InMoments.linearityRangeLow)) + " % of saturation (" + Text(fit.saturationDn) +
                  " DN); 3 are needed. Record further exposures between these levels.";
     return fit;
   }

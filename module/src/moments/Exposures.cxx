@@ -165,7 +165,7 @@ ValidateExposures(const std::vector<double> & exposures)
     }
   }
   const std::set<double> different(exposures.begin(), exposures.end());
-  if (!exposures.empty() && different.size() < InMoments.fewestExposureLevels)
+  if (!exposures.empty() && different.size() < InCommon.fewestLevels)
   {
     throw std::invalid_argument("the exposures have " + std::to_string(different.size()) +
                                 (different.size() == 1 ? " value" : " different values") +

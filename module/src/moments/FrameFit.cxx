@@ -125,7 +125,7 @@ ComputeIlluminationChange(const std::vector<double> &              mean,
   }
   // The differences from the mean frame have the mean 0 over all frames.
   const auto dof = static_cast<double>(frames.size() - 1);
-  const bool hasContrast = Quantile(errors, 0.5) < InMoments.largestSlopeError * InMoments.strongIlluminationChange;
+  const bool hasContrast = Quantile(errors, 0.5) < InMoments.strongIlluminationChange / Significance.oneTest;
   if (hasContrast)
   {
     const double ofOneFrame = InMoments.strongIlluminationChange * largest / InMoments.strongChangeOfOneFrame;

@@ -301,7 +301,7 @@ FrameThumbnails::FindMeanFrame(const std::vector<std::size_t> & frames) const
       mean.means.push_back(sum / static_cast<double>(frames.size()));
     }
   }
-  return frames.size() < MinimumFrames || mean.cells.size() < InMoments.fewestThumbnailCells ? MeanFrame() : mean;
+  return frames.size() < MinimumFrames || mean.cells.size() < InCommon.fewestCells ? MeanFrame() : mean;
 }
 
 std::vector<double>

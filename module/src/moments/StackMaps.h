@@ -295,7 +295,7 @@ AreCountsFromZero(const TemporalMaps<TPixel> & maps, double stepDn)
   std::array<double, groups> variance{};
   std::array<double, groups> squares{}; // sum of the squared variances
   std::array<double, groups> pixels{};
-  const std::size_t          stride = std::max<std::size_t>(1, maps.GetNumberOfPixels() / InMoments.pixelsOfCounts);
+  const std::size_t          stride = std::max<std::size_t>(1, maps.GetNumberOfPixels() / InCommon.pixelsOfSample);
   for (std::size_t p = 0; p < maps.GetNumberOfPixels(); p += stride)
   {
     const double steps = maps.mean[p] / stepDn;

@@ -4,6 +4,7 @@
 
 #include "base/Eigen.h"
 #include "base/Quantiles.h"
+#include "base/Stencils.h"
 #include "moments/Constants.h"
 #include "moments/StackFrames.h"
 
@@ -239,7 +240,7 @@ WithoutLargerVibration(const Eigen::MatrixXd & deviations, const Indices & kept,
   {
     gram.selfadjointView<Eigen::Lower>().rankUpdate(deviations.row(k).transpose());
   }
-  const auto modes = std::min<Eigen::Index>(InMoments.modesOfVibration, static_cast<Eigen::Index>(others.size()) / 4);
+  const auto            modes = std::min<Eigen::Index>(StencilXXX, static_cast<Eigen::Index>(others.size()) / 4);
   const Eigen::MatrixXd vectors = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram).eigenvectors().rightCols(modes);
   Indices               rest;
   for (std::size_t k = 0; k < kept.size(); ++k)
@@ -261,7 +262,7 @@ FindOtherShapes(const FrameThumbnails & thumbnails, const Indices & cells, const
   std::vector<double> mean = MeanOfFrames(thumbnails, cells, kept);
   MeanSquares         meanSquares = FindMeanSquares(thumbnails, cells, kept, mean);
   std::vector<double> unlike = DeviationsFromOthers(meanSquares, cells.size());
-  for (int round = 0; round < InMoments.roundsOfUnlikeFrames; ++round)
+  for (int round = 0; round < InCommon.roundsOfExclusion; ++round)
   {
     // Mean of the frames that are most alike: as many frames as may be left out are excluded.
     const double edge = QuantileOf(unlike, 1.0 - InMoments.largestLeftOutFraction);
@@ -336,7 +337,7 @@ FindUnlikeFrames(const FrameThumbnails & thumbnails)
 {
   const std::size_t frames = thumbnails.NumberOfFrames();
   const Indices     cells = FindUsableCells(thumbnails);
-  if (frames <= MinimumFrames || cells.size() < InMoments.fewestThumbnailCells)
+  if (frames <= MinimumFrames || cells.size() < InCommon.fewestCells)
   {
     return {};
   }
@@ -345,7 +346,7 @@ FindUnlikeFrames(const FrameThumbnails & thumbnails)
   {
     const Indices kept = FramesWithout(faults, frames);
     const Indices finite = FiniteCells(thumbnails, cells, kept);
-    const bool    areEnough = finite.size() >= InMoments.fewestThumbnailCells;
+    const bool    areEnough = finite.size() >= InCommon.fewestCells;
     for (const std::size_t t : areEnough ? FindOtherShapes(thumbnails, finite, kept) : Indices())
     {
       faults.emplace(t, FrameFault::OtherShape);

@@ -62,8 +62,9 @@ struct PixelsConstants
 
   /** \name The first line */
   ///@{
-  /** Number of bins of the square root of the signal, and the pixels that a bin must have to count. Chosen empirically:
-   * an extrapolation by a factor of 2 or more is detected, and the median of 50 variances is known to 4 %. */
+  /** Number of bins of the square root of the signal, or of levels of the rejection model, and the pixels that a bin
+   * must have to count. Chosen empirically: an extrapolation by a factor of 2 or more is detected, and the median of 50
+   * variances is known to 4 %. */
   std::size_t levelBins{ 16 };
   std::size_t leastPixelsOfLevel{ 50 };
   /** Fraction of the bright pixels that must be near a line through dark and bright pixels [1]. Chosen empirically: in
@@ -73,19 +74,19 @@ struct PixelsConstants
 
   /** \name The rejection model */
   ///@{
-  /** Side of a tile [pixel], and the pixels of a tile that must count. Chosen empirically: the mean of a tile is known
-   * to 2 %, and its pixels are of about one level. */
-  static constexpr std::size_t rejectionTileSide{ 16 }; // a constant expression: the size of arrays
-  double                       leastPixelsOfRejectionTile{ 64.0 };
+  /** Side of a tile [pixel], also for the fixed pattern of large frames. Chosen empirically: the mean of a tile is
+   * known to 2 %, and its pixels are of about one level. With a side of 8 in large frames, the flattest tiles are those
+   * whose few columns are alike by chance. */
+  static constexpr std::size_t tileSide{ 16 }; // a constant expression: the size of arrays
   /** Number of tiles that suffice. Every second tile is used if there are twice as many or more, every third if there
    * are three times as many, and so on. Chosen empirically: the medians at 16 levels are known to 0.2 %. Half and twice
    * this number change no gain of 1024 x 1024 pixels by more than 0.05 of its error. */
   std::size_t enoughRejectionTiles{ 1024 };
-  /** Largest number of levels, and smallest number of tiles at each level. Chosen empirically. */
-  std::size_t mostRejectionLevels{ 16 };
+  /** Smallest number of tiles at each level. Chosen empirically. */
   std::size_t tilesPerLevel{ 8 };
-  /** Deviation from the line beyond chance above which it counts [1]. Chosen empirically: neighbourhoods are rejected
-   * from 4 % on, and half of this deviation is within the noise of frames of 128 x 128 pixels. */
+  /** Deviation of the variance from its line, beyond chance, above which it counts and is reported [1]. Chosen
+   * empirically: it changes the gain by about half of it. Neighbourhoods are rejected from 4 % on, and half of this
+   * deviation is within the noise of frames of 128 x 128 pixels. */
   double leastDeviation{ 0.01 };
   /** The darkest tiles, one in this number, give the dispersion of the noise from pixel to pixel. Chosen
    * empirically. */
@@ -100,9 +101,6 @@ struct PixelsConstants
   ///@{
   /** Probability of each trimmed tail of chi-square where pixels are tested [1]. Chosen empirically. */
   double trimTail{ 1e-4 };
-  /** Lower limit of the line where it serves as a variance, as a fraction of the smallest median of a bin [1]. Chosen
-   * empirically. */
-  double lowestFraction{ 0.2 };
   /** Fraction of the variance of the neighbours' means that must be common to the pixels' own, for these means to be
    * the instrument of the line that pixels are tested against [1]. Chosen empirically: where the rest is larger, most
    * is fixed-pattern noise, and both lines are imprecise. */
@@ -110,11 +108,6 @@ struct PixelsConstants
   /** Smallest number of pixels of a bin of the first line, and of a fit. Chosen empirically. */
   double      fewestPixelsOfBin{ 5.0 };
   std::size_t fewestPixelsOfFit{ 10 };
-  /** Number of pixels, or up to twice as many, for the line that pixels are tested against and for the start of the fit
-   * of all pixels. Chosen empirically: with 100 frames this number determines a variance to 0.05 %, and the smallest
-   * effect that is tested is 0.15 %. Half and twice this number change no gain of 1024 x 1024 pixels by more than 0.05
-   * of its error. */
-  std::size_t pixelsOfRoughLine{ 65536 };
   /** Iterations from the line of these pixels to the line of all pixels (estimator.md, 3.6). One iteration leaves 0.2
    * errors of the gain with 1 % noisy pixels, elsewhere 1e-4; four leave 5e-5. */
   int stepsFromRoughLine{ 2 };
@@ -127,10 +120,8 @@ struct PixelsConstants
   /** The fewest frames that together carry this fraction of the illumination are named as the reason of a failed
    * estimate [1]. Chosen empirically. */
   double fractionOfFewFrames{ 0.9 };
-  /** Largest number of times that the line is fitted and its gain corrected, and the relative change of the gain that
-   * ends the iteration [1]. Chosen empirically: the solution is exact but for weights and outliers, which change once
-   * or twice. */
-  int    fixedPointRounds{ 4 };
+  /** Relative change of the gain that ends the iteration of fits and corrections [1]. Chosen empirically: the solution
+   * is exact but for weights and outliers, which change once or twice. */
   double fixedPointChange{ 1e-4 };
   /** Determinant of a line's normal equations, relative to the product of their diagonal, up to which all levels are
    * equal but for rounding [1]. */
@@ -141,10 +132,6 @@ struct PixelsConstants
   /** Dispersion of the pixels' noise variances, relative to their sampling variance, below which the weights neglect it
    * [1]. Chosen empirically: at the limit equal weights cost 0.3 % of the precision. */
   double leastNoiseDispersion{ 0.1 };
-  /** Largest number of cells along either axis whose deviations from the line may be alike, and their least side
-   * [pixel]. Chosen empirically: stars have 3 to 8 pixels across, and 576 cells determine a variance to 6 %. */
-  std::size_t mostScoreCells{ 24 };
-  std::size_t leastScoreCell{ 8 };
   /** Largest error by fixed-pattern noise that is neglected, in standard errors [1]. Chosen empirically: it adds 3 % to
    * the error. */
   double negligiblePattern{ 0.25 };
@@ -168,12 +155,10 @@ SENSORNOISE_CONSTANT PixelsConstants InPixels;
 /** Constants of the component `pixels` for fixed-pattern noise and local illumination. Estimator.md, 3.7. */
 struct PatternConstants
 {
-  /** Side of a tile in large and in small frames [pixel], and the pixels of a large frame. Many columns are needed to
-   * measure a pattern of columns, but a small frame may have no large flat tile. Chosen empirically: with a side of 8
-   * in large frames, the flattest tiles are those whose few columns are alike by chance. */
-  static constexpr std::size_t squareSide{ 16 }; // a constant expression: the size of arrays
-  std::size_t                  smallTileSide{ 8 };
-  std::size_t                  largeFramePixels{ 16384 };
+  /** Side of a tile in small frames [pixel], and the pixels of a large frame. Many columns are needed to measure a
+   * pattern of columns, but a small frame may have no large flat tile. Chosen empirically. */
+  std::size_t smallTileSide{ 8 };
+  std::size_t largeFramePixels{ 16384 };
   /** Smallest number of pixels of either half of a tile. Chosen empirically. */
   double leastHalfPixels{ 24.0 };
   /** Fraction of the tiles that count as the flattest [1], and their smallest number. Chosen empirically: with half and
@@ -256,8 +241,7 @@ struct PartsConstants
   double priorOfUnlikeParts{ 0.1 };
   /** Prior standard deviations of the coefficients [1]: gains, and variances without signal (read noise, offset), agree
    * within a factor of 2, and a curve deviates from its line by a few per cent. */
-  double priorOfGain{ 1.0 };
-  double priorOfDark{ 1.0 };
+  double priorOfParts{ 1.0 };
   double priorOfCurve{ 0.05 };
   /** Number of knots of the curve, and rounds of the regression; half of the rounds minimize absolute deviations. */
   std::size_t knots{ 6 };
@@ -284,10 +268,6 @@ struct StepConstants
   double leastBesideCurve{ 0.5 };
   /** Smallest number of bins on either side of a step, whose slope both sides share. A single bin may be an outlier. */
   std::size_t leastBins{ 2 };
-  /** Half width, in standard deviations of the noise, of the interval about the step in which pixels do not count,
-   * because they are of either amplifier in some frames [1]. Beyond it, fewer than 5 % of a pixel's values are of the
-   * other amplifier. */
-  double widthSds{ 2.0 };
   /** Prior standard deviation of the gain of either amplifier from the common gain, after the camera has matched them
    * [1]. From public reports on dual-gain sensors, whose branches differ by 0.5 to 2 % in level. */
   double priorOfGains{ 0.01 };

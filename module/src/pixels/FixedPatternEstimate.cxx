@@ -73,8 +73,8 @@ struct Square
  * usable. Computed with SIMD instructions; the sums over the row are not. */
 struct PatternRow
 {
-  double       square[InPattern.squareSide]{};
-  std::uint8_t counts[InPattern.squareSide]{};
+  double       square[InPixels.tileSide]{};
+  std::uint8_t counts[InPixels.tileSide]{};
 
   void
   Compare(const ReferenceFrame & frame, const std::uint8_t * mask, std::size_t first, std::size_t pixels)
@@ -137,7 +137,7 @@ std::vector<Square>
 MakeSquares(const ReferenceFrame & frame, const VarianceData & data, const ParallelFor & parallelFor)
 {
   const std::size_t side =
-    frame.geometry.Pixels() < InPattern.largeFramePixels ? InPattern.smallTileSide : InPattern.squareSide;
+    frame.geometry.Pixels() < InPattern.largeFramePixels ? InPattern.smallTileSide : InPixels.tileSide;
   const std::size_t   across = (frame.geometry.width + side - 1) / side;
   const std::size_t   down = (frame.geometry.height + side - 1) / side;
   std::vector<Square> squares(across * down);

@@ -67,8 +67,8 @@ PriorPrecision(const PartRegression & fit)
   const auto         knots = static_cast<Eigen::Index>(fit.knotsDn.size());
   const Eigen::Index step = fit.stepDn ? 1 : 0;
   Eigen::VectorXd    precision(fit.gains + fit.darks + knots + step);
-  precision.head(fit.gains).setConstant(std::pow(InParts.priorOfGain, -2));
-  precision.segment(fit.gains, fit.darks).setConstant(std::pow(InParts.priorOfDark, -2));
+  precision.head(fit.gains).setConstant(std::pow(InParts.priorOfParts, -2));
+  precision.segment(fit.gains, fit.darks).setConstant(std::pow(InParts.priorOfParts, -2));
   precision.tail(knots + step).setConstant(std::pow(InParts.priorOfCurve, -2));
   return precision;
 }

@@ -110,8 +110,7 @@ constexpr std::size_t Phases = LargestPeriod * LargestPeriod;
 std::size_t
 SideOfTile(const FrameGeometry & geometry)
 {
-  const std::size_t side =
-    geometry.Pixels() < InPattern.largeFramePixels ? InPattern.smallTileSide : InPattern.squareSide;
+  const std::size_t side = geometry.Pixels() < InPattern.largeFramePixels ? InPattern.smallTileSide : InPixels.tileSide;
   const std::size_t longest = std::max(geometry.width, geometry.height);
   return side * std::max<std::size_t>(1, (longest + InParts.mostTiles * side - 1) / (InParts.mostTiles * side));
 }

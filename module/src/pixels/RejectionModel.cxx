@@ -44,9 +44,9 @@ struct RejectionTile
 struct TileRow
 {
   VarianceLine line;
-  double       excess[InPixels.rejectionTileSide]{};
-  double       expected[InPixels.rejectionTileSide]{};
-  double       chance[InPixels.rejectionTileSide]{};
+  double       excess[InPixels.tileSide]{};
+  double       expected[InPixels.tileSide]{};
+  double       chance[InPixels.tileSide]{};
 
   void
   Compare(const VarianceData & data, std::size_t first, std::size_t pixels)
@@ -73,14 +73,14 @@ SumRejectionTile(const VarianceLine &      line,
 {
   const FrameGeometry & geometry = projected.GetFrame().geometry;
   const double          reachDn2 =
-    InMoments.defectiveNoiseFactor * InMoments.defectiveNoiseFactor * line.lowestDn2 / InPixels.lowestFraction;
+    InMoments.defectiveNoiseFactor * InMoments.defectiveNoiseFactor * line.lowestDn2 / InCommon.lowestFraction;
   RejectionTile     square;
   double            total = 0.0;
   double            squares = 0.0;
   double            chance = 0.0;
   TileRow           row{ line };
-  const std::size_t across = std::min(InPixels.rejectionTileSide, geometry.width - left);
-  for (std::size_t y = top; y < std::min(top + InPixels.rejectionTileSide, geometry.height); ++y)
+  const std::size_t across = std::min(InPixels.tileSide, geometry.width - left);
+  for (std::size_t y = top; y < std::min(top + InPixels.tileSide, geometry.height); ++y)
   {
     const std::size_t first = y * geometry.width + left;
     row.Compare(data, first, across);
@@ -117,19 +117,19 @@ MakeRejectionTiles(const VarianceLine &      line,
                    const ParallelFor &       parallelFor)
 {
   const FrameGeometry &      geometry = projected.GetFrame().geometry;
-  const std::size_t          across = (geometry.width + InPixels.rejectionTileSide - 1) / InPixels.rejectionTileSide;
-  const std::size_t          down = (geometry.height + InPixels.rejectionTileSide - 1) / InPixels.rejectionTileSide;
+  const std::size_t          across = (geometry.width + InPixels.tileSide - 1) / InPixels.tileSide;
+  const std::size_t          down = (geometry.height + InPixels.tileSide - 1) / InPixels.tileSide;
   std::vector<RejectionTile> squares(across * down);
   const std::size_t          oneIn = std::max<std::size_t>(1, squares.size() / InPixels.enoughRejectionTiles);
   parallelFor(down, [&](std::size_t row) {
     for (std::size_t column = row % oneIn; column < across; column += oneIn)
     {
       squares[row * across + column] =
-        SumRejectionTile(line, data, projected, column * InPixels.rejectionTileSide, row * InPixels.rejectionTileSide);
+        SumRejectionTile(line, data, projected, column * InPixels.tileSide, row * InPixels.tileSide);
     }
   });
   const auto isTooSmall = [](const RejectionTile & square) {
-    return square.pixels < InPixels.leastPixelsOfRejectionTile;
+    return square.pixels < InCommon.leastCoveredFraction * (InPixels.tileSide * InPixels.tileSide);
   };
   squares.erase(std::remove_if(squares.begin(), squares.end(), isTooSmall), squares.end());
   std::stable_sort(squares.begin(), squares.end(), [](const auto & a, const auto & b) { return a.level < b.level; });
@@ -168,7 +168,7 @@ FitRejectionModel(const VarianceLine &              line,
     const double darkest = line.At(squares.front().level);
     model.byNeighbours = line.gain * line.gain * patternDn2 > InPixels.largestDsnuEffect * darkest * darkest;
   }
-  const std::size_t bins = std::min(InPixels.mostRejectionLevels, squares.size() / InPixels.tilesPerLevel);
+  const std::size_t bins = std::min(InPixels.levelBins, squares.size() / InPixels.tilesPerLevel);
   bool              deviates = false;
   for (std::size_t b = 0; b < bins; ++b)
   {

@@ -273,7 +273,7 @@ LineThroughMedians(const ProjectedVariance & projected, const std::vector<std::u
   line.gain = solution(0);
   line.intercept = solution(1);
   line.pivotDn = gram(1, 1) > 0.0 ? gram(0, 1) / gram(1, 1) : 0.0;
-  line.lowestDn2 = InPixels.lowestFraction * lowest;
+  line.lowestDn2 = InCommon.lowestFraction * lowest;
   line.isDetermined = solution.allFinite() && std::isfinite(lowest) && line.gain > 0.0;
   return line;
 }

@@ -22,8 +22,8 @@ class ScoreCells
 public:
   explicit ScoreCells(const FrameGeometry & geometry)
     : m_Width(geometry.width)
-    , m_Columns(std::clamp<std::size_t>(geometry.width / InPixels.leastScoreCell, 1, InPixels.mostScoreCells))
-    , m_Rows(std::clamp<std::size_t>(geometry.height / InPixels.leastScoreCell, 1, InPixels.mostScoreCells))
+    , m_Columns(std::clamp<std::size_t>(geometry.width / InCommon.leastCellWidth, 1, InCommon.mostCells))
+    , m_Rows(std::clamp<std::size_t>(geometry.height / InCommon.leastCellWidth, 1, InCommon.mostCells))
     , m_PixelsAcross((geometry.width + m_Columns - 1) / m_Columns)
     , m_PixelsDown((geometry.height + m_Rows - 1) / m_Rows)
   {}

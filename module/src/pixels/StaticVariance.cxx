@@ -31,7 +31,7 @@ namespace
 VarianceLine
 FitSampleLine(const VarianceData & data, const std::optional<VarianceLine> & start, const ParallelFor & parallelFor)
 {
-  const SampledVariance sample(data, InPixels.pixelsOfRoughLine, parallelFor);
+  const SampledVariance sample(data, InCommon.pixelsOfSample, parallelFor);
   VarianceFit           fit(sample.GetData(), parallelFor, start);
   fit.Iterate(3);
   fit.FillErrors();
@@ -74,7 +74,7 @@ FitFixedPointLine(ProjectedVariance                   projected,
                   const ParallelFor &                 parallelFor)
 {
   VarianceLine line = FitSampleLine(projected.GetData(mask), start, parallelFor);
-  for (int round = 0; round < InPixels.fixedPointRounds; ++round)
+  for (int round = 0; round < InCommon.roundsOfFit; ++round)
   {
     const GainFeedback feedback = ComputeFeedback(projected, line, mask, parallelFor);
     const VarianceLine settled = feedback.SolveFixedPoint(line, projected.GetGain());
@@ -115,7 +115,7 @@ FitFirstLine(ProjectedVariance                 projected,
 VarianceFit
 FitAllPixels(const VarianceData & data, const VarianceLine & start, double blackDn, const ParallelFor & parallelFor)
 {
-  const SampledVariance sample(data, InPixels.pixelsOfRoughLine, parallelFor);
+  const SampledVariance sample(data, InCommon.pixelsOfSample, parallelFor);
   VarianceFit           rough(sample.GetData(), parallelFor, start, TrimRule::Distance, blackDn);
   rough.Iterate(8);
   VarianceFit fit(data, rough);

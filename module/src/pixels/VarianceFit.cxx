@@ -72,7 +72,7 @@ FitMedians(const VarianceData & data, const ChiSquareTrim & trim)
   {
     return std::nullopt;
   }
-  line.lowestDn2 = std::max(smallestDivisor, InPixels.lowestFraction * lowest);
+  line.lowestDn2 = std::max(smallestDivisor, InCommon.lowestFraction * lowest);
   line.gain = (s0 * r1 - s1 * r0) / determinant;
   line.intercept = (s2 * r0 - s1 * r1) / determinant - line.gain * line.pivotDn;
   return line;
@@ -129,7 +129,7 @@ VarianceFit::VarianceFit(const VarianceData &                data,
       {
         std::vector<double> levels = m_Data.SampleLevels();
         m_DarkestDn = Quantile(levels, InCommon.darkestQuantile);
-        m_BrightestDn = Quantile(levels, InCommon.brightestQuantile);
+        m_BrightestDn = Quantile(levels, 1.0 - InCommon.darkestQuantile);
         m_BrightDof = HighestDofAbove(m_BrightestDn, m_Data, m_Dofs.highest, m_ParallelFor);
         this->SetReach();
         this->SetNoiseDispersion();

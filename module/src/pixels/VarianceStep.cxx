@@ -56,7 +56,8 @@ FindBestStep(const VarianceCurve & curve, const std::vector<ExcessOfBin> & bins)
   {
     StepCandidate tried;
     tried.x = bins[b].x;
-    tried.halfWidth = InSteps.widthSds * std::sqrt(std::max(0.0, curve.line.At(curve.line.pivotDn + tried.x)));
+    // Beyond it, fewer than 5 % of a pixel's values are of the other amplifier.
+    tried.halfWidth = Significance.hint * std::sqrt(std::max(0.0, curve.line.At(curve.line.pivotDn + tried.x)));
     std::size_t below = 0;
     for (std::size_t k = 0; k < bins.size(); ++k)
     {

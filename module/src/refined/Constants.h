@@ -40,11 +40,10 @@ struct RefinedConstants
   /** \name Errors of the gain */
   ///@{
   /** Vibration above which the expansion in derivatives fails [pixels rms].
-   * The bias of the gain is then proportional to the squared vibration: it is \a biasOfVibration of the gain [1] at
-   * \a referenceVibration [pixels^2]. Measured by the robustness cases of measure-cases. */
+   * The bias of the gain is then proportional to the squared vibration: \a biasOfVibration of the gain [1/pixels^2].
+   * Measured by the robustness cases of measure-cases. */
   double strongVibration{ 0.4 };
-  double biasOfVibration{ 0.0015 };
-  double referenceVibration{ 0.25 };
+  double biasOfVibration{ 0.006 };
   /** Largest factor by which the scatter between classes widens the variance in tests for deviations from a line [1].
    * Chosen empirically: scenes and sensors that fit have 1 to 4; a tone curve has 50, which would hide it. */
   double largestDispersion{ 4.0 };
@@ -53,10 +52,7 @@ struct RefinedConstants
    * brighter-fatter sensors are 1.7 times as large. With twice the value, gains of smoothed frames are 0.9 % low, and
    * errors twice as large. */
   double leastVarianceInflation{ 1.1 };
-  /** Half width of the surroundings of a pixel whose mean level is compared with the pixel's own to find edges
-   * [pixels]: 5 x 5 pixels, the border of usable pixels. */
-  std::size_t edgeMargin{ 2 };
-  /** Relative change of the variance by the line, from a pixel's own level to the level of its surroundings, above
+  /** Relative change of the variance by the line, from a pixel's own level to the mean level of 5 x 5 pixels, above
    * which the pixel lies on an edge [1]. After smoothing by a Gaussian of 1 pixel, a quarter of this is missing from
    * its variance. Chosen empirically: half the value changes nothing; with twice the value, the read noise of a
    * texture is 1 % low. */
@@ -65,9 +61,6 @@ struct RefinedConstants
 
   /** \name Non-linear response */
   ///@{
-  /** Reporting threshold of the deviation of the variance from its line [1]. Chosen empirically: a deviation of a
-   * hundredth changes the gain by about half of it. */
-  double leastNonlinearity{ 0.01 };
   /** Error of the mean gain, relative to the gain, over the deviation from a line [1]. Chosen empirically: for three
    * shapes of non-linearity of 2 and 4 % on two scenes, the largest error was 0.29. Half the value is too small an
    * error; twice the value contains all cases. */
@@ -97,8 +90,6 @@ struct RefinedConstants
    * where a line is negative. Frames with less have too little light to be compared with others. Chosen empirically:
    * the dark frames of series of 5,000 electrons have 0.02. */
   double leastWeighedVariance{ 0.01 };
-  /** Number of iterations of the weights: the third one changes a gain by less than 1e-4 of its error. */
-  int roundsOfTransfer{ 4 };
   /** Relative difference of a frame's noise variance from the line at its level above which the frame is left out [1].
    * Chosen by its effect: two of 60 frames that differ by it make the gain 0.3 % wrong. */
   double leastUnlikeNoise{ 0.1 };
@@ -144,9 +135,6 @@ struct RefinedConstants
 
   /** \name Signal in the dark frames */
   ///@{
-  /** Contrast of a tile, rms, below which fixed-pattern noise may explain it [1]: the response of pixels of cameras
-   * differs by 0.3 to 2 % rms (EMVA 1288 reports). */
-  double leastContrastOfTile{ 0.03 };
   /** Smallest fraction of the frames' signal in the dark frames that counts [1]. Chosen by its effect: the offset
    * changes by that fraction of the mean signal. */
   double leastSignalOfDark{ 0.01 };

@@ -8,6 +8,7 @@
 #include "base/Jackknife.h"
 #include "base/Quantiles.h"
 #include "moments/DarkFrames.h"
+#include "pixels/Constants.h"
 #include "refined/Constants.h"
 #include "scene/ReferenceFrame.h"
 #include "sensornoise/FrameGeometry.h"
@@ -53,7 +54,7 @@ struct SignalSums
 };
 
 /** Returns the sums of the tile at \a left, \a top; empty sums where the contrast of the scene is below
- * InRefined.leastContrastOfTile. */
+ * InPattern.largestGain. */
 SignalSums
 SumTile(const DarkMaps &                  dark,
         const ReferenceFrame &            bright,
@@ -91,7 +92,7 @@ SumTile(const DarkMaps &                  dark,
   const double fewer = 1.0 - 1.0 / pixels;
   sums.square -= x * x / pixels + fewer * (noise + shared);
   sums.product -= x * y / pixels - fewer * shared;
-  const double contrast = InRefined.leastContrastOfTile * x / pixels;
+  const double contrast = InPattern.largestGain * x / pixels;
   return sums.square > contrast * contrast * pixels ? sums : SignalSums();
 }
 } // namespace

@@ -254,7 +254,7 @@ FitFramePhotonTransfer(const FrameEnergies & energies, const TileLevels & levels
   const Regression data(energies, levels);
   VarianceLine     line = start;
   Eigen::MatrixXd  weights;
-  for (int round = 0; round < InRefined.roundsOfTransfer; ++round)
+  for (int round = 0; round < InCommon.roundsOfFit; ++round)
   {
     weights = WeightsBy(data, line);
     line = FitAllTiles(data, weights);

@@ -8,6 +8,7 @@
 #include "pixels/FixedPatternEstimate.h"
 #include "pixels/VarianceCurve.h"
 #include "pixels/ProjectedVariance.h"
+#include "pixels/Constants.h"
 #include "refined/Constants.h"
 #include "refined/RefinedEstimate.h"
 
@@ -28,9 +29,8 @@ double
 ErrorOfVibration(const VarianceLine & line, const InitialNoiseModel & model)
 {
   const double square = std::max(model.vibrationXPixels2, model.vibrationYPixels2);
-  return square > InRefined.strongVibration * InRefined.strongVibration
-           ? InRefined.biasOfVibration * line.gain * square / InRefined.referenceVibration
-           : 0.0;
+  return square > InRefined.strongVibration * InRefined.strongVibration ? InRefined.biasOfVibration * line.gain * square
+                                                                        : 0.0;
 }
 
 /** Returns the largest error of the slope in a part of the pixels if their levels differ by fixed-pattern noise instead
@@ -181,7 +181,7 @@ ApplyMeanGain(GainEstimate & estimate, const VarianceCurve & curve, double black
   const double chance = dispersion * parabola->variance;
   const bool   isSure =
     estimate.IsNonlinear() || difference * difference > Significance.oneTest * Significance.oneTest * chance;
-  if (!isSure || !(estimate.nonlinearity > InRefined.leastNonlinearity))
+  if (!isSure || !(estimate.nonlinearity > InPixels.leastDeviation))
   {
     double & side = difference < 0.0 ? estimate.below : estimate.above;
     side = std::max(side, SizeBeyondChance(difference, chance, Significance.hint));
@@ -287,7 +287,7 @@ CombineWithFrames(GainEstimate & estimate, const SensorLines & lines, double bla
 bool
 GainEstimate::IsCurved() const
 {
-  return this->IsNonlinear() && nonlinearity > InRefined.leastNonlinearity;
+  return this->IsNonlinear() && nonlinearity > InPixels.leastDeviation;
 }
 
 double

@@ -245,8 +245,8 @@ WarnOfIdentified(Report & report, const TestedGain & tested)
   {
     report.Warn(
       WarningCode::ResponseNotStraight,
-      "the variance deviates from its line by up to " + PercentApart(gain.nonlinearity, InRefined.leastNonlinearity) +
-        " of itself (expected at most " + Percent(InRefined.leastNonlinearity) +
+      "the variance deviates from its line by up to " + PercentApart(gain.nonlinearity, InPixels.leastDeviation) +
+        " of itself (expected at most " + Percent(InPixels.leastDeviation) +
         "): the response is non-linear, and the interval of the gain contains the gains of parts of the levels, " +
         Rounded(gain.line.gain - gain.below) + " to " + Rounded(gain.line.gain + gain.above) +
         " DN/e-. Fit a linear part alone: --level-range");

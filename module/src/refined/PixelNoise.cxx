@@ -6,6 +6,7 @@
 #include "correlation/NoiseCorrelation.h"
 #include "correlation/NoiseResiduals.h"
 #include "moments/DarkFrames.h"
+#include "base/Stencils.h"
 #include "refined/Constants.h"
 #include "refined/FramePhotonTransfer.h"
 #include "report/StackReport.h"
@@ -68,23 +69,23 @@ LeaveOutEdges(const ReferenceFrame &      frame,
               std::vector<std::uint8_t> & chosen,
               std::vector<std::uint8_t> & pixelUse)
 {
-  const auto        side = static_cast<double>(2 * InRefined.edgeMargin + 1);
+  const auto        side = static_cast<double>(2 * StencilMargin + 1);
   const std::size_t width = frame.geometry.width;
   for (std::size_t p = 0; p < chosen.size(); ++p)
   {
     const std::size_t x = p % width;
     const std::size_t y = p / width;
-    const bool        isInside = std::min(x, width - 1 - x) >= InRefined.edgeMargin &&
-                          std::min(y, frame.geometry.height - 1 - y) >= InRefined.edgeMargin;
+    const bool        isInside =
+      std::min(x, width - 1 - x) >= StencilMargin && std::min(y, frame.geometry.height - 1 - y) >= StencilMargin;
     if (chosen[p] == 0 || !isInside)
     {
       continue;
     }
     double sum = 0.0;
-    for (std::size_t row = y - InRefined.edgeMargin; row <= y + InRefined.edgeMargin; ++row)
+    for (std::size_t row = y - StencilMargin; row <= y + StencilMargin; ++row)
     {
-      const double * const first = frame.mean.data() + row * width + x - InRefined.edgeMargin;
-      sum = std::accumulate(first, first + 2 * InRefined.edgeMargin + 1, sum);
+      const double * const first = frame.mean.data() + row * width + x - StencilMargin;
+      sum = std::accumulate(first, first + 2 * StencilMargin + 1, sum);
     }
     const double step = line.gain * (sum / (side * side) - frame.mean[p]);
     if (std::abs(step) > InRefined.largestEdge * line.At(frame.mean[p]))

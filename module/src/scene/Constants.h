@@ -23,9 +23,6 @@ struct SceneConstants
   double largestRatio{ 2.5 };
   /** That ratio to the median for the rougher half of the pixels, where motion adds much [1]. Chosen empirically. */
   double startRatioRough{ 30.0 };
-  /** Number of times that pixels are excluded and the model is fitted again. Chosen empirically: the last fit changes
-   * the model by less than the weights need. */
-  int roundsOfFit{ 5 };
   /** Ratio of the squared derivatives along both axes from which the variance of a pixel shows the motion along one of
    * them [1]. Chosen empirically. */
   double energyAlongAxis{ 4.0 };
@@ -38,11 +35,8 @@ struct SceneConstants
   /** Size of a negative variance of motion along one axis, relative to that along the other, that is due to chance [1].
    * Chosen empirically: frames after a gamma curve have 0.8, and negative variances along both axes. */
   double negativeMotion{ 0.05 };
-  /** Lower bound of the predicted variance, as a fraction of the variance of the darkest levels [1]. Chosen
-   * empirically: a fit may become negative. */
-  double leastFractionOfDarkest{ 0.2 };
-  /** The intercept is at least this fraction of this quantile of the raw variances [1]. Chosen empirically, for the
-   * same reason. */
+  /** The intercept is at least this fraction of this quantile of the raw variances [1]. Chosen empirically: a fit may
+   * become negative. */
   double leastIntercept{ 0.3 };
   double quantileOfIntercept{ 0.001 };
   /** Where the slope of the fit is not positive, it is replaced by this fraction of the ratio of the median variance to
@@ -74,13 +68,8 @@ struct SceneConstants
 
   /** \name Moving objects that cross the frame */
   ///@{
-  /** Largest number of cells along either axis: a band of a third of the frame is 8 cells wide. Chosen empirically:
-   * with 32 the medians of 32 pixels scatter more, and static cells are lost. With 12 the neighbours of a region are
-   * half of this band. */
-  std::size_t mostCells{ 24 };
-  /** Least width of a cell [pixels], and least number of sampled pixels of a cell that is used. Chosen empirically. */
-  std::size_t leastCellWidth{ 8 };
-  std::size_t fewestPixelsOfCell{ 8 };
+  /** Least number of sampled pixels of a cell, or of a line of the border, whose median is used. Chosen empirically. */
+  std::size_t fewestPixelsOfMedian{ 8 };
   /** Ratio of medians from which a cell does not fit a model [1]. Chosen empirically: the noise of 60 frames and pixels
    * changes a median by 3 %, and the illumination may change locally. With 1.2 the result for moving objects is the
    * same, but the margin for the illumination is small. With 1.8 more cells that an object crosses faintly are left. */
@@ -103,11 +92,10 @@ struct SceneConstants
    * this bleaching is taken for an object. */
   double leastIlluminationFraction{ 0.8 };
   double largestModulation{ 0.1 };
-  /** Number of neighbouring pixels that change together up to which a region is noise and no object, and least number
-   * of cells whose median is compared [1]. Independent pixels have 1, and chance adds 0.3 in 10 cells of 20 frames. An
-   * object has as many as it covers. */
-  double      mostPixelsTogether{ 2.0 };
-  std::size_t fewestCellsOfRegion{ 9 };
+  /** Number of neighbouring pixels that change together up to which a region is noise and no object [1]: the median
+   * over its cells. Independent pixels have 1, and chance adds 0.3 in 10 cells of 20 frames. An object has as many as
+   * it covers. */
+  double mostPixelsTogether{ 2.0 };
   /** Least fraction of pixels outside of the region [1]. If fewer are left, the whole frame moves, and all pixels are
    * left to the later passes. Chosen empirically. */
   double leastStaticFraction{ 0.05 };
@@ -119,9 +107,8 @@ struct SceneConstants
    * empirically: strips of sensors have up to a tenth, and the middle of the frame must be left. */
   std::size_t leastBorderedSide{ 32 };
   double      largestBorder{ 0.25 };
-  /** Approximate and least number of pixels sampled in a column or row. The medians of the samples bound the time. */
+  /** Approximate number of pixels sampled in a column or row. The medians of the samples bound the time. */
   std::size_t pixelsOfBorderLine{ 128 };
-  std::size_t leastPixelsOfBorderLine{ 8 };
   /** Fraction of the pixels beside a strip that must differ from it [1]: parts of a scene may have the same level. */
   double leastBorderFraction{ 0.95 };
   /** Largest median difference between the pixels of the lines after a strip, and largest difference between the last

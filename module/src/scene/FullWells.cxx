@@ -72,7 +72,7 @@ std::optional<FullWells>
 FindFullWells(const StackMaps & maps, const FrameGeometry & geometry)
 {
   const LevelSample sample = SampleLevels(maps, geometry);
-  if (sample.levelDn.size() < LevelBins * InScene.fewestPixelsOfCell)
+  if (sample.levelDn.size() < LevelBins * InScene.fewestPixelsOfMedian)
   {
     return std::nullopt;
   }
@@ -88,7 +88,7 @@ FindFullWells(const StackMaps & maps, const FrameGeometry & geometry)
   std::vector<std::vector<double>> smooth = SmoothVariances(sample, binOf);
   for (std::size_t b = 0; b < LevelBins; ++b)
   {
-    if (smooth[b].size() >= InScene.fewestPixelsOfCell)
+    if (smooth[b].size() >= InScene.fewestPixelsOfMedian)
     {
       darkest = darkest < 0.0 ? Quantile(smooth[b], 0.5) : darkest;
       const double low = levels[b] >= nearTopDn ? Quantile(smooth[b], InScene.quantileBelowWells) : 0.0;

@@ -32,7 +32,7 @@ SetLevels(InitialNoiseModel & model, const ReferenceFrame & frame, const std::ve
     model.centreDn += level[i] / static_cast<double>(n);
   }
   model.darkestDn = Quantile(level, InCommon.darkestQuantile);
-  model.brightestDn = Quantile(level, InCommon.brightestQuantile);
+  model.brightestDn = Quantile(level, 1.0 - InCommon.darkestQuantile);
 }
 
 void
@@ -104,7 +104,7 @@ FitInitialNoiseModel(const ReferenceFrame & frame)
     return model;
   }
   VariancePrediction prediction = StartFromMedians(sample);
-  for (int round = 0; round < InScene.roundsOfFit; ++round)
+  for (int round = 0; round < InCommon.roundsOfExclusion; ++round)
   {
     theta = SolveKept(sample, prediction);
     Predict(sample, theta, model.largestRatio, prediction);
@@ -220,7 +220,7 @@ Predict(const VarianceSample &               sample,
   prediction.keep.resize(sample.Size());
   for (std::size_t i = 0; i < sample.Size(); ++i)
   {
-    prediction.variance[i] = std::max(InScene.leastFractionOfDarkest * prediction.lowest, sample.TermsOf(i).dot(theta));
+    prediction.variance[i] = std::max(InCommon.lowestFraction * prediction.lowest, sample.TermsOf(i).dot(theta));
     prediction.keep[i] = sample.raw[i] < largestRatio * prediction.variance[i] ? 1 : 0;
   }
 }

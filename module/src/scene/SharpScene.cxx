@@ -187,8 +187,8 @@ FitKeptBelowSteps(const std::vector<PixelSurroundings> & surroundings, VarianceS
   {
     fit.prediction.variance[i] += motion[0] * sample.TermsOf(i)(3) + motion[1] * sample.TermsOf(i)(4);
   }
-  const double least = InScene.leastFractionOfDarkest * fit.prediction.lowest;
-  for (int round = 0; round < InScene.roundsOfFit; ++round)
+  const double least = InCommon.lowestFraction * fit.prediction.lowest;
+  for (int round = 0; round < InCommon.roundsOfExclusion; ++round)
   {
     fit.theta = SolveKept(sample, fit.prediction);
     if (fit.theta(1) < 0.0 && fit.theta(2) > 0.0) // the terms of the level cancel at two levels, and describe the edges

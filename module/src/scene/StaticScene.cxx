@@ -58,7 +58,7 @@ LevelsAlongLine(std::vector<double> levels)
 {
   levels.erase(std::remove_if(levels.begin(), levels.end(), [](double level) { return !std::isfinite(level); }),
                levels.end());
-  if (levels.size() < InScene.leastPixelsOfBorderLine)
+  if (levels.size() < InScene.fewestPixelsOfMedian)
   {
     return std::nullopt;
   }

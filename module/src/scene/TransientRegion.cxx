@@ -22,8 +22,8 @@ VarianceTiles::VarianceTiles(const VarianceSample &           sample,
                              std::size_t                      frames)
   : m_Sample(sample)
   , m_Geometry(geometry)
-  , m_Columns(std::clamp<std::size_t>(geometry.width / InScene.leastCellWidth, 1, InScene.mostCells))
-  , m_Rows(std::clamp<std::size_t>(geometry.height / InScene.leastCellWidth, 1, InScene.mostCells))
+  , m_Columns(std::clamp<std::size_t>(geometry.width / InCommon.leastCellWidth, 1, InCommon.mostCells))
+  , m_Rows(std::clamp<std::size_t>(geometry.height / InCommon.leastCellWidth, 1, InCommon.mostCells))
   , m_CellOf(pixels.size())
 {
   const auto dof = static_cast<double>(frames - 1);
@@ -49,7 +49,7 @@ VarianceTiles::Compare(const VariancePrediction & prediction) const
   for (std::size_t c = 0; c < count; ++c)
   {
     const auto pixels = static_cast<double>(ratios[c].size());
-    if (ratios[c].size() < InScene.fewestPixelsOfCell)
+    if (ratios[c].size() < InScene.fewestPixelsOfMedian)
     {
       comparison.fits.push_back(CellFit::Unknown);
       continue;
@@ -91,7 +91,7 @@ VarianceTiles::AreIndependent(const TileComparison &            comparison,
       together.push_back((own.perPixelDn2 * pixels[c] - expected[c]) / excess[c]);
     }
   }
-  return together.size() >= InScene.fewestCellsOfRegion && Quantile(together, 0.5) < InScene.mostPixelsTogether;
+  return together.size() >= InCommon.fewestCells && Quantile(together, 0.5) < InScene.mostPixelsTogether;
 }
 
 IlluminationTest

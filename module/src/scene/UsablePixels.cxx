@@ -294,7 +294,7 @@ MarkOutlierPixels(const ReferenceFrame & frame,
   const float * const        level = frame.neighbourMean.data();
   const std::uint8_t * const usable = frame.usable.data();
   const std::size_t          width = frame.geometry.width;
-  const double               leastDn2 = InScene.leastFractionOfDarkest * model.interceptDn2;
+  const double               leastDn2 = InCommon.lowestFraction * model.interceptDn2;
   for (std::size_t p = begin; p < end; ++p)
   {
     const auto [gx, gy] = ApplyGradient(mean, width, p);

@@ -4,6 +4,7 @@
 
 #include "base/Simd.h"
 #include "sensornoise/FrameGeometry.h"
+#include "base/Constants.h"
 #include "single/Constants.h"
 
 #include <algorithm>
@@ -246,7 +247,7 @@ StandardDetails(const BandTile & tile, const LevelGrid & grid)
 {
   std::vector<float> details(tile.Positions());
   const auto         largestRoughness = static_cast<float>(InSingle.largestRoughness);
-  const auto         largest = static_cast<float>(InSingle.largestDetail);
+  const auto         largest = static_cast<float>(Significance.oneTest);
   for (std::size_t i = 0; i < details.size(); ++i)
   {
     const float variance = grid.variance[grid.SetOf(tile.level[i])];

@@ -25,13 +25,6 @@ struct SingleConstants
   double leastOfLevelSet{ 30.0 };
   ///@}
 
-  /** \name Robust variance */
-  ///@{
-  /** Size of a detail coefficient, in standard deviations of the starting line, above which it is left out [1]. Chosen:
-   * of normal noise 0.27 % are left out. */
-  double largestDetail{ 3.0 };
-  ///@}
-
   /** \name Starting line */
   ///@{
   /** Largest number of positions of the sample for the starting line. Chosen for the time: 1 % of a frame of 24
@@ -44,8 +37,6 @@ struct SingleConstants
   /** Smallest variance that the first selection assumes, relative to the median of the groups [1]. Chosen empirically:
    * a line that starts below 0 selects no dark windows. */
   double leastStartingVariance{ 0.05 };
-  /** Repetitions of selection and fit on the sample. Chosen empirically. */
-  int repetitions{ 4 };
   ///@}
 
   /** \name Fit */
@@ -58,10 +49,9 @@ struct SingleConstants
   double largestResidual{ 3.0 };
   /** Steps of Fisher scoring, at most. Chosen: it ends the fit where it does not converge. */
   int fitSteps{ 40 };
-  /** Coefficients and level sets below which no line is given. Chosen empirically: with fewer, the gains of textured
-   * frames were off by more than twice their errors. */
-  double      leastCoefficients{ 1000.0 };
-  std::size_t leastLevelSets{ 3 };
+  /** Coefficients below which no line is given. Chosen empirically: with fewer, the gains of textured frames were off
+   * by more than twice their errors. */
+  double leastCoefficients{ 1000.0 };
   ///@}
 
   /** \name Texture */

@@ -272,7 +272,7 @@ MeasureFrame(const PlaneOfFrame<TPixel> & plane, const LevelLimits & limits, con
     return MakeLevelSets(sums, grid, band, frame.originDn, frame.unitDn);
   };
   LevelGrid grid = gridOf(InSingle.leastStartingVariance * medianDn2);
-  for (int i = 0; i < InSingle.repetitions; ++i)
+  for (int i = 0; i < InCommon.roundsOfFit; ++i)
   {
     const LevelSums sums = SumSample<LevelSums>(sample, grid, parallelFor);
     const NoiseLine fit = FitNoiseLine(setsOf(sums, grid, DetailBand::Diagonal), limits.clip, leastDn2, line);

@@ -143,7 +143,7 @@ LevelSums::Add(const BandTile & tile, const LevelGrid & grid)
 {
   sets.resize(grid.variance.size());
   const auto  largestRoughness = static_cast<float>(InSingle.largestRoughness);
-  const auto  limit = static_cast<float>(InSingle.largestDetail * InSingle.largestDetail);
+  const auto  limit = static_cast<float>(Significance.oneTest * Significance.oneTest);
   std::size_t found = 0;
   for (std::size_t i = 0; i < tile.Positions(); ++i)
   {
@@ -226,7 +226,7 @@ MakeLevelSets(const LevelSums & sums, const LevelGrid & grid, DetailBand band, d
       levelSets.push_back({ originDn + unitDn * grid.CentreOf(k), 0.0, 0.0 });
       continue;
     }
-    const double relative = VarianceOfTruncated(squares / number, InSingle.largestDetail);
+    const double relative = VarianceOfTruncated(squares / number, Significance.oneTest);
     const double all = band == DetailBand::Diagonal ? set.positions : 2.0 * set.positions;
     levelSets.push_back({ originDn + unitDn * set.level / set.positions,
                           unitDn * unitDn * static_cast<double>(grid.variance[k]) * relative,

@@ -227,7 +227,7 @@ enum class DetailBand
 };
 
 /** Returns the level sets with their variances [DN^2]: the scale of the normal distribution whose squares, truncated at
- * InSingle.largestDetail expected standard deviations, have the mean that was found. All sets of the grid; empty ones
+ * Significance.oneTest expected standard deviations, have the mean that was found. All sets of the grid; empty ones
  * have no details. */
 SensorNoise_EXPORT std::vector<LevelSet>
 MakeLevelSets(const LevelSums & sums, const LevelGrid & grid, DetailBand band, double originDn, double unitDn);

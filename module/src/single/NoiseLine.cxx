@@ -203,7 +203,7 @@ FitNoiseLine(const std::vector<LevelSet> & sets,
   for (int i = 0; i < InSingle.fitSteps; ++i)
   {
     const auto fitted = static_cast<std::size_t>(std::count(fit.isFitted.begin(), fit.isFitted.end(), true));
-    if (fitted < InSingle.leastLevelSets || !sums.IsRegular())
+    if (fitted < InCommon.fewestLevels || !sums.IsRegular())
     {
       return fit;
     }

@@ -275,7 +275,7 @@ ReasonOfFewDetails(const SingleImageFindings & found)
   return "even areas have " + count(details) + " detail coefficients, and " + count(inSets) + " of them, in " +
          std::to_string(sets) + (sets == 1 ? " level set" : " level sets") +
          ", are left for the line (expected at least " + count(InSingle.leastCoefficients) + " in " +
-         std::to_string(InSingle.leastLevelSets) +
+         std::to_string(InCommon.fewestLevels) +
          "): texture and edges fill the frame, the noise was filtered, or the frame has one level. Include even areas "
          "from dark to bright, or use --method refined with a burst";
 }
