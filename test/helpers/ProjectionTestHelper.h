@@ -9,7 +9,7 @@
 #include "pixels/ProjectedVariance.h"
 #include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
-#include "series/MotionSeries.h"
+#include "series/FrameEquations.h"
 #include "series/SceneSeries.h"
 #include "helpers/FrameTestHelper.h"
 

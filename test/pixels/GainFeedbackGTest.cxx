@@ -10,7 +10,7 @@
 #include "pixels/StaticVariance.h"
 #include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
-#include "series/MotionSeries.h"
+#include "series/FrameEquations.h"
 #include "series/SceneSeries.h"
 #include "simulation/Random.h"
 #include "helpers/FrameTestHelper.h"

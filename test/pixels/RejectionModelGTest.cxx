@@ -8,7 +8,7 @@
 #include "pixels/ProjectionSums.h"
 #include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
-#include "series/MotionSeries.h"
+#include "series/FrameEquations.h"
 #include "series/SceneSeries.h"
 #include "helpers/StackTestHelper.h"
 

@@ -4,7 +4,6 @@
 #include "base/Eigen.h"
 #include "series/FrameEquations.h"
 #include "series/FrameSums.h"
-#include "series/MotionSeries.h"
 #include "helpers/FrameTestHelper.h"
 
 #include <cmath>

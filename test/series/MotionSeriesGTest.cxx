@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "series/MotionSeries.h"
 #include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
 #include "base/Stencils.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "series/SceneSeries.h"
 #include "base/Eigen.h"
-#include "series/MotionSeries.h"
+#include "series/FrameEquations.h"
 
 #include <cmath>
 #include <cstddef>

@@ -12,7 +12,7 @@
 #include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
 #include "sensornoise/Parallel.h"
-#include "series/MotionSeries.h"
+#include "series/FrameEquations.h"
 #include "series/SceneSeries.h"
 
 #include <algorithm>

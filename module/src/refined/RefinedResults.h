@@ -21,7 +21,7 @@
 #include "sensornoise/Settings.h"
 #include "series/Constants.h"
 #include "series/FrameSums.h"
-#include "series/MotionSeries.h"
+#include "series/FrameEquations.h"
 #include "series/OffsetLine.h"
 #include "series/SceneSeries.h"
 

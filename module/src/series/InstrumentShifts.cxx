@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "series/MotionSeries.h"
+#include "series/FrameEquations.h"
 
 #include "base/Constants.h"
 #include "base/Stencils.h"

@@ -8,7 +8,7 @@
 #include "base/Eigen.h"
 #include "series/Constants.h"
 #include "series/FrameSums.h"
-#include "series/MotionSeries.h"
+#include "series/FrameEquations.h"
 
 #include <cstddef>
 #include <vector>

@@ -10,7 +10,6 @@
 #include "series/FrameRegressors.h"
 #include "series/FrameSums.h"
 #include "series/LocalIllumination.h"
-#include "series/MotionSeries.h"
 #include "series/OffsetLine.h"
 
 #include <cstddef>
