@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels/ScoreCells.h"
+#include "pixels/FixedPatternEstimate.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/VarianceFit.h"

@@ -7,7 +7,6 @@
 #include "base/Constants.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/Constants.h"
-#include "pixels/ScoreCells.h"
 #include "pixels/VarianceFit.h"
 #include "pixels/VarianceLine.h"
 #include "scene/ReferenceFrame.h"

@@ -9,7 +9,6 @@
 #include "pixels/GainByParts.h"
 #include "pixels/FixedPatternEstimate.h"
 #include "pixels/ProjectedVariance.h"
-#include "pixels/ScoreCells.h"
 #include "pixels/VarianceFit.h"
 #include "pixels/VarianceLine.h"
 #include "scene/ReferenceFrame.h"
