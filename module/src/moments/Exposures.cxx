@@ -23,6 +23,18 @@ namespace
 {
 using FramesByExposure = std::map<double, std::vector<std::size_t>>;
 
+/** Returns the \a counted frames by their exposure. */
+FramesByExposure
+GroupByExposure(const std::vector<std::size_t> & counted, const std::vector<double> & exposures)
+{
+  FramesByExposure frames;
+  for (const std::size_t t : counted)
+  {
+    frames[exposures[t]].push_back(t);
+  }
+  return frames;
+}
+
 /** Returns the mean of a cell over some frames [DN]. */
 double
 CellMean(const FrameThumbnails & thumbnails, const std::vector<std::size_t> & frames, std::size_t cell)
@@ -191,11 +203,7 @@ FindExposureLevels(const FrameThumbnails &           thumbnails,
                    const std::vector<double> &       exposures,
                    const std::vector<std::uint8_t> & valid)
 {
-  FramesByExposure frames;
-  for (const std::size_t t : counted)
-  {
-    frames[exposures[t]].push_back(t);
-  }
+  const FramesByExposure     frames = GroupByExposure(counted, exposures);
   std::vector<ExposureLevel> levels;
   if (frames.empty())
   {
@@ -215,55 +223,29 @@ FindExposureLevels(const FrameThumbnails &           thumbnails,
 
 namespace
 {
-using Places = std::vector<std::size_t>;
-
-/** Returns the mean of a cell over the frames with exposures from \a low to \a high [DN]. */
-double
-MeanBetween(const FrameThumbnails &     thumbnails,
-            const Places &              counted,
-            const std::vector<double> & exposures,
-            double                      low,
-            double                      high,
-            std::size_t                 cell)
-{
-  double sum = 0.0;
-  double frames = 0.0;
-  for (const std::size_t t : counted)
-  {
-    if (exposures[t] >= low && exposures[t] <= high)
-    {
-      sum += thumbnails.MeanOf(t, cell);
-      frames += 1.0;
-    }
-  }
-  return sum / frames;
-}
-
 /** Levels of the finite cells [DN]. */
 struct CellLevels
 {
-  Places              cells;         ///< numbers of the cells
-  std::vector<double> means;         ///< means over all frames
-  std::vector<double> atZero;        ///< levels at exposure 0, extrapolated from the lowest and the highest exposure
-  double              zeroDn{ 0.0 }; ///< median of the levels at exposure 0
+  std::vector<std::size_t> cells;  ///< numbers of the cells
+  std::vector<double>      means;  ///< means over all frames
+  std::vector<double>      atZero; ///< levels at exposure 0, extrapolated from the lowest and the highest exposure
+  double                   zeroDn{ 0.0 }; ///< median of the levels at exposure 0
 };
 
 CellLevels
-FindCellLevels(const FrameThumbnails & thumbnails, const Places & counted, const std::vector<double> & exposures)
+FindCellLevels(const FrameThumbnails &          thumbnails,
+               const std::vector<std::size_t> & counted,
+               const std::vector<double> &      exposures)
 {
-  double low = exposures[counted.front()];
-  double high = low;
-  for (const std::size_t t : counted)
-  {
-    low = std::min(low, exposures[t]);
-    high = std::max(high, exposures[t]);
-  }
+  const FramesByExposure frames = GroupByExposure(counted, exposures);
+  const auto & [low, dimmest] = *frames.begin();
+  const auto & [high, brightest] = *frames.rbegin();
   CellLevels levels;
   for (std::size_t cell = 0; cell < thumbnails.NumberOfCells() && high > low; ++cell)
   {
-    const double mean = MeanBetween(thumbnails, counted, exposures, low, high, cell);
-    const double dim = MeanBetween(thumbnails, counted, exposures, low, low, cell);
-    const double bright = MeanBetween(thumbnails, counted, exposures, high, high, cell);
+    const double mean = CellMean(thumbnails, counted, cell);
+    const double dim = CellMean(thumbnails, dimmest, cell);
+    const double bright = CellMean(thumbnails, brightest, cell);
     if (std::isfinite(mean))
     {
       levels.cells.push_back(cell);

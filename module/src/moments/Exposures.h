@@ -16,6 +16,7 @@ namespace sensornoise
 {
 
 class FrameThumbnails;
+struct StackMaps;
 
 /** Throws std::invalid_argument unless all exposures are finite and 0 or more, and at least 3 of them differ. A line
  * passes through any two levels, so that two levels contain no information about linearity. An empty list, no
@@ -58,9 +59,6 @@ FindExposureLevels(const FrameThumbnails &           thumbnails,
                    const std::vector<double> &       exposures,
                    const std::vector<std::uint8_t> & valid);
 
-class FrameThumbnails;
-struct StackMaps;
-
 /** Returns a mask of the frame: the valid pixels near the largest signal at which whole cells of \a thumbnails are
  * uniform.
  *
@@ -78,8 +76,6 @@ FindEvenPixels(const FrameThumbnails &          thumbnails,
                const std::vector<std::size_t> & counted,
                const std::vector<double> &      exposures,
                const StackMaps &                maps);
-
-struct StackMaps;
 
 /** A number with its standard error. */
 struct FittedNumber
