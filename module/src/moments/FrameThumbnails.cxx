@@ -374,16 +374,11 @@ FrameThumbnails::FindIlluminationChange(const std::vector<std::size_t> & frames)
     return 0.0;
   }
   std::vector<std::vector<double>> ofFrames;
-  ofFrames.reserve(frames.size());
+  std::vector<double>              noise;
   for (const std::size_t t : frames)
   {
     ofFrames.push_back(this->MeansOf(t, cells));
-  }
-  std::vector<double> noise;
-  noise.reserve(frames.size());
-  for (const std::size_t t : frames)
-  {
-    noise.push_back(this->NoiseOf(t));
+    noise.push_back(m_Noise[t]);
   }
   return ComputeIlluminationChange(means, ofFrames, this->PixelsOfCell() * QuantileOf(std::move(noise), 0.5));
 }

@@ -282,14 +282,9 @@ SummariseExcess(const std::vector<TileExcess> & tiles)
   {
     return std::nullopt;
   }
-  const double        median = QuantileOf(excess, 0.5);
-  std::vector<double> distances;
-  std::transform(excess.begin(), excess.end(), std::back_inserter(distances), [median](double own) {
-    return std::abs(own - median);
-  });
-  const double scatter = QuantileOf(std::move(distances), 0.5) / MedianOfNormal;
-  const double chance = QuantileOf(std::move(errors), 0.5);
-  return ExcessOfTiles{ median, std::sqrt(std::max(0.0, scatter * scatter - chance * chance)), sum / shot };
+  const RobustCentre centre = CentreOf(std::move(excess));
+  const double       chance = QuantileOf(std::move(errors), 0.5);
+  return ExcessOfTiles{ centre.median, std::sqrt(std::max(0.0, centre.sd * centre.sd - chance * chance)), sum / shot };
 }
 
 /** Returns the pixels that are left out as not static, and have no used pixel beyond a neighbourhood, at eight places
