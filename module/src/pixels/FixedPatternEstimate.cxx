@@ -349,4 +349,28 @@ WideningOfInstrumental(const InstrumentalFit & instrumental,
   return most > InPattern.leastLikeness * instrumental.squaredScores ? most / instrumental.squaredScores : 1.0;
 }
 
+VarianceLine
+FindInstrumentalLine(const VarianceLine &                                      line,
+                     const FixedPatternEstimate &                              pattern,
+                     const VarianceFit &                                       fit,
+                     const VarianceData &                                      data,
+                     const ReferenceFrame &                                    frame,
+                     const std::function<VarianceLine(const VarianceLine &)> & settle)
+{
+  const bool hasPattern =
+    pattern.LargestFraction() * std::abs(line.gain) > InPixels.negligiblePattern * std::sqrt(line.covariance(0, 0));
+  const auto mayReplace = [&](const VarianceLine & other) {
+    return other.isDetermined && (hasPattern || DoContradict(line, other, 1.0));
+  };
+  InstrumentalFit fitted = FitInstrumental(fit, data, frame);
+  VarianceLine    instrumental = settle(fitted.line);
+  if (mayReplace(instrumental)) // wider errors make no contradiction
+  {
+    fitted.line.covariance *= WideningOfInstrumental(fitted, fit, data, frame);
+    instrumental = settle(fitted.line);
+  }
+  instrumental.isDetermined = mayReplace(instrumental);
+  return instrumental;
+}
+
 } // namespace sensornoise

@@ -5,16 +5,17 @@
 
 #include "SensorNoiseExport.h"
 #include "base/Constants.h"
-#include "sensornoise/FrameGeometry.h"
-#include "sensornoise/Parallel.h"
-#include "pixels/VarianceLine.h"
-
 #include "pixels/Constants.h"
 #include "pixels/VarianceFit.h"
+#include "pixels/VarianceLine.h"
+#include "sensornoise/FrameGeometry.h"
+#include "sensornoise/Parallel.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace sensornoise
@@ -143,6 +144,16 @@ DoContradict(const VarianceLine & line, const VarianceLine & instrumental, doubl
   const double error = std::sqrt(dispersion * std::max(0.0, instrumental.covariance(0, 0)));
   return std::abs(line.gain - instrumental.gain) > Significance.oneTest * error;
 }
+
+/** Returns the instrumental line, with settle(line) of its fit. It is determined where it may replace \a line: the
+ * fixed pattern is not negligible, or the slopes contradict each other. */
+SensorNoise_EXPORT VarianceLine
+FindInstrumentalLine(const VarianceLine &                                      line,
+                     const FixedPatternEstimate &                              pattern,
+                     const VarianceFit &                                       fit,
+                     const VarianceData &                                      data,
+                     const ReferenceFrame &                                    frame,
+                     const std::function<VarianceLine(const VarianceLine &)> & settle);
 
 /** \class ScoreCells
  * \brief Cells of a frame, at most 24 x 24. The deviations from the variance line may be alike within a cell: an object

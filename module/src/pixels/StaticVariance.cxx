@@ -310,33 +310,6 @@ SelectStaticPixels(const ProjectedSquares &          squares,
   return { std::move(drawn), std::move(found), std::move(dividedBy) };
 }
 
-/** Returns the instrumental line, with settle(line) of its fit. It is determined where it may replace \a line: the
- * fixed pattern is not negligible, or the slopes contradict each other. */
-template <typename TSettle>
-VarianceLine
-FindInstrumentalLine(const VarianceLine &         line,
-                     const FixedPatternEstimate & pattern,
-                     const VarianceFit &          fit,
-                     const VarianceData &         data,
-                     const ReferenceFrame &       frame,
-                     TSettle                      settle)
-{
-  const bool hasPattern =
-    pattern.LargestFraction() * std::abs(line.gain) > InPixels.negligiblePattern * std::sqrt(line.covariance(0, 0));
-  const auto mayReplace = [&](const VarianceLine & other) {
-    return other.isDetermined && (hasPattern || DoContradict(line, other, 1.0));
-  };
-  InstrumentalFit fitted = FitInstrumental(fit, data, frame);
-  VarianceLine    instrumental = settle(fitted.line);
-  if (mayReplace(instrumental)) // wider errors make no contradiction
-  {
-    fitted.line.covariance *= WideningOfInstrumental(fitted, fit, data, frame);
-    instrumental = settle(fitted.line);
-  }
-  instrumental.isDetermined = mayReplace(instrumental);
-  return instrumental;
-}
-
 /** Computes FitStaticVariance() once. With \a mayDivide the variance may be divided by the ratios of parts. */
 StaticFit
 FitOnce(const ProjectedSquares &          squares,
