@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "correlation/NoiseCorrelation.h"
-#include "refined/RefinedReport.h"
+#include "refined/RefinedEstimate.h"
 #include "report/Quantities.h"
 #include "helpers/ReportTestHelper.h"
 #include "helpers/SentencesTestHelper.h"

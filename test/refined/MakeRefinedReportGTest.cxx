@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "refined/RefinedReport.h"
+#include "refined/RefinedEstimate.h"
 #include "sensornoise/ReportText.h"
 #include "helpers/RefinedResultsTestHelper.h"
 #include "helpers/ReportTestHelper.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/GainEstimate.h"
-#include "refined/RefinedReport.h"
+#include "refined/RefinedEstimate.h"
 #include "helpers/RefinedResultsTestHelper.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "refined/RefinedReport.h"
+#include "refined/RefinedEstimate.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/ReportText.h"
 #include "sensornoise/Simulator.h"

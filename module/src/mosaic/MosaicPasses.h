@@ -9,7 +9,7 @@
 #include "moments/FrameThumbnails.h"
 #include "mosaic/MosaicGeometry.h"
 #include "base/ParallelWork.h"
-#include "refined/RefinedReport.h"
+#include "refined/RefinedEstimate.h"
 #include "sensornoise/Report.h"
 
 #include <algorithm>

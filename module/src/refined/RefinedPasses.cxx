@@ -12,7 +12,7 @@
 #include "pixels/ProjectedFrames.h"
 #include "refined/RefinedResults.h"
 #include "refined/PixelProjections.h"
-#include "refined/RefinedReport.h"
+#include "refined/RefinedEstimate.h"
 #include "report/StackReport.h"
 #include "report/Quantities.h"
 #include "series/FrameSums.h"

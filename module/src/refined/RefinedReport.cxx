@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "refined/RefinedReport.h"
+#include "refined/RefinedEstimate.h"
 
 #include "sensornoise/Settings.h"
 #include "base/Constants.h"
@@ -10,7 +10,6 @@
 #include "pixels/VarianceLine.h"
 #include "refined/Constants.h"
 #include "refined/RefinedResults.h"
-#include "refined/RefinedEstimate.h"
 #include "report/StackReport.h"
 
 #include <algorithm>
