@@ -31,18 +31,6 @@ namespace sensornoise
 
 namespace
 {
-/** Returns the largest absolute level [DN]. */
-double
-LargestMeanDn(const std::vector<double> & mean)
-{
-  double largest = 0.0;
-  for (const double level : mean)
-  {
-    largest = std::isfinite(level) ? std::max(largest, std::abs(level)) : largest;
-  }
-  return largest;
-}
-
 /** Precision of the residual squares. Digital numbers have no squares beyond the range of single precision. */
 template <typename TPixel>
 constexpr Precision PrecisionOfSquares = std::is_integral_v<TPixel> ? Precision::Single : Precision::Double;
@@ -288,29 +276,6 @@ RefinedPasses<TPixel>::NoiseOfDarkestFrame() const
   const auto                     darkest = std::min_element(levels.begin(), levels.end()) - levels.begin();
   return m_Thumbnails.NoiseOf(counted[static_cast<std::size_t>(darkest)]) * m_Thumbnails.PixelsOfCell();
 }
-
-namespace
-{
-/** Limits of the standard deviation of the noise of floating-point frames [unit of the frames]. Chosen for the noise
- * correlation, which sums squares of up to 256 values of six standard deviations in single precision: they are within
- * its range, from 1e-38 to 3e38. */
-constexpr double SmallestNoise = 1e-16;
-constexpr double LargestNoise = 1e16;
-
-/** Throws NothingToMeasure if the noise is too small or too large for the unit of the frames. */
-void
-RequireUnitOfFrames(const InitialNoiseModel & model)
-{
-  const double noise = std::sqrt(model.NoiseVariance(model.centreDn));
-  if (noise < SmallestNoise || noise > LargestNoise)
-  {
-    throw NothingToMeasure(
-      "the standard deviation of the noise is " + Text(noise) +
-      " in the unit of the frames; expected 1e-16 to 1e+16. Multiply the frames by a constant, such as " +
-      Text(std::pow(10.0, -std::floor(std::log10(noise)))));
-  }
-}
-} // namespace
 
 template <typename TPixel>
 void

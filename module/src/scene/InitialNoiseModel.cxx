@@ -6,6 +6,7 @@
 #include "base/NothingToMeasure.h"
 #include "base/Quantiles.h"
 #include "base/Stencils.h"
+#include "base/Text.h"
 #include "scene/Constants.h"
 
 #include <algorithm>
@@ -222,6 +223,23 @@ Predict(const VarianceSample &               sample,
   {
     prediction.variance[i] = std::max(InCommon.lowestFraction * prediction.lowest, sample.TermsOf(i).dot(theta));
     prediction.keep[i] = sample.raw[i] < largestRatio * prediction.variance[i] ? 1 : 0;
+  }
+}
+
+void
+RequireUnitOfFrames(const InitialNoiseModel & model)
+{
+  // The noise correlation sums squares of up to 256 values of six standard deviations in single precision: with these
+  // limits they are within its range, from 1e-38 to 3e38.
+  constexpr double smallest = 1e-16;
+  constexpr double largest = 1e16;
+  const double     noise = std::sqrt(model.NoiseVariance(model.centreDn));
+  if (noise < smallest || noise > largest)
+  {
+    throw NothingToMeasure(
+      "the standard deviation of the noise is " + Text(noise) +
+      " in the unit of the frames; expected 1e-16 to 1e+16. Multiply the frames by a constant, such as " +
+      Text(std::pow(10.0, -std::floor(std::log10(noise)))));
   }
 }
 

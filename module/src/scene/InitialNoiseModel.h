@@ -164,6 +164,10 @@ FitSharpScene(const ReferenceFrame &           frame,
               const VariancePrediction &       prediction,
               double                           ratio);
 
+/** Throws NothingToMeasure if the noise of floating-point frames is too small or too large for their unit. */
+SensorNoise_EXPORT void
+RequireUnitOfFrames(const InitialNoiseModel & model);
+
 } // namespace sensornoise
 
 #endif

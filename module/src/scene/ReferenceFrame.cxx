@@ -216,4 +216,15 @@ KnownMeans(const ReferenceFrame & frame, const ParallelFor & parallelFor)
   return known;
 }
 
+double
+LargestMeanDn(const std::vector<double> & mean)
+{
+  double largest = 0.0;
+  for (const double level : mean)
+  {
+    largest = std::isfinite(level) ? std::max(largest, std::abs(level)) : largest;
+  }
+  return largest;
+}
+
 } // namespace sensornoise

@@ -117,6 +117,10 @@ ForInnerBlocks(const FrameGeometry & geometry, const ParallelFor & parallelFor, 
   }
 }
 
+/** Returns the largest absolute level of a \a mean [DN]. */
+SensorNoise_EXPORT double
+LargestMeanDn(const std::vector<double> & mean);
+
 } // namespace sensornoise
 
 #endif
