@@ -9,6 +9,7 @@
 #include "base/Quantiles.h"
 #include "moments/DarkFrames.h"
 #include "pixels/Constants.h"
+#include "pixels/GainByParts.h"
 #include "refined/Constants.h"
 #include "scene/ReferenceFrame.h"
 #include "sensornoise/FrameGeometry.h"
@@ -194,6 +195,24 @@ struct ChargeSums
     return spread > 0.0 ? (xy - x * y / w) / spread : 0.0;
   }
 };
+
+/** Removes the blocks without tiles or pixels. Returns whether enough are left for a jackknife. */
+bool
+KeepFilled(std::vector<ChargeSums> & blocks)
+{
+  const auto isEmpty = [](const ChargeSums & sums) { return !(sums.w > 0.0); };
+  blocks.erase(std::remove_if(blocks.begin(), blocks.end(), isEmpty), blocks.end());
+  return blocks.size() >= FewestBlocks;
+}
+
+/** Returns the slope of the variance over the level [DN], with its error from a jackknife. */
+MeasuredNumber
+SlopeOf(const std::vector<ChargeSums> & blocks)
+{
+  const JackknifeEstimate slope =
+    Jackknife(blocks, [](const ChargeSums & sums) { return Eigen::VectorXd::Constant(1, sums.Slope()); });
+  return { slope.value(0), slope.StandardError(0) };
+}
 } // namespace
 
 std::optional<DarkCharge>
@@ -221,17 +240,122 @@ FindDarkCharge(const std::optional<KnownOffset> & offset,
       levels.push_back(tile.offsetDn);
     }
   }
-  blocks.erase(std::remove_if(blocks.begin(), blocks.end(), [](const ChargeSums & sums) { return !(sums.w > 0.0); }),
-               blocks.end());
-  if (blocks.size() < FewestBlocks)
+  if (!KeepFilled(blocks))
   {
     return std::nullopt;
   }
-  const JackknifeEstimate slope =
-    Jackknife(blocks, [](const ChargeSums & sums) { return Eigen::VectorXd::Constant(1, sums.Slope()); });
   const double noiseDn = std::sqrt(offset->variance->valueDn2 / static_cast<double>(dark.frames)) / TileSide;
   const double spreadDn = offset->valueDn - Quantile(levels, InRefined.darkestTiles) - Significance.hint * noiseDn;
-  return DarkCharge{ { slope.value(0), slope.StandardError(0) }, std::max(0.0, spreadDn) };
+  return DarkCharge{ SlopeOf(blocks), std::max(0.0, spreadDn) };
+}
+
+namespace
+{
+/** Difference of two pixels of the dark frames. */
+struct DarkDifference
+{
+  double offsetDn;
+  double varianceDn2;
+};
+
+/** Returns the difference of pixel \a p from the pixel LargestPeriod rows below. Both have the same column and the same
+ * phase of a pattern, so that offset and read noise of their amplifier cancel. Returns null if one is not usable. */
+std::optional<DarkDifference>
+DifferenceAt(const DarkMaps & dark, const FrameGeometry & geometry, std::size_t p)
+{
+  const std::size_t other = p + LargestPeriod * geometry.width;
+  if (other >= dark.usable.size() || dark.usable[p] == 0 || dark.usable[other] == 0)
+  {
+    return std::nullopt;
+  }
+  return DarkDifference{ dark.offsetDn[other] - dark.offsetDn[p], dark.varianceDn2[other] - dark.varianceDn2[p] };
+}
+
+/** Returns the standard deviations of the differences of usable pixels, from their median sizes. Returns null if there
+ * are fewer than FewestPixels. */
+std::optional<DarkDifference>
+DispersionOf(const DarkMaps & dark, const FrameGeometry & geometry)
+{
+  std::vector<double> offsets;
+  std::vector<double> variances;
+  for (const std::size_t p : SamplePixels(dark.usable))
+  {
+    if (const auto difference = DifferenceAt(dark, geometry, p))
+    {
+      offsets.push_back(std::abs(difference->offsetDn));
+      variances.push_back(std::abs(difference->varianceDn2));
+    }
+  }
+  if (static_cast<double>(offsets.size()) < FewestPixels)
+  {
+    return std::nullopt;
+  }
+  return DarkDifference{ Quantile(offsets, 0.5) / MedianOfNormal, Quantile(variances, 0.5) / MedianOfNormal };
+}
+
+/** Sums over differences of pixels. */
+struct DifferenceSums
+{
+  ChargeSums core;          ///< differences within Significance.oneTest standard deviations
+  double     pixels{ 0.0 }; ///< number of differences within Significance.everyPixel standard deviations
+  double     sizeDn{ 0.0 }; ///< sum of the sizes of these differences of the offset [DN]
+
+  void
+  Add(const DarkDifference & difference, const DarkDifference & dispersion)
+  {
+    const double x = difference.offsetDn;
+    if (std::abs(x) <= Significance.everyPixel * dispersion.offsetDn)
+    {
+      pixels += 1.0;
+      sizeDn += std::abs(x);
+    }
+    if (std::abs(x) <= Significance.oneTest * dispersion.offsetDn)
+    {
+      const double largest = Significance.oneTest * dispersion.varianceDn2;
+      const double y = std::clamp(difference.varianceDn2, -largest, largest);
+      core += { 1.0, x, y, x * x, x * y };
+    }
+  }
+};
+} // namespace
+
+std::optional<DarkCharge>
+FindPixelCharge(const std::optional<KnownOffset> & offset,
+                const FrameGeometry &              geometry,
+                const ParallelFor &                parallelFor)
+{
+  if (!offset || !offset->maps || !offset->variance || offset->maps->usable.size() != geometry.Pixels())
+  {
+    return std::nullopt;
+  }
+  const DarkMaps & dark = *offset->maps;
+  const auto       dispersion = DispersionOf(dark, geometry);
+  if (!dispersion || offset->variance->valueDn2 < InCommon.hiddenVariance * dark.stepDn * dark.stepDn)
+  {
+    return std::nullopt;
+  }
+  std::vector<DifferenceSums> ofRows(std::min(geometry.height, MostBlocks));
+  const std::size_t           count = ofRows.size();
+  parallelFor(count, [&](std::size_t block) {
+    const std::size_t end = (block + 1) * geometry.height / count * geometry.width;
+    for (std::size_t p = block * geometry.height / count * geometry.width; p < end; ++p)
+    {
+      if (const auto difference = DifferenceAt(dark, geometry, p))
+      {
+        ofRows[block].Add(*difference, *dispersion);
+      }
+    }
+  });
+  std::vector<ChargeSums> blocks;
+  double                  pixels = 0.0;
+  double                  sizeDn = 0.0;
+  for (const DifferenceSums & sums : ofRows)
+  {
+    blocks.push_back(sums.core);
+    pixels += sums.pixels;
+    sizeDn += sums.sizeDn;
+  }
+  return KeepFilled(blocks) ? std::optional<DarkCharge>({ SlopeOf(blocks), sizeDn / pixels }) : std::nullopt;
 }
 
 double
@@ -240,6 +364,12 @@ DarkCharge::VarianceDn2(double gain) const
   const bool isOtherCause = slope.value - Significance.hint * slope.standardError > InRefined.mostSlopeOfCharge * gain;
   const double beyond = SizeBeyondChance(slope.value, slope.standardError * slope.standardError, Significance.hint);
   return slope.value > 0.0 && !isOtherCause ? beyond * spreadDn : 0.0;
+}
+
+double
+DarkCharges::VarianceDn2(double gain) const
+{
+  return (ofPlaces ? ofPlaces->VarianceDn2(gain) : 0.0) + (ofPixels ? ofPixels->VarianceDn2(gain) : 0.0);
 }
 
 } // namespace sensornoise

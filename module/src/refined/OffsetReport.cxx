@@ -72,27 +72,45 @@ WarnOfDarkFrames(Report & report, const RefinedResults & found, const RefinedEst
   }
 }
 
+/** Returns the clause of a charge, after \a levels, the clause of its level. */
+std::string
+TextOfCharge(const DarkCharge & charge, const std::string & levels)
+{
+  return levels + ", and their variance grows with it by " + Measured(charge.slope.value, charge.slope.standardError) +
+         " DN per DN, as charge does";
+}
+
 /** Warns of charge in dark frames that are used. */
 void
 WarnOfDarkCharge(Report & report, const RefinedResults & found, const RefinedEstimate & estimate)
 {
   const GainEstimate & gain = estimate.ofSensor.line;
-  if (!found.darkCharge || gain.isDarkRejected || !(gain.line.gain > 0.0))
+  if (gain.isDarkRejected || !(gain.line.gain > 0.0))
   {
     return;
   }
-  const DarkCharge & charge = *found.darkCharge;
-  const double       darkDn2 = estimate.known->variance->valueDn2;
-  const double       chargeDn2 = charge.VarianceDn2(gain.line.gain);
-  if (chargeDn2 > InCommon.leastDarkDifference * darkDn2 &&
-      charge.slope.value > Significance.severalTests * charge.slope.standardError)
+  const auto & [ofPlaces, ofPixels] = found.darkCharge;
+  const double darkDn2 = estimate.known->variance->valueDn2;
+  const double chargeDn2 = found.darkCharge.VarianceDn2(gain.line.gain);
+  const auto   isCertain = [&](const std::optional<DarkCharge> & charge) {
+    return charge && charge->VarianceDn2(gain.line.gain) > 0.0 &&
+           charge->slope.value > Significance.severalTests * charge->slope.standardError;
+  };
+  const bool isOfPlaces = isCertain(ofPlaces);
+  const bool isOfPixels = isCertain(ofPixels);
+  if (chargeDn2 > InCommon.leastDarkDifference * darkDn2 && (isOfPlaces || isOfPixels))
   {
+    const bool isMostlyOfPixels =
+      isOfPixels && (!isOfPlaces || ofPixels->VarianceDn2(gain.line.gain) > ofPlaces->VarianceDn2(gain.line.gain));
     report.Warn(
       WarningCode::DarkSignalVaries,
-      "the level of the dark frames is " + Rounded(charge.spreadDn) +
-        " DN above its darkest places in the mean, and their variance grows with it by " +
-        Measured(charge.slope.value, charge.slope.standardError) +
-        " DN per DN, as charge does: " + Percent(chargeDn2 / darkDn2) +
+      (isMostlyOfPixels ? TextOfCharge(*ofPixels,
+                                       "the levels of two pixels of the dark frames differ by " +
+                                         Rounded(ofPixels->spreadDn) + " DN in the mean")
+                        : TextOfCharge(*ofPlaces,
+                                       "the level of the dark frames is " + Rounded(ofPlaces->spreadDn) +
+                                         " DN above its darkest places in the mean")) +
+        ": " + Percent(chargeDn2 / darkDn2) +
         " of the dark variance. The errors of offset and read noise contain this charge. Cover the sensor and "
         "record the dark frames again, or cool the sensor");
   }

@@ -457,7 +457,8 @@ RefinedPasses<TPixel>::MakeMeasuredReport() const
                              m_Noise->lines,
                              m_ExposureFit ? &*m_ExposureFit : nullptr,
                              FindDarkSignal(m_Settings.offset, m_Scene->frame, variance.pixelUse, m_ParallelFor),
-                             FindDarkCharge(m_Settings.offset, m_Geometry, m_ParallelFor) },
+                             { FindDarkCharge(m_Settings.offset, m_Geometry, m_ParallelFor),
+                               FindPixelCharge(m_Settings.offset, m_Geometry, m_ParallelFor) } },
                            m_ParallelFor);
 }
 

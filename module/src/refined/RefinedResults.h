@@ -108,14 +108,26 @@ SubtractLineIllumination(LineIllumination &          lines,
                          std::vector<std::uint8_t> & pixelUse,
                          const ParallelFor &         parallelFor);
 
-/** Charge in the dark frames that differs from place to place, see FindDarkCharge(). */
+/** Charge in the dark frames that differs from place to place, see FindDarkCharge(), or from pixel to pixel, see
+ * FindPixelCharge(). */
 struct SensorNoise_EXPORT DarkCharge
 {
   MeasuredNumber slope;    ///< slope of the variance over the level of the dark frames [DN]; charge has the gain
-  double         spreadDn; ///< mean level above the darkest tiles [DN]
+  double         spreadDn; ///< mean level above the darkest tiles, or mean difference between two pixels [DN]
 
-  /** Returns the mean variance of the charge above the darkest tiles, beyond chance [DN^2]. Returns 0 if the slope is
+  /** Returns the mean variance of the charge, beyond chance: spreadDn times the slope [DN^2]. Returns 0 if the slope is
    * not explained by charge. \a gain is the gain of the frames [DN/e-]. */
+  double
+  VarianceDn2(double gain) const;
+};
+
+/** Charge in the dark frames, over the frame and between pixels. */
+struct SensorNoise_EXPORT DarkCharges
+{
+  std::optional<DarkCharge> ofPlaces{}; ///< see FindDarkCharge(); null: not known
+  std::optional<DarkCharge> ofPixels{}; ///< see FindPixelCharge(); null: not known
+
+  /** Returns the variance of both, which add [DN^2]; see DarkCharge::VarianceDn2(). */
   double
   VarianceDn2(double gain) const;
 };
@@ -137,8 +149,7 @@ struct RefinedResults
   const ExposureFit * exposures{ nullptr };
   /** Fraction of the signal in the dark frames, see FindDarkSignal() [1]; null: none. */
   std::optional<MeasuredNumber> darkSignal{};
-  /** Charge in the dark frames; null: not known. */
-  std::optional<DarkCharge> darkCharge{};
+  DarkCharges                   darkCharge{}; ///< charge in the dark frames
 
   /** Return a level of the mean frame in the frame of the lowest or the highest illumination factor, if the frames have
    * a photon transfer; else the level itself [DN]. */
@@ -213,6 +224,15 @@ SensorNoise_EXPORT std::optional<DarkCharge>
 FindDarkCharge(const std::optional<KnownOffset> & offset,
                const FrameGeometry &              geometry,
                const ParallelFor &                parallelFor);
+
+/** Returns the charge that differs from pixel to pixel of the dark frames, as dark current does: the regression of the
+ * difference of the variances on the difference of the levels of two pixels. Pixels far from the others have little
+ * influence. Returns null if there are no maps of the dark frames, too few pixels, or a variance that quantization
+ * hides. Estimator.md, 3.9. */
+SensorNoise_EXPORT std::optional<DarkCharge>
+FindPixelCharge(const std::optional<KnownOffset> & offset,
+                const FrameGeometry &              geometry,
+                const ParallelFor &                parallelFor);
 
 /** Returns the black level [DN]: the given offset, else the offset from the flicker if it is identifiable, else the
  * lower clip level, or 0 if there is none. The latter two are limited to the darkest level. The black level separates

@@ -243,7 +243,7 @@ RefinedSettings
 WidenDarkErrors(const RefinedResults & found, const GainEstimate & gain)
 {
   RefinedSettings settings = found.settings;
-  const double    chargeDn2 = found.darkCharge ? found.darkCharge->VarianceDn2(gain.line.gain) : 0.0;
+  const double    chargeDn2 = found.darkCharge.VarianceDn2(gain.line.gain);
   const double    addedDn2 = std::hypot(gain.darkDifferenceDn2, chargeDn2);
   if (addedDn2 > 0.0)
   {
