@@ -146,7 +146,8 @@ FindFailure(const RefinedResults & found,
   {
     return OffsetFailure::OutOfLimits;
   }
-  if (isLocal && local->areParallel)
+  if ((isLocal && local->areParallel) ||
+      found.reestimated.partOffsets.BeyondChanceDn(Significance.severalTests) > line.standardError)
   {
     return OffsetFailure::OffsetsDiffer;
   }
@@ -197,12 +198,15 @@ OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, co
   estimate.interval = Interval{ low + model.centreDn, high + model.centreDn };
 
   // Offsets that differ between pixels are taken for signal, which moves the zero away from the levels. A non-linear
-  // response has the same effect. Optics that change as the illumination does move it where the scene is rough.
+  // response has the same effect. Offsets that differ between parts of the frame move it either way. Optics that change
+  // as the illumination does move it where the scene is rough.
   const double signalDn = std::abs(model.centreDn - estimate.valueDn);
-  const double systematicDn = AddInQuadrature(
-    signalDn * found.variance.pattern.offsetFraction,
-    signalDn * gain.RelativeModelError(),
-    std::hypot(isLocal ? 0.0 : line.differenceOfClassesDn, RoundingOfDarkestFrameDn(found, gain, estimate.valueDn)));
+  const double ofPartsDn = found.reestimated.partOffsets.BeyondChanceDn(Significance.hint);
+  const double systematicDn = AddInQuadrature(signalDn * found.variance.pattern.offsetFraction,
+                                              signalDn * gain.RelativeModelError(),
+                                              AddInQuadrature(isLocal ? 0.0 : line.differenceOfClassesDn,
+                                                              ofPartsDn,
+                                                              RoundingOfDarkestFrameDn(found, gain, estimate.valueDn)));
   if (systematicDn > InPixels.negligiblePattern * estimate.standardErrorDn)
   {
     estimate.standardErrorDn = std::hypot(estimate.standardErrorDn, systematicDn);

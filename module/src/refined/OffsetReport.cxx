@@ -30,6 +30,16 @@ TextOfOtherOffsets(const FrameOffsets & others, Eigen::Index frames)
          " frames differs by " + Rounded(others.stepDn) + " DN from the dark offset of the others" + Ask("");
 }
 
+/** Returns the clause of a significant difference of the offsets of parts; empty: there is none. */
+std::string
+TextOfParts(const PartOffsets & parts)
+{
+  return parts.BeyondChanceDn(Significance.severalTests) > 0.0
+           ? ", and is " + Measured(std::abs(parts.differenceDn), std::sqrt(parts.varianceDn2)) + " DN " +
+               (parts.differenceDn > 0.0 ? "higher" : "lower") + " in parts of the frame than over all of it"
+           : std::string();
+}
+
 /** Returns the clause that the known offset lies above the level that does not flicker. */
 std::string
 TextOfExcess(const KnownOffset & known, const OffsetEstimate & flicker)
@@ -220,9 +230,9 @@ ReasonOf(const OffsetEstimate & offset, const RefinedResults & found)
              "illumination flicker differently" +
              Ask("");
     case OffsetFailure::OffsetsDiffer:
-      return "the level that does not flicker differs from place to place: a part of the light is steady, or the dark "
-             "offset differs over the sensor" +
-             Ask("");
+      return "the level that does not flicker differs from place to place" +
+             TextOfParts(found.reestimated.partOffsets) +
+             ": a part of the light is steady, or the dark offset differs over the sensor" + Ask("");
     case OffsetFailure::OffsetsDisagree:
       break;
   }

@@ -101,6 +101,10 @@ ReestimateComponents(const FrameSums &        sums,
     }
     reestimated.localFlicker = SumLocalFlicker(illumination);
   }
+  else
+  {
+    reestimated.partOffsets = FindPartOffsets(sums, reestimated.line, reestimated.motion, variance.line.gain);
+  }
   return reestimated;
 }
 

@@ -35,6 +35,25 @@
 namespace sensornoise
 {
 
+/** Difference of two offsets from the flicker: the mean of the offsets of parts of the frame, such as its halves, minus
+ * the offset that is common to them. See FindPartOffsets(). */
+struct SensorNoise_EXPORT PartOffsets
+{
+  double differenceDn{ 0.0 };
+  double varianceDn2{ 0.0 }; ///< variance of the difference by noise [DN^2]; 0: nothing was compared
+
+  /** Returns the size of the difference beyond \a z standard deviations [DN], see SizeBeyondChance(). */
+  double
+  BeyondChanceDn(double z) const;
+};
+
+/** Compares the offset of \a line with the offsets of the halves and the quadrants of the frame, which have one
+ * flicker. Amplifiers of unlike offset move the common offset where their parts have unlike levels, and do not move the
+ * offsets of the parts. Returns the largest difference. \a gain is the gain of the frames [DN/e-]. Estimator.md, 3.3.
+ */
+SensorNoise_EXPORT PartOffsets
+FindPartOffsets(const FrameSums & sums, const OffsetLine & line, const MotionSeries & motion, double gain);
+
 /** Temporal components that are re-estimated with the noise of the third pass: illumination and motion in the report.
  */
 struct ReestimatedComponents
@@ -49,6 +68,7 @@ struct ReestimatedComponents
   bool                            isMotionLocal{ false }; ///< see ResponsesWithoutMotion
   std::optional<LocalOffset>      localOffset;            ///< only under local illumination
   LocalFlicker                    localFlicker;
+  PartOffsets                     partOffsets; ///< only where the illumination is not local
 };
 
 /** Estimates offset, flicker and shifts again, with the noise that is now known: \a correctedVariance of each

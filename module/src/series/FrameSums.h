@@ -250,6 +250,12 @@ public:
   {
     return m_Cells;
   }
+  /** Returns the number of cells side by side; GetCells() has them row by row. */
+  std::size_t
+  CellsPerRow() const
+  {
+    return m_CellsPerRow;
+  }
   const ClassMatrix &
   GetClassGram(std::size_t gradientClass) const
   {
