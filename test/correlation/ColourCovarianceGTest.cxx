@@ -17,7 +17,7 @@ namespace
 constexpr std::size_t Side = 32;
 constexpr std::size_t Tiles = 16;
 constexpr std::size_t Frames = 20;
-constexpr double      Variance = 4.0; // of every pixel, at the signal 1 [DN^2]
+constexpr double      Variance = 4.0; // every pixel has it, at the signal 1 [DN^2]
 
 /** Samples of the four planes of mosaics whose white noise is spread by the weight \a spread to each of the four
  * neighbours, and which have the noise \a ofRows in common along each row [DN]. */
@@ -68,8 +68,8 @@ Measure(const std::array<SampledNoise, 4> & noise)
 }
 } // namespace
 
-// A kernel of the weights 1 - 4 e and e has the covariances 2 e (1 - 4 e) with each of the four neighbours, and 2 e^2
-// with each of the four at the corners, in units of the white variance.
+// A kernel of the weights 1 - 4 e and e has the covariance 2 e (1 - 4 e) with each of the four neighbours. With each of
+// the four at the corners it is 2 e^2, in units of the white variance.
 TEST(SensorNoiseColourCovariance, SpreadHasTheCovarianceOfItsKernel)
 {
   for (const double ofRows : { 0.0, 1.0 }) // noise of rows is no covariance of neighbours

@@ -235,8 +235,8 @@ private:
     }
   }
 
-  /** Adds the covariances of neighbours, which have different colours, to the gains if those of any plane are
-   * significant. */
+  /** Adds the covariances of neighbours, which have different colours, to the gains if they are significant in any
+   * plane. */
   void
   AddNeighbours()
   {

@@ -8,7 +8,7 @@
 #include "pixels/GainByParts.h"
 #include "series/FrameSums.h"
 #include "series/LocalIllumination.h"
-#include "series/MotionSeries.h"
+#include "series/FrameEquations.h"
 #include "series/OffsetLine.h"
 
 #include <algorithm>
