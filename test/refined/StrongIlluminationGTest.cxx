@@ -105,6 +105,26 @@ TEST(SensorNoiseStrongIllumination, GainOffsetAndReadNoiseAreTheCameras)
   }
 }
 
+TEST(SensorNoiseStrongIllumination, OrdinaryFlickerOfLargeWellsIsNoGain)
+{
+  // Flicker of 5 % of 2 million electrons has 5,000 times the variance of shot noise. With a scene far above the dark
+  // offset, it makes the slope of the initial noise model a thousand times the gain.
+  SimulationSettings settings = StrongSettings("steady");
+  settings.camera = { 2e6, 0.02, 100.0, 1.2 };
+  settings.conditions = { 0.05, 0.02, 0.05 };
+  settings.bitDepth = 16;
+  settings.seed = 1;
+  std::vector<double> scene = MakeTargetScene(160, 128);
+  for (double & level : scene)
+  {
+    level = 0.4 + 0.6 * level;
+  }
+  const Report report = Measure(Simulate<GreyValue>(settings, 160, 128, scene), RefinedSettings()).GetReport();
+  ASSERT_EQ(report.gain.status, EstimateStatus::Identified);
+  EXPECT_NEAR(*report.gain.value, 0.02, 4.0 * *report.gain.standardError);
+  EXPECT_LT(*report.gain.standardError, 0.005 * 0.02);
+}
+
 TEST(SensorNoiseStrongIllumination, FramesWithoutIlluminationAreNotUnlikeTheOthers)
 {
   // The variance without light is a thousandth of the others, and less than what the line knows of it.

@@ -243,12 +243,12 @@ ProjectSquares(ResidualSquares           squares,
 }
 
 /** Returns the gain by which the variances are corrected before the first line [DN/e-]. The initial model contains the
- * variance of local illumination: its gain may be a hundred times too large, and would make the corrected variances
- * negative. A gain of 0 changes them by a few per cent. */
+ * variance of the illumination, except under strong changes that are uniform: its gain may be thousands of times too
+ * large, and would make the corrected variances negative. A gain of 0 changes them by a few per cent. */
 double
 FirstGain(const StaticScene & scene, const SceneSeries & series)
 {
-  return series.local.IsLocal() ? 0.0 : scene.model.slopeDn;
+  return scene.changesStrongly && !series.local.IsLocal() ? scene.model.slopeDn : 0.0;
 }
 
 /** Compares the noise of the frames and, if it does not differ, of their parts. Frames of several scenes are not
