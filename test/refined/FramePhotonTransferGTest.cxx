@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/FramePhotonTransfer.h"
+#include "moments/Constants.h"
 #include "refined/Constants.h"
 #include "simulation/Random.h"
 
@@ -240,6 +241,18 @@ TEST(SensorNoiseFrameNoise, OfTwoKindsMakesGroups)
               0.05);
   EXPECT_EQ(found.unlike, found.groups[1].frames);
   EXPECT_TRUE(found.HasSeveralGroups());
+}
+
+TEST(SensorNoiseFrameNoise, OfGroupsThatOverlapIsOfTheNearerGroup)
+{
+  // 30 frames of each of two gains that differ by 12 %. Within 10 % of the median of the first gain are 35 frames.
+  constexpr Eigen::Index ofGroup = 30;
+  Eigen::VectorXd        noise(2 * ofGroup);
+  noise << Eigen::VectorXd::LinSpaced(ofGroup, 0.935, 0.945), Eigen::VectorXd::LinSpaced(ofGroup, 1.02, 1.10);
+  const FrameNoise found = GroupFramesByNoise(noise, 0.002, InRefined.leastUnlikeNoise);
+  ASSERT_EQ(found.groups.size(), 2U);
+  EXPECT_EQ(found.groups[0].frames.size(), static_cast<std::size_t>(ofGroup));
+  EXPECT_GT(static_cast<double>(found.unlike.size()), InMoments.largestOtherGroup * static_cast<double>(noise.size()));
 }
 
 TEST(SensorNoiseFrameNoise, ThatVariesWithoutGroupsIsScatter)

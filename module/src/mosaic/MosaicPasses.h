@@ -30,8 +30,8 @@ namespace sensornoise
 /** \class MosaicPasses
  * \brief Passes of a method over the four planes of a mosaic together: each pass reads the stack once for all planes.
  *
- * Usage as RefinedPasses or PublishedPasses. The results of each plane are those of the method on that plane alone,
- * unless the noise of neighbours, which are in other planes, is correlated. The planes' pixels are read at their
+ * Usage as RefinedPasses or PublishedPasses. The results of each plane equal the results of the method on that plane
+ * alone, unless the noise of neighbours, which are in other planes, is correlated. The planes' pixels are read at their
  * positions in the mosaic, one part of the frame for all planes while it is in the cache.
  *
  * \tparam TPixel the type of the frames' pixels.

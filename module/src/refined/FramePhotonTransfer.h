@@ -185,7 +185,7 @@ struct SensorNoise_EXPORT FrameNoise
   /** Indices from 0 of all frames outside the largest group. The difference is larger than a threshold, and
    * significant. */
   std::vector<std::size_t> unlike;
-  /** Groups of frames: first the largest, which has at least half of the frames, then the others by increasing noise.
+  /** Groups of frames: first the largest, about the densest half of the frames, then the others by increasing noise.
    * One group if all frames agree. */
   std::vector<FrameGroup> groups;
   /** Whether the frames have about one level. If so, the model of their illumination cannot be the cause of the groups.
@@ -211,10 +211,10 @@ struct SensorNoise_EXPORT FrameNoise
 };
 
 /** Sorts the frames into groups. The largest group is found by the shortest interval that contains half of the frames.
- * It contains all frames that differ from its median by less than the threshold, or not significantly. The other
- * frames are divided where the noise differs by more than the threshold. Estimator.md, 3.14. \a ofFrames is the result
- * of NoiseOfFrames(), \a chance its standard deviation by the number of pixels [1], \a least the threshold, as
- * InRefined.leastUnlikeNoise [1]. */
+ * It contains all frames that differ from its median by less than the threshold, or not significantly, except frames
+ * that are nearer to another group. The other frames are divided where the noise differs by more than the threshold.
+ * Estimator.md, 3.14. \a ofFrames is the result of NoiseOfFrames(), \a chance its standard deviation by the number of
+ * pixels [1], \a least the threshold, as InRefined.leastUnlikeNoise [1]. */
 SensorNoise_EXPORT FrameNoise
 GroupFramesByNoise(const Eigen::VectorXd & ofFrames, double chance, double least);
 

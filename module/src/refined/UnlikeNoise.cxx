@@ -170,6 +170,39 @@ AddGroups(const std::vector<NoiseOfFrame> & sorted,
   }
 }
 
+/** Returns the groups of the frames, where the largest one has the frames begin ... end - 1. */
+std::vector<FrameGroup>
+GroupsAbout(const std::vector<NoiseOfFrame> & sorted, std::size_t begin, std::size_t end, double least)
+{
+  std::vector<FrameGroup> groups{ GroupOf(sorted, begin, end) };
+  AddGroups(sorted, 0, begin, least, groups);
+  AddGroups(sorted, end, sorted.size(), least, groups);
+  return groups;
+}
+
+/** Leaves the frames out of the range begin ... end - 1 of the largest group, the first of \a groups, that are nearer
+ * to another one. Where groups overlap, the largest one has frames of the others. */
+void
+LeaveOthersOut(const std::vector<NoiseOfFrame> & sorted,
+               const std::vector<FrameGroup> &   groups,
+               std::size_t &                     begin,
+               std::size_t &                     end)
+{
+  const double largest = groups.front().noise;
+  for (std::size_t k = 1; k < groups.size(); ++k)
+  {
+    const double between = 0.5 * (largest + groups[k].noise);
+    while (groups[k].noise < largest && begin < end && sorted[begin].first < between)
+    {
+      ++begin;
+    }
+    while (groups[k].noise > largest && begin < end && sorted[end - 1].first > between)
+    {
+      --end;
+    }
+  }
+}
+
 /** Returns "frames 0 to 29, 31, 33, ...": the first ones. */
 std::string
 TextOfFrames(const std::vector<std::size_t> & frames)
@@ -251,10 +284,10 @@ GroupFramesByNoise(const Eigen::VectorXd & ofFrames, double chance, double least
     return found;
   }
   std::sort(sorted.begin(), sorted.end());
-  const auto [begin, end] = FindLargestGroup(sorted, chance, least);
-  found.groups.push_back(GroupOf(sorted, begin, end));
-  AddGroups(sorted, 0, begin, least, found.groups);
-  AddGroups(sorted, end, sorted.size(), least, found.groups);
+  auto [begin, end] = FindLargestGroup(sorted, chance, least);
+  found.groups = GroupsAbout(sorted, begin, end, least);
+  LeaveOthersOut(sorted, found.groups, begin, end);
+  found.groups = GroupsAbout(sorted, begin, end, least);
   for (std::size_t k = 1; k < found.groups.size(); ++k)
   {
     found.unlike.insert(found.unlike.end(), found.groups[k].frames.begin(), found.groups[k].frames.end());
