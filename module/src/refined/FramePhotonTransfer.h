@@ -211,10 +211,11 @@ struct SensorNoise_EXPORT FrameNoise
 };
 
 /** Sorts the frames into groups. The largest group is found by the shortest interval that contains half of the frames.
- * It contains all frames that differ from its median by less than the threshold, or not significantly, except frames
- * that are nearer to another group. The other frames are divided where the noise differs by more than the threshold.
- * Estimator.md, 3.14. \a ofFrames is the result of NoiseOfFrames(), \a chance its standard deviation by the number of
- * pixels [1], \a least the threshold, as InRefined.leastUnlikeNoise [1]. */
+ * It contains all frames that differ from its median by less than the threshold, or not significantly. If less than
+ * three fifths of all frames remain without its frames that are nearer to another group, these belong to that. The
+ * other frames are divided where the noise differs by more than the threshold. Estimator.md, 3.14. \a ofFrames is the
+ * result of NoiseOfFrames(), \a chance its standard deviation by the number of pixels [1], \a least the threshold, as
+ * InRefined.leastUnlikeNoise [1]. */
 SensorNoise_EXPORT FrameNoise
 GroupFramesByNoise(const Eigen::VectorXd & ofFrames, double chance, double least);
 
