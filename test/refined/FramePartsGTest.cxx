@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/FramePhotonTransfer.h"
+#include "helpers/RefinedTestHelper.h"
+#include "helpers/ReportTestHelper.h"
 #include "pixels/GainByParts.h"
 #include "simulation/Random.h"
 
@@ -105,6 +107,37 @@ TEST(SensorNoiseFrameParts, FindTheGainsOfEachPartition)
   expect(Partition::FrameHalves, { 0.98, 1.02 });
   expect(Partition::FrameQuarters, { 0.95, 1.03, 0.99, 1.05 });
   expect(Partition::FrameParities, { 1.03, 0.97 });
+}
+
+TEST(SensorNoiseFrameParts, AreFoundBesideIlluminationThatChangesFromLeftToRight)
+{
+  // Between the first and the last frame the illumination changes by 30 %, in opposite directions at both borders.
+  const auto measure = [](double gainDrift) {
+    constexpr std::size_t width = 160;
+    constexpr std::size_t height = 128;
+    test::Stack<double>   stack{ width, height, Frames, {} };
+    CounterSeededRandom   random(6, 0, 0);
+    for (std::size_t t = 0; t < stack.frames; ++t)
+    {
+      const double time = static_cast<double>(t) / (Frames - 1.0) - 0.5;
+      for (std::size_t p = 0; p < width * height; ++p)
+      {
+        const double x = static_cast<double>(p % width) / width - 0.5;
+        const double y = static_cast<double>(p / width) / height - 0.5;
+        const double light = 4000.0 * (1.05 + std::sin(9.0 * y) * std::cos(8.0 * x)) * (1.0 + 0.3 * time * x);
+        const double charge = light + std::sqrt(light) * random.Normal();
+        stack.pixels.push_back(
+          std::round(OffsetDn + Gain * (1.0 + gainDrift * time) * charge + std::sqrt(ReadDn2) * random.Normal()));
+      }
+    }
+    return test::Measure(stack.Map<unsigned short>([](double u) { return u; }), RefinedSettings()).GetReport();
+  };
+  const Report steady = measure(0.0);
+  EXPECT_TRUE(test::HasWarning(steady, WarningCode::LocalLight));
+  EXPECT_FALSE(test::HasWarning(steady, WarningCode::GainNotUniform));
+  const Report drifting = measure(0.1);
+  EXPECT_TRUE(test::HasWarning(drifting, WarningCode::LocalLight));
+  EXPECT_TRUE(test::HasWarning(drifting, WarningCode::GainNotUniform));
 }
 
 TEST(SensorNoiseFrameParts, OfADifferenceThatDoesNotCountAreOne)

@@ -177,6 +177,31 @@ NoiseResiduals::NoiseResiduals(FrameSample             sample,
   this->Project(pixels, parallelFor, [&](std::size_t i) { sample.FillNoise(i, pixels.mean, m_Sample); });
 }
 
+namespace
+{
+/** Returns the means of the \a coordinates of \a size pixels over the pixels for which \a take is true, one for each
+ * series; 0 if there are none. */
+template <typename TTake>
+Eigen::VectorXd
+MeanOfPixels(const std::vector<float> & coordinates, std::size_t size, TTake take)
+{
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(coordinates.size() / size));
+  double          count = 0.0;
+  for (std::size_t p = 0; p < size; ++p)
+  {
+    if (take(p))
+    {
+      count += 1.0;
+      for (Eigen::Index j = 0; j < sums.size(); ++j)
+      {
+        sums(j) += static_cast<double>(coordinates[static_cast<std::size_t>(j) * size + p]);
+      }
+    }
+  }
+  return sums / std::max(1.0, count);
+}
+} // namespace
+
 template <typename TFillTile>
 void
 NoiseResiduals::Project(const SampledPixels & pixels, const ParallelFor & parallelFor, TFillTile fillTile)
@@ -185,6 +210,7 @@ NoiseResiduals::Project(const SampledPixels & pixels, const ParallelFor & parall
   const std::size_t   size = tiles.Pixels();
   m_Signal.resize(tiles.origins.size() * size);
   m_Variance.resize(m_Signal.size());
+  m_MeanCoordinates.resize(m_Basis.cols(), static_cast<Eigen::Index>(tiles.origins.size()));
   m_BlackDn = pixels.blackDn;
   m_IsBlackKnown = pixels.isBlackKnown;
   parallelFor(tiles.origins.size(), [&](std::size_t i) {
@@ -194,7 +220,9 @@ NoiseResiduals::Project(const SampledPixels & pixels, const ParallelFor & parall
       m_Signal[i * size + p] = std::isfinite(signal) ? static_cast<float>(signal) : 0.0F;
     }
     fillTile(i);
-    this->ProjectTile(i);
+    const std::vector<float> coordinates = this->ProjectTile(i);
+    m_MeanCoordinates.col(static_cast<Eigen::Index>(i)) =
+      MeanOfPixels(coordinates, size, [&](std::size_t p) { return pixels.take[m_Sample.PixelOf(i, p)] != 0; });
     this->SumSquares(i);
   });
   this->Take(pixels.take, parallelFor);
@@ -231,7 +259,7 @@ NoiseResiduals::DropFirst(std::size_t frames, const ParallelFor & parallelFor)
   parallelFor(this->GetTiles().origins.size(), [this](std::size_t i) { this->ProjectTile(i); });
 }
 
-void
+std::vector<float>
 NoiseResiduals::ProjectTile(std::size_t i)
 {
   const std::size_t  size = this->GetTiles().Pixels();
@@ -265,6 +293,14 @@ NoiseResiduals::ProjectTile(std::size_t i)
       AddWeighed(coordinates.data() + j * size, weights, together, size, values + t * size);
     }
   }
+  return coordinates;
+}
+
+Eigen::VectorXd
+NoiseResiduals::LevelChangesOf(std::size_t i) const
+{
+  const Eigen::Index series = m_Basis.cols() - 1; // the first one is the constant
+  return m_Basis.rightCols(series) * m_MeanCoordinates.col(static_cast<Eigen::Index>(i)).tail(series);
 }
 
 bool

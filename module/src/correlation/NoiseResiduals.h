@@ -237,6 +237,10 @@ public:
   {
     return m_Variance.data() + i * this->GetTiles().Pixels();
   }
+  /** Returns the change of the mean level of tile \a i in every frame that was projected out, from the mean over the
+   * frames, for the pixels of the constructor [DN]. It is for all frames; DropFirst() must not have been called. */
+  Eigen::VectorXd
+  LevelChangesOf(std::size_t i) const;
   /** Returns the axis along which SubtractLines() was called, if it was. White noise then has the covariance -(a a' + b
    * b') between the residuals of two pixels of a line in a frame. Here a and b are the values of LineProjectionsOf() at
    * both pixels [DN]. */
@@ -309,7 +313,8 @@ private:
   template <typename TFillTile>
   void
   Project(const SampledPixels & pixels, const ParallelFor & parallelFor, TFillTile fillTile);
-  void
+  /** Projects the series out of tile \a i. Returns the coordinates of its pixels on them, series by series [DN]. */
+  std::vector<float>
   ProjectTile(std::size_t i);
   void
   SumSquares(std::size_t i);
@@ -327,6 +332,7 @@ private:
 
   NoiseSample               m_Sample;
   Eigen::MatrixXd           m_Basis;
+  Eigen::MatrixXd           m_MeanCoordinates; // means over the pixels of a tile, series x tiles [DN]
   std::vector<float>        m_Signal;
   std::vector<float>        m_Variance; // sums over time of the squares
   std::vector<float>        m_Weight;

@@ -202,12 +202,14 @@ FrameEnergies::FrameEnergies(const NoiseResiduals &            residuals,
   }
   const auto rows = static_cast<Eigen::Index>(filled.size());
   m_SquaresDn2.resize(rows, frames);
+  m_LevelChangesDn.resize(rows, frames);
   m_SignalDn.resize(rows);
   m_Pixels.resize(rows);
   for (Eigen::Index row = 0; row < rows; ++row)
   {
     const Eigen::Index tile = filled[static_cast<std::size_t>(row)];
     m_SquaresDn2.row(row) = squares.col(tile).transpose();
+    m_LevelChangesDn.row(row) = residuals.LevelChangesOf(static_cast<std::size_t>(tile)).transpose();
     m_SignalDn(row) = signal(tile);
     m_Pixels(row) = pixels(tile);
   }

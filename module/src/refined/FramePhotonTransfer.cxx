@@ -216,16 +216,29 @@ CurveOfFrames(const Regression &      data,
 } // namespace
 
 TileLevels::TileLevels(const std::vector<double> & gamma, double offsetDn, double zeroDn)
+  : TileLevels(gamma, offsetDn, zeroDn, false)
+{}
+
+TileLevels::TileLevels(const std::vector<double> & gamma, double offsetDn, double zeroDn, bool isLocal)
   : m_Illumination(Eigen::Map<const Eigen::VectorXd>(gamma.data(), static_cast<Eigen::Index>(gamma.size())).array() +
                    1.0)
   , m_OffsetDn(offsetDn)
   , m_ZeroDn(zeroDn)
+  , m_IsLocal(isLocal)
 {}
 
 Eigen::VectorXd
 TileLevels::Of(double signalDn) const
 {
   return m_OffsetDn + m_Illumination.array() * (signalDn + m_ZeroDn - m_OffsetDn);
+}
+
+Eigen::VectorXd
+TileLevels::Of(const FrameEnergies & energies, Eigen::Index tile) const
+{
+  const double signalDn = energies.SignalDn()(tile);
+  return m_IsLocal ? Eigen::VectorXd(m_ZeroDn + signalDn + energies.LevelChangesDn().row(tile).transpose().array())
+                   : Eigen::VectorXd(this->Of(signalDn).head(energies.Frames()));
 }
 
 double
@@ -240,7 +253,7 @@ VariancesOfFrames(const FrameEnergies & energies,
                   const VarianceLine &  line,
                   Eigen::Index          tile)
 {
-  const Eigen::VectorXd level = levels.Of(energies.SignalDn()(tile)).head(energies.Frames());
+  const Eigen::VectorXd level = levels.Of(energies, tile);
   return (line.intercept + line.gain * level.array()).max(LeastVarianceDn2(energies, tile));
 }
 
@@ -300,7 +313,7 @@ MakeFrameParts(const FrameEnergies & energies, const TileLevels & levels, const 
   std::vector<TileExcess> tiles;
   for (Eigen::Index i = 0; i < energies.Tiles(); ++i)
   {
-    const Eigen::VectorXd             level = levels.Of(energies.SignalDn()(i)).head(frames);
+    const Eigen::VectorXd             level = levels.Of(energies, i);
     const Eigen::ArrayXd              variance = VariancesOfFrames(energies, levels, line, i);
     const Eigen::ArrayXd              shot = (line.gain * (level.array() - reference.blackDn)).max(0.0).min(variance);
     const Eigen::VectorXd             expected = energies.ExpectedSquares(variance.matrix());

@@ -68,6 +68,13 @@ public:
   {
     return m_SignalDn;
   }
+  /** Returns the change of the level of each tile in every frame that the projection removed, tiles x frames [DN];
+   * empty if the numbers were given. */
+  const Eigen::MatrixXd &
+  LevelChangesDn() const
+  {
+    return m_LevelChangesDn;
+  }
   /** Returns the number of pixels in each tile. */
   const Eigen::VectorXd &
   Pixels() const
@@ -94,6 +101,7 @@ private:
   FillRemainingFraction();
 
   Eigen::MatrixXd m_SquaresDn2;
+  Eigen::MatrixXd m_LevelChangesDn;
   Eigen::VectorXd m_SignalDn;
   Eigen::VectorXd m_Pixels;
   Eigen::MatrixXd m_Basis;
@@ -109,10 +117,16 @@ public:
    * sample contains the first of these frames. \a zeroDn is the level from which FrameEnergies measures the signal
    * [DN]. */
   TileLevels(const std::vector<double> & gamma, double offsetDn, double zeroDn);
+  /** As above, for illumination that changes differently between tiles (\a isLocal). Of(energies, tile) then takes the
+   * changes that were measured in each tile. */
+  TileLevels(const std::vector<double> & gamma, double offsetDn, double zeroDn, bool isLocal);
 
   /** Returns the levels in every frame of a tile whose signal in the mean frame is \a signalDn [DN]. */
   Eigen::VectorXd
   Of(double signalDn) const;
+  /** Returns the levels of a \a tile in every frame of \a energies [DN]. */
+  Eigen::VectorXd
+  Of(const FrameEnergies & energies, Eigen::Index tile) const;
 
   /** Returns the dark offset about which the illumination factors are given [DN]. */
   double
@@ -125,6 +139,7 @@ private:
   Eigen::VectorXd m_Illumination;
   double          m_OffsetDn;
   double          m_ZeroDn;
+  bool            m_IsLocal;
 };
 
 /** Returns InRefined.leastWeighedVariance of the mean square of a \a tile [DN^2]. */
@@ -227,6 +242,7 @@ struct FrameComparison
   const StaticScene &      scene;
   TileLevels               levels;
   bool                     isIlluminationLocal{ false }; ///< the illumination changes differently between tiles
+  bool                     areLevelsKnown{ true };       ///< the projection removes all changes of the illumination
 
   /** Returns whether the noise variance differs between frames by as much as counts. */
   bool

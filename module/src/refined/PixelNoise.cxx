@@ -263,7 +263,7 @@ MeasureFrames(PixelNoise &            noise,
   const double shared = std::max(1.0, VarianceInflation(noise.correlation.space));
   noise.variance.fromFrames = LineOfFrames(noise.variance, by, parallelFor);
   noise.frames = CompareFrames(noise.variance, by, noise.correlation, parallelFor);
-  if (!noise.frames.HasSeveralGroups() && !by.isIlluminationLocal && MovesLittle(by.scene.model))
+  if (!noise.frames.HasSeveralGroups() && by.areLevelsKnown && MovesLittle(by.scene.model))
   {
     const FrameEnergies energies(by.residuals, MaskOfUsed(noise.variance.pixelUse), parallelFor);
     noise.variance.parts.frames =
@@ -349,8 +349,9 @@ MeasurePixelNoise(ResidualSquares                          squares,
   const FrameComparison comparison{ residuals,
                                     projected,
                                     scene,
-                                    { series->line.gamma, offsetDn, zeroDn },
-                                    series->local.IsLocal() || allowed.lines.isSubtracted };
+                                    { series->line.gamma, offsetDn, zeroDn, series->local.IsLocal() },
+                                    series->local.IsLocal() || allowed.lines.isSubtracted,
+                                    series->local.beyond <= 1.0 && !allowed.lines.isSubtracted };
   const auto            allowForFrames = [&] {
     noise.variance.fromFrames = LineOfFrames(noise.variance, comparison, parallelFor);
     if (comparison.AreUnequal())
