@@ -117,8 +117,8 @@ public:
    * sample contains the first of these frames. \a zeroDn is the level from which FrameEnergies measures the signal
    * [DN]. */
   TileLevels(const std::vector<double> & gamma, double offsetDn, double zeroDn);
-  /** As above, for illumination that changes differently between tiles (\a isLocal). Of(energies, tile) then takes the
-   * changes that were measured in each tile. */
+  /** As above. If the illumination changes differently between tiles (\a isLocal), Of(energies, tile) takes the changes
+   * that were measured in each tile. */
   TileLevels(const std::vector<double> & gamma, double offsetDn, double zeroDn, bool isLocal);
 
   /** Returns the levels in every frame of a tile whose signal in the mean frame is \a signalDn [DN]. */
@@ -226,11 +226,10 @@ struct SensorNoise_EXPORT FrameNoise
 };
 
 /** Sorts the frames into groups. The largest group is found by the shortest interval that contains half of the frames.
- * It contains all frames that differ from its median by less than the threshold, or not significantly. If less than
- * three fifths of all frames remain without its frames that are nearer to another group, these belong to that. The
- * other frames are divided where the noise differs by more than the threshold. Estimator.md, 3.14. \a ofFrames is the
- * result of NoiseOfFrames(), \a chance its standard deviation by the number of pixels [1], \a least the threshold, as
- * InRefined.leastUnlikeNoise [1]. */
+ * It contains all frames that differ from its median by less than the threshold, or not significantly, except frames
+ * that are nearer to another group. The other frames are divided where the noise differs by more than the threshold.
+ * Estimator.md, 3.14. \a ofFrames is the result of NoiseOfFrames(), \a chance its standard deviation by the number of
+ * pixels [1], \a least the threshold, as InRefined.leastUnlikeNoise [1]. */
 SensorNoise_EXPORT FrameNoise
 GroupFramesByNoise(const Eigen::VectorXd & ofFrames, double chance, double least);
 

@@ -251,11 +251,12 @@ FirstGain(const StaticScene & scene, const SceneSeries & series)
   return scene.changesStrongly && !series.local.IsLocal() ? scene.model.slopeDn : 0.0;
 }
 
-/** Compares the noise of the frames and, if it does not differ, of their parts. Frames of several scenes are not
- * comparable: their line and their groups are dropped. */
+/** Compares the noise of the frames and, if it does not differ, of their parts at their \a levels. Frames of several
+ * scenes are not comparable: their line and their groups are dropped. */
 void
 MeasureFrames(PixelNoise &            noise,
               const FrameComparison & by,
+              const TileLevels &      levels,
               double                  blackDn,
               bool                    isOneScene,
               const ParallelFor &     parallelFor)
@@ -263,11 +264,13 @@ MeasureFrames(PixelNoise &            noise,
   const double shared = std::max(1.0, VarianceInflation(noise.correlation.space));
   noise.variance.fromFrames = LineOfFrames(noise.variance, by, parallelFor);
   noise.frames = CompareFrames(noise.variance, by, noise.correlation, parallelFor);
-  if (!noise.frames.HasSeveralGroups() && by.areLevelsKnown && MovesLittle(by.scene.model))
+  // Components of noise that is correlated in time may be taken for local illumination.
+  const bool isNoise = by.isIlluminationLocal && noise.correlation.kind == NoiseKind::Temporal;
+  if (!noise.frames.HasSeveralGroups() && by.areLevelsKnown && !isNoise && MovesLittle(by.scene.model))
   {
     const FrameEnergies energies(by.residuals, MaskOfUsed(noise.variance.pixelUse), parallelFor);
     noise.variance.parts.frames =
-      CompareFrameParts(MakeFrameParts(energies, by.levels, { BetterLine(noise.variance), blackDn, shared }));
+      CompareFrameParts(MakeFrameParts(energies, levels, { BetterLine(noise.variance), blackDn, shared }));
   }
   if (!isOneScene)
   {
@@ -349,7 +352,7 @@ MeasurePixelNoise(ResidualSquares                          squares,
   const FrameComparison comparison{ residuals,
                                     projected,
                                     scene,
-                                    { series->line.gamma, offsetDn, zeroDn, series->local.IsLocal() },
+                                    { series->line.gamma, offsetDn, zeroDn },
                                     series->local.IsLocal() || allowed.lines.isSubtracted,
                                     series->local.beyond <= 1.0 && !allowed.lines.isSubtracted };
   const auto            allowForFrames = [&] {
@@ -375,7 +378,8 @@ MeasurePixelNoise(ResidualSquares                          squares,
     noise.variance = fit(varianceInflation);
   }
   noise.variance.interpolatedFraction = interpolated.fraction;
-  MeasureFrames(noise, comparison, blackDn, isOneScene, parallelFor);
+  const bool isLocal = series->local.IsLocal();
+  MeasureFrames(noise, comparison, { series->line.gamma, offsetDn, zeroDn, isLocal }, blackDn, isOneScene, parallelFor);
   MeasureSettledFrames(noise.correlation, residuals, quantisationDn2, parallelFor);
   noise.variance.lostVariance = LostVariance(interpolated, FractionNotCompared(chosen, residuals), noise.correlation);
   if (noise.correlation.kind != NoiseKind::NotMeasured)

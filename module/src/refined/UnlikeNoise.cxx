@@ -6,7 +6,6 @@
 #include "base/Constants.h"
 #include "base/Text.h"
 #include "correlation/Constants.h"
-#include "moments/Constants.h"
 #include "refined/Constants.h"
 
 #include <algorithm>
@@ -288,10 +287,7 @@ GroupFramesByNoise(const Eigen::VectorXd & ofFrames, double chance, double least
   auto [begin, end] = FindLargestGroup(sorted, chance, least);
   found.groups = GroupsAbout(sorted, begin, end, least);
   LeaveOthersOut(sorted, found.groups, begin, end);
-  if (static_cast<double>(end - begin) < (1.0 - InMoments.largestOtherGroup) * static_cast<double>(sorted.size()))
-  {
-    found.groups = GroupsAbout(sorted, begin, end, least); // no majority is left
-  }
+  found.groups = GroupsAbout(sorted, begin, end, least);
   for (std::size_t k = 1; k < found.groups.size(); ++k)
   {
     found.unlike.insert(found.unlike.end(), found.groups[k].frames.begin(), found.groups[k].frames.end());
