@@ -42,9 +42,9 @@ class Quantity:
     Examples
     --------
     >>> report.gain.value, report.gain.unit
-    (5.000435361133344, 'DN/e-')
+    (5.000230729100737, 'DN/e-')
     >>> print(report.gain)
-    5.0004 ± 0.0026 DN/e⁻
+    5.0002 ± 0.0026 DN/e⁻
     """
 
     value: float | None
