@@ -50,13 +50,13 @@ struct MosaicLag
 constexpr std::array<MosaicLag, 4> Neighbours{ { { 1, 0 }, { 0, 1 }, { 1, 1 }, { -1, 1 } } };
 
 /** Sums over pairs of pixels: w^2 z times the covariance, and w^2 z^2, whose ratio is the slope of the covariance. */
-struct SlopeSums
+struct NeighbourProducts
 {
   double product{ 0.0 };
   double square{ 0.0 };
 
-  SlopeSums &
-  operator+=(const SlopeSums & other)
+  NeighbourProducts &
+  operator+=(const NeighbourProducts & other)
   {
     product += other.product;
     square += other.square;
@@ -67,7 +67,7 @@ struct SlopeSums
 /** Sums for each pair of opposite neighbours, in both directions, near and at three times the distance. */
 struct NeighbourSums
 {
-  std::array<std::array<SlopeSums, 2 * Neighbours.size()>, 2> pairs{};
+  std::array<std::array<NeighbourProducts, 2 * Neighbours.size()>, 2> pairs{};
 
   NeighbourSums &
   operator+=(const NeighbourSums & other)
@@ -88,7 +88,7 @@ struct NeighbourSums
     double slope = 0.0;
     for (std::size_t far = 0; far < pairs.size(); ++far)
     {
-      for (const SlopeSums & pair : pairs[far])
+      for (const NeighbourProducts & pair : pairs[far])
       {
         slope += pair.square > 0.0 ? (far == 0 ? 1.0 : -1.0) * pair.product / pair.square : 0.0;
       }

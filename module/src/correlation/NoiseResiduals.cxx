@@ -37,7 +37,7 @@ UnequalFrames::KeepFirst(Eigen::Index frames)
 }
 
 Eigen::VectorXd
-UnequalFrames::Autocovariance(const Eigen::MatrixXd & ofFrames, std::size_t lags, const FrameTimes & times) const
+UnequalFrames::Autocovariance(const Eigen::MatrixXd & basis, std::size_t lags, const FrameTimes & times) const
 {
   const auto      last = static_cast<Eigen::Index>(lags);
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(last + 1);
@@ -46,17 +46,17 @@ UnequalFrames::Autocovariance(const Eigen::MatrixXd & ofFrames, std::size_t lags
     return sums;
   }
   // P Gamma P = Gamma - Q (Gamma Q)' - (Gamma Q) Q' + Q (Q' Gamma Q) Q'
-  const Eigen::MatrixXd basis = times.Expand(ofFrames);
-  const Eigen::MatrixXd weighted = times.Expand(m_Gamma.asDiagonal() * ofFrames);
-  const Eigen::MatrixXd both = basis * (basis.transpose() * weighted);
+  const Eigen::MatrixXd inTime = times.Expand(basis);
+  const Eigen::MatrixXd weighted = times.Expand(m_Gamma.asDiagonal() * basis);
+  const Eigen::MatrixXd both = inTime * (inTime.transpose() * weighted);
   for (Eigen::Index d = 0; d <= last; ++d)
   {
-    const Eigen::Index rows = basis.rows() - d;
+    const Eigen::Index rows = inTime.rows() - d;
     const auto         along = [&](const Eigen::MatrixXd & a, const Eigen::MatrixXd & b) {
       return a.topRows(rows).cwiseProduct(b.bottomRows(rows)).sum();
     };
     const double own = d == 0 ? m_Gamma.sum() : 0.0;
-    sums(d) = own - along(basis, weighted) - along(weighted, basis) + along(both, basis);
+    sums(d) = own - along(inTime, weighted) - along(weighted, inTime) + along(both, inTime);
   }
   return sums;
 }
@@ -183,7 +183,7 @@ namespace
  * series; 0 if there are none. */
 template <typename TTake>
 Eigen::VectorXd
-MeanOfPixels(const std::vector<float> & coordinates, std::size_t size, TTake take)
+MeanCoordinates(const std::vector<float> & coordinates, std::size_t size, TTake take)
 {
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(coordinates.size() / size));
   double          count = 0.0;
@@ -222,7 +222,7 @@ NoiseResiduals::Project(const SampledPixels & pixels, const ParallelFor & parall
     fillTile(i);
     const std::vector<float> coordinates = this->ProjectTile(i);
     m_MeanCoordinates.col(static_cast<Eigen::Index>(i)) =
-      MeanOfPixels(coordinates, size, [&](std::size_t p) { return pixels.take[m_Sample.PixelOf(i, p)] != 0; });
+      MeanCoordinates(coordinates, size, [&](std::size_t p) { return pixels.take[m_Sample.PixelOf(i, p)] != 0; });
     this->SumSquares(i);
   });
   this->Take(pixels.take, parallelFor);

@@ -66,23 +66,24 @@ ColumnsOf(const Eigen::MatrixXd & mixing, double ratio)
 } // namespace
 
 Eigen::MatrixXd
-TemporalMixing(const Eigen::MatrixXd & ofFrames, std::size_t lags, std::size_t furthest, const FrameTimes & times)
+TemporalMixing(const Eigen::MatrixXd & basis, std::size_t lags, std::size_t furthest, const FrameTimes & times)
 {
   const auto            rows = static_cast<Eigen::Index>(lags) + 1;
   const auto            columns = static_cast<Eigen::Index>(furthest) + 1;
-  const auto            frames = static_cast<std::size_t>(ofFrames.rows());
-  const Eigen::MatrixXd basis = times.Expand(ofFrames);
-  const Eigen::VectorXd isMeasured = times.Expand(Eigen::VectorXd::Ones(ofFrames.rows()));
+  const auto            frames = static_cast<std::size_t>(basis.rows());
+  const Eigen::MatrixXd inTime = times.Expand(basis);
+  const Eigen::VectorXd isMeasured = times.Expand(Eigen::VectorXd::Ones(basis.rows()));
   Eigen::MatrixXd       mixing(rows, columns);
   for (Eigen::Index k = 0; k < columns; ++k)
   {
     // P B P = B - Q (B Q)' - (B Q) Q' + Q (Q' B Q) Q'
-    const Eigen::MatrixXd shifted = isMeasured.asDiagonal() * ShiftBothWays(basis, k);
-    const Eigen::MatrixXd both = basis * (basis.transpose() * shifted);
+    const Eigen::MatrixXd shifted = isMeasured.asDiagonal() * ShiftBothWays(inTime, k);
+    const Eigen::MatrixXd both = inTime * (inTime.transpose() * shifted);
     for (Eigen::Index d = 0; d < rows; ++d)
     {
       const double own = d == k ? static_cast<double>(times.PairsAt(static_cast<std::size_t>(d), frames).size()) : 0.0;
-      mixing(d, k) = own - DiagonalOf(basis, shifted, d) - DiagonalOf(shifted, basis, d) + DiagonalOf(both, basis, d);
+      mixing(d, k) =
+        own - DiagonalOf(inTime, shifted, d) - DiagonalOf(shifted, inTime, d) + DiagonalOf(both, inTime, d);
     }
   }
   return mixing;

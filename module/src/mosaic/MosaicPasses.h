@@ -240,7 +240,7 @@ private:
   void
   AddNeighbours()
   {
-    SampledPlanes planes;
+    SampledPlanes planes{};
     for (std::size_t k = 0; k < m_Methods.size(); ++k)
     {
       planes.noise[k] = &m_Methods[k].GetSample();

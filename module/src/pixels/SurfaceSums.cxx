@@ -126,7 +126,7 @@ public:
   Add(const Powers & x, double w, double level, const double * variables)
   {
     std::array<double, 3>                      weights{ w, w * level, w * level * level };
-    std::array<double, 2 * (OrderOfTerms + 1)> weightsOfVariables;
+    std::array<double, 2 * (OrderOfTerms + 1)> weightsOfVariables{};
     for (std::size_t i = 0; i <= OrderOfTerms; ++i)
     {
       weightsOfVariables[i] = weights[0] * x[i];

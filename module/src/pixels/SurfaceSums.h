@@ -134,10 +134,10 @@ public:
    * \a noise / w. */
   Gram
   ProductsOfTerms(double noise) const;
-  /** Returns the products of w, the terms of CurvedSurface and variable \a j, whose noise has the covariance \a noise
+  /** Returns the products of w, the terms of CurvedSurface and \a variable, whose noise has the covariance \a noise
    * with I. */
   CurvedSurface
-  ProductsWith(std::size_t j, double noise) const;
+  ProductsWith(std::size_t variable, double noise) const;
   /** Adds the sums over a part of the tile, whose place in it \a x and \a y give. */
   void
   AddPart(const SurfaceSums & part, const Move & x, const Move & y);

@@ -279,6 +279,15 @@ MeasureFrames(PixelNoise &            noise,
   }
 }
 
+/** Returns what is left of the illumination of single lines; as it was if the noise was not measured. */
+MeasuredNumber
+LinesLeft(const PixelNoise & noise, const NoiseResiduals & residuals, const ParallelFor & parallelFor)
+{
+  return noise.correlation.kind == NoiseKind::NotMeasured
+           ? noise.lines.left
+           : EstimateLineIlluminationChange(residuals, noise.lines.axis, parallelFor);
+}
+
 /** Subtracts waves of the frequencies that the dark frames have from \a residuals, so that their variance is measured,
  * however small. */
 void
@@ -319,13 +328,11 @@ MeasurePixelNoise(ResidualSquares                          squares,
                        sample.CopiedFraction(chosen, LineAxis::Columns) };
   NoiseResiduals residuals(
     std::move(sample), series->basis.GetBasis(), { scene.frame.mean, chosen, zeroDn, isIdentifiable }, parallelFor);
-  AllowedLines allowed;
-  if (settings.rollingShutter != RollingShutter::Off)
-  {
-    const double signalDn = scene.model.brightestDn - blackDn;
-    const bool   areSeriesLeft = series->local.beyond > 1.0;
-    allowed = AllowForLines(residuals, scene, { chosen, pixelUse }, signalDn, areSeriesLeft, parallelFor);
-  }
+  const bool         isRolling = settings.rollingShutter != RollingShutter::Off;
+  const double       signalDn = scene.model.brightestDn - blackDn;
+  const AllowedLines allowed =
+    isRolling ? AllowForLines(residuals, scene, { chosen, pixelUse }, signalDn, series->local.beyond > 1.0, parallelFor)
+              : AllowedLines();
   ProjectedSquares projected =
     ProjectSquares(std::move(squares), scene, *series, allowed.replaced, quantisationNoise, parallelFor);
   const double firstGain = FirstGain(scene, *series);
@@ -382,14 +389,8 @@ MeasurePixelNoise(ResidualSquares                          squares,
   MeasureFrames(noise, comparison, { series->line.gamma, offsetDn, zeroDn, isLocal }, blackDn, isOneScene, parallelFor);
   MeasureSettledFrames(noise.correlation, residuals, quantisationDn2, parallelFor);
   noise.variance.lostVariance = LostVariance(interpolated, FractionNotCompared(chosen, residuals), noise.correlation);
-  if (noise.correlation.kind != NoiseKind::NotMeasured)
-  {
-    noise.lines.left = EstimateLineIlluminationChange(residuals, allowed.lines.axis, parallelFor);
-  }
-  if (keepsSample)
-  {
-    noise.sampled = SampledNoise(residuals);
-  }
+  noise.lines.left = LinesLeft(noise, residuals, parallelFor);
+  noise.sampled = keepsSample ? SampledNoise(residuals) : SampledNoise();
   FindOtherCauses(noise.correlation, residuals, copies, MovesLittle(comparison.scene.model), parallelFor);
   noise.correctedVariance = std::move(projected).TakeVarianceAt(noise.variance.correctingGain);
   return noise;

@@ -194,9 +194,9 @@ FindFewLitFrames(const RefinedResults & found);
 /** Gains of parts of the frame or of the burst that differ. */
 struct UnlikeParts
 {
-  Partition         partition; ///< division of the pixels or frames
-  double            rms;       ///< rms of the parts' gains about their mean, beyond chance, relative to it [1]
-  GainByPartsRecord record;    ///< gain of every part
+  Partition         partition{}; ///< division of the pixels or frames
+  double            rms{ 0.0 };  ///< rms of the parts' gains about their mean, beyond chance, relative to it [1]
+  GainByPartsRecord record;      ///< gain of every part
 
   /** Returns the parts of the lowest and of the highest gain. */
   SensorNoise_EXPORT std::pair<const GainByPartsRecord::Part &, const GainByPartsRecord::Part &>
