@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/IlluminationResponses.h"
 
+#include "base/RegressionSums.h"
 #include "pixels/Constants.h"
 #include "pixels/ProjectionSums.h"
 #include "pixels/VarianceLine.h"
@@ -15,19 +16,6 @@
 namespace sensornoise
 {
 
-namespace
-{
-/** Sums of the weight w times powers of I, the mean minus the centre, and times z, the response. */
-struct LineSums
-{
-  double w{ 0.0 };
-  double wI{ 0.0 };
-  double wII{ 0.0 };
-  double wZ{ 0.0 };
-  double wIZ{ 0.0 };
-};
-} // namespace
-
 bool
 IsOffsetDrift(const IlluminationResponses & data)
 {
@@ -39,8 +27,8 @@ IsOffsetDrift(const IlluminationResponses & data)
   const std::size_t      count = across * ((frame.geometry.height + side - 1) / side);
   for (std::size_t j = 1; j < factors; ++j)
   {
-    std::vector<LineSums> parts(count);
-    LineSums              whole;
+    std::vector<RegressionSums> parts(count);
+    RegressionSums              whole;
     for (std::size_t p = 0; p < data.mask.size(); ++p)
     {
       if (data.mask[p] != 0)
@@ -48,27 +36,22 @@ IsOffsetDrift(const IlluminationResponses & data)
         const double w = 1.0 / data.line.At(frame.neighbourMean[p]);
         const double centred = frame.mean[p] - data.centreDn;
         const double z = data.coordinates.At(p, j);
-        for (LineSums * s : { &parts[p / width / side * across + p % width / side], &whole })
-        {
-          s->w += w;
-          s->wI += w * centred;
-          s->wII += w * centred * centred;
-          s->wZ += w * z;
-          s->wIZ += w * centred * z;
-        }
+        const auto   own = RegressionSums::Of(w, centred, z);
+        parts[p / width / side * across + p % width / side] += own;
+        whole += own;
       }
     }
-    const double determinant = whole.w * whole.wII - whole.wI * whole.wI;
-    const double level = (whole.wII * whole.wZ - whole.wI * whole.wIZ) / determinant;
-    const double slope = (whole.w * whole.wIZ - whole.wI * whole.wZ) / determinant;
-    const double explained = level * whole.wZ + slope * whole.wIZ;
+    const double determinant = whole.w * whole.xx - whole.x * whole.x;
+    const double level = (whole.xx * whole.y - whole.x * whole.xy) / determinant;
+    const double slope = (whole.w * whole.xy - whole.x * whole.y) / determinant;
+    const double explained = level * whole.y + slope * whole.xy;
     double       chi2 = 0.0;
     double       used = 0.0;
-    for (const LineSums & s : parts)
+    for (const RegressionSums & s : parts)
     {
       if (s.w > 0.0)
       {
-        chi2 += std::pow(s.wZ - level * s.w - slope * s.wI, 2) / s.w;
+        chi2 += std::pow(s.y - level * s.w - slope * s.x, 2) / s.w;
         used += 1.0;
       }
     }

@@ -7,6 +7,7 @@
 #include "base/Eigen.h"
 #include "base/Jackknife.h"
 #include "base/Quantiles.h"
+#include "base/RegressionSums.h"
 #include "moments/DarkFrames.h"
 #include "pixels/Constants.h"
 #include "pixels/GainByParts.h"
@@ -173,44 +174,28 @@ TilesOfRow(const DarkMaps & dark, const FrameGeometry & geometry, std::size_t ro
   return tiles;
 }
 
-/** Sums of a weighted regression of the variances of tiles on their offsets. */
-struct ChargeSums
-{
-  double w{ 0.0 }, x{ 0.0 }, y{ 0.0 }, xx{ 0.0 }, xy{ 0.0 };
-
-  ChargeSums &
-  operator+=(const ChargeSums & other)
-  {
-    w += other.w;
-    x += other.x;
-    y += other.y;
-    xx += other.xx;
-    xy += other.xy;
-    return *this;
-  }
-  double
-  Slope() const
-  {
-    const double spread = xx - x * x / w;
-    return spread > 0.0 ? (xy - x * y / w) / spread : 0.0;
-  }
-};
-
 /** Removes the blocks without tiles or pixels. Returns whether enough are left for a jackknife. */
 bool
-KeepFilled(std::vector<ChargeSums> & blocks)
+KeepFilled(std::vector<RegressionSums> & blocks)
 {
-  const auto isEmpty = [](const ChargeSums & sums) { return !(sums.w > 0.0); };
+  const auto isEmpty = [](const RegressionSums & sums) { return !(sums.w > 0.0); };
   blocks.erase(std::remove_if(blocks.begin(), blocks.end(), isEmpty), blocks.end());
   return blocks.size() >= FewestBlocks;
 }
 
+/** Returns whether there are maps of dark frames of this size, and their variance. */
+bool
+HasDarkMaps(const std::optional<KnownOffset> & offset, const FrameGeometry & geometry)
+{
+  return offset && offset->maps && offset->variance && offset->maps->usable.size() == geometry.Pixels();
+}
+
 /** Returns the slope of the variance over the level [DN], with its error from a jackknife. */
 MeasuredNumber
-SlopeOf(const std::vector<ChargeSums> & blocks)
+SlopeOf(const std::vector<RegressionSums> & blocks)
 {
   const JackknifeEstimate slope =
-    Jackknife(blocks, [](const ChargeSums & sums) { return Eigen::VectorXd::Constant(1, sums.Slope()); });
+    Jackknife(blocks, [](const RegressionSums & sums) { return Eigen::VectorXd::Constant(1, sums.Slope()); });
   return { slope.value(0), slope.StandardError(0) };
 }
 } // namespace
@@ -220,15 +205,15 @@ FindDarkCharge(const std::optional<KnownOffset> & offset,
                const FrameGeometry &              geometry,
                const ParallelFor &                parallelFor)
 {
-  if (!offset || !offset->maps || !offset->variance || offset->maps->usable.size() != geometry.Pixels())
+  if (!HasDarkMaps(offset, geometry))
   {
     return std::nullopt;
   }
   const DarkMaps &                   dark = *offset->maps;
   std::vector<std::vector<DarkTile>> rows((geometry.height + TileSide - 1) / TileSide);
   parallelFor(rows.size(), [&](std::size_t row) { rows[row] = TilesOfRow(dark, geometry, row); });
-  std::vector<ChargeSums> blocks(std::min(rows.size(), MostBlocks));
-  std::vector<double>     levels;
+  std::vector<RegressionSums> blocks(std::min(rows.size(), MostBlocks));
+  std::vector<double>         levels;
   for (std::size_t row = 0; row < rows.size(); ++row)
   {
     for (const DarkTile & tile : rows[row])
@@ -236,7 +221,7 @@ FindDarkCharge(const std::optional<KnownOffset> & offset,
       const double x = tile.offsetDn - offset->valueDn;
       const double y = tile.varianceDn2 - offset->variance->valueDn2;
       const double w = tile.pixels;
-      blocks[row * blocks.size() / rows.size()] += { w, w * x, w * y, w * x * x, w * x * y };
+      blocks[row * blocks.size() / rows.size()] += RegressionSums::Of(w, x, y);
       levels.push_back(tile.offsetDn);
     }
   }
@@ -296,9 +281,9 @@ DispersionOf(const DarkMaps & dark, const FrameGeometry & geometry)
 /** Sums over differences of pixels. */
 struct DifferenceSums
 {
-  ChargeSums core;          ///< differences within Significance.oneTest standard deviations
-  double     pixels{ 0.0 }; ///< number of differences within Significance.everyPixel standard deviations
-  double     sizeDn{ 0.0 }; ///< sum of the sizes of these differences of the offset [DN]
+  RegressionSums core;          ///< differences within Significance.oneTest standard deviations
+  double         pixels{ 0.0 }; ///< number of differences within Significance.everyPixel standard deviations
+  double         sizeDn{ 0.0 }; ///< sum of the sizes of these differences of the offset [DN]
 
   void
   Add(const DarkDifference & difference, const DarkDifference & dispersion)
@@ -313,7 +298,7 @@ struct DifferenceSums
     {
       const double largest = Significance.oneTest * dispersion.varianceDn2;
       const double y = std::clamp(difference.varianceDn2, -largest, largest);
-      core += { 1.0, x, y, x * x, x * y };
+      core += RegressionSums::Of(1.0, x, y);
     }
   }
 };
@@ -324,7 +309,7 @@ FindPixelCharge(const std::optional<KnownOffset> & offset,
                 const FrameGeometry &              geometry,
                 const ParallelFor &                parallelFor)
 {
-  if (!offset || !offset->maps || !offset->variance || offset->maps->usable.size() != geometry.Pixels())
+  if (!HasDarkMaps(offset, geometry))
   {
     return std::nullopt;
   }
@@ -346,9 +331,9 @@ FindPixelCharge(const std::optional<KnownOffset> & offset,
       }
     }
   });
-  std::vector<ChargeSums> blocks;
-  double                  pixels = 0.0;
-  double                  sizeDn = 0.0;
+  std::vector<RegressionSums> blocks;
+  double                      pixels = 0.0;
+  double                      sizeDn = 0.0;
   for (const DifferenceSums & sums : ofRows)
   {
     blocks.push_back(sums.core);

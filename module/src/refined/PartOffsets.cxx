@@ -5,10 +5,11 @@
 #include "base/ChiSquare.h"
 #include "base/Constants.h"
 #include "base/Eigen.h"
+#include "base/RegressionSums.h"
 #include "pixels/GainByParts.h"
+#include "series/FrameEquations.h"
 #include "series/FrameSums.h"
 #include "series/LocalIllumination.h"
-#include "series/FrameEquations.h"
 #include "series/OffsetLine.h"
 
 #include <algorithm>
@@ -26,22 +27,14 @@ namespace
  * line z = k (I - mu), where mu is the dark offset minus the centre. */
 struct ResponseSums
 {
-  double pixels{ 0.0 };
-  double w{ 0.0 };   ///< sum of the weights w, one over the variance [1/DN^2]
-  double wI{ 0.0 };  ///< sum of w I [1/DN]
-  double wII{ 0.0 }; ///< sum of w I^2, without the noise of the means [1]
-  double wZ{ 0.0 };  ///< sum of w z [1/DN]
-  double wIZ{ 0.0 }; ///< sum of w I z, without the noise that both share [1]
+  double         pixels{ 0.0 };
+  RegressionSums line; ///< z over I, without the noise that they share; the weight is one over the variance [1/DN^2]
 
   ResponseSums &
   operator+=(const ResponseSums & other)
   {
     pixels += other.pixels;
-    w += other.w;
-    wI += other.wI;
-    wII += other.wII;
-    wZ += other.wZ;
-    wIZ += other.wIZ;
+    line += other.line;
     return *this;
   }
 };
@@ -58,16 +51,16 @@ SumCells(const FrameSums & sums, const Eigen::VectorXd & ofFlicker, double gain,
     const FrameSums::Cell & of = sums.GetCells()[c];
     ResponseSums &          own = cells[c];
     own.pixels = static_cast<double>(of.pixels);
-    own.w = of.sum[0];
-    own.wI = of.sum[1];
+    own.line.w = of.sum[0];
+    own.line.x = of.sum[1];
     // The mean has the noise V / T, and the covariance of the response with it is the shot noise g (I - mu) / T.
-    own.wII = of.sumI[1] - own.pixels / frames;
-    own.wIZ = -gain * (own.wI - offset * own.w) / frames;
+    own.line.xx = of.sumI[1] - own.pixels / frames;
+    own.line.xy = -gain * (own.line.x - offset * own.line.w) / frames;
     for (Eigen::Index t = 0; t < ofFlicker.size(); ++t)
     {
       const auto & products = sums.GetCellSums(static_cast<std::size_t>(t), c);
-      own.wZ += ofFlicker(t) * products[0];
-      own.wIZ += ofFlicker(t) * products[1];
+      own.line.y += ofFlicker(t) * products[0];
+      own.line.xy += ofFlicker(t) * products[1];
     }
   }
   return cells;
@@ -91,13 +84,13 @@ FitParallelLines(const std::vector<ResponseSums> & parts)
   double product = 0.0;
   for (const ResponseSums & part : parts)
   {
-    if (!(part.w > 0.0))
+    if (!(part.line.w > 0.0))
     {
       return std::nullopt;
     }
     pixels += part.pixels;
-    contrast += part.wII - part.wI * part.wI / part.w;
-    product += part.wIZ - part.wI * part.wZ / part.w;
+    contrast += part.line.Spread();
+    product += part.line.Product();
   }
   if (!(contrast > 0.0) || !(product > 0.0))
   {
@@ -109,10 +102,10 @@ FitParallelLines(const std::vector<ResponseSums> & parts)
   for (const ResponseSums & part : parts)
   {
     const double fraction = part.pixels / pixels;
-    lines.offsetsDn.push_back((part.wI - part.wZ / lines.slope) / part.w);
+    lines.offsetsDn.push_back((part.line.x - part.line.y / lines.slope) / part.line.w);
     lines.offsetDn += fraction * lines.offsetsDn.back();
-    lines.variance += fraction * fraction / part.w;
-    response += fraction * part.wZ / part.w;
+    lines.variance += fraction * fraction / part.line.w;
+    response += fraction * part.line.y / part.line.w;
   }
   lines.variance = (lines.variance + std::pow(response / lines.slope, 2) / contrast) / (lines.slope * lines.slope);
   return lines;
@@ -141,7 +134,7 @@ CompareOffsets(Partition partition, const std::vector<ResponseSums> & cells, std
   ResponseSums                            whole;
   for (std::size_t c = 0; c < cells.size(); ++c)
   {
-    partOf.push_back(cells[c].w > 0.0 ? PartOfCell(partition, c, across, cells.size() / across) : std::nullopt);
+    partOf.push_back(cells[c].line.w > 0.0 ? PartOfCell(partition, c, across, cells.size() / across) : std::nullopt);
     if (partOf.back())
     {
       parts[*partOf.back()] += cells[c];
@@ -162,7 +155,8 @@ CompareOffsets(Partition partition, const std::vector<ResponseSums> & cells, std
     {
       const ResponseSums & cell = cells[c];
       const double         offset = within->offsetsDn[*partOf[c]];
-      chi2 += information / cell.w * std::pow(cell.wZ - within->slope * (cell.wI - offset * cell.w), 2);
+      chi2 +=
+        information / cell.line.w * std::pow(cell.line.y - within->slope * (cell.line.x - offset * cell.line.w), 2);
       dof += 1.0;
     }
   }
