@@ -4,6 +4,7 @@
 
 #include "base/Jackknife.h"
 #include "base/Quantiles.h"
+#include "correlation/LagSums.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,51 +50,29 @@ struct MosaicLag
 /** One of each pair of opposite neighbours. */
 constexpr std::array<MosaicLag, 4> Neighbours{ { { 1, 0 }, { 0, 1 }, { 1, 1 }, { -1, 1 } } };
 
-/** Sums over pairs of pixels: w^2 z times the covariance, and w^2 z^2, whose ratio is the slope of the covariance. */
-struct NeighbourProducts
-{
-  double product{ 0.0 };
-  double square{ 0.0 };
-
-  NeighbourProducts &
-  operator+=(const NeighbourProducts & other)
-  {
-    product += other.product;
-    square += other.square;
-    return *this;
-  }
-};
-
-/** Sums for each pair of opposite neighbours, in both directions, near and at three times the distance. */
+/** Sums over pairs of pixels: w^2 z times the covariance, and w^2 z^2, whose ratio is the slope of the covariance.
+ * There is a row for each neighbour, and a column for the near neighbours and for those at three times the distance. */
 struct NeighbourSums
 {
-  std::array<std::array<NeighbourProducts, 2 * Neighbours.size()>, 2> pairs{};
+  static constexpr int Directions = 2 * static_cast<int>(Neighbours.size());
+  using Pairs = Eigen::Array<double, Directions, 2>;
+
+  Pairs products = Pairs::Zero();
+  Pairs squares = Pairs::Zero();
 
   NeighbourSums &
   operator+=(const NeighbourSums & other)
   {
-    for (std::size_t far = 0; far < pairs.size(); ++far)
-    {
-      for (std::size_t k = 0; k < pairs[far].size(); ++k)
-      {
-        pairs[far][k] += other.pairs[far][k];
-      }
-    }
+    products += other.products;
+    squares += other.squares;
     return *this;
   }
   /** Returns the sum of the slopes over the near neighbours, without those over the far ones; 0 without pairs. */
   double
   Slope() const
   {
-    double slope = 0.0;
-    for (std::size_t far = 0; far < pairs.size(); ++far)
-    {
-      for (const NeighbourProducts & pair : pairs[far])
-      {
-        slope += pair.square > 0.0 ? (far == 0 ? 1.0 : -1.0) * pair.product / pair.square : 0.0;
-      }
-    }
-    return slope;
+    const Eigen::Array<double, 1, 2> slopes = (squares > 0.0).select(products / squares, 0.0).colwise().sum();
+    return slopes(0) - slopes(1);
   }
 };
 
@@ -106,14 +85,26 @@ struct PlanePair
   std::size_t        first;
   std::size_t        second;
   std::array<int, 2> shift;
+  Eigen::Index       direction; ///< row of NeighbourSums, for the first plane; the next one is for the second
+  Eigen::Index       distance;  ///< column of NeighbourSums
+  double             dof;       ///< expectation of a sum over time for noise of the covariance 1
 };
 
+/** Returns the trace of the product of the projections on what is left of both planes. */
+double
+CommonDof(const SampledNoise & a, const SampledNoise & b)
+{
+  return static_cast<double>(a.basis.rows() - a.basis.cols() - b.basis.cols()) +
+         (a.basis.transpose() * b.basis).squaredNorm();
+}
+
+/** Returns the pair of plane \a first with the plane of the pixel at \a lag. */
 PlanePair
 PairAt(const SampledPlanes & planes, std::size_t first, const MosaicLag & lag)
 {
   const std::array<int, 2> place{ static_cast<int>(planes.corners[first][0]) + lag.x,
                                   static_cast<int>(planes.corners[first][1]) + lag.y };
-  PlanePair                pair{ first, first, {} };
+  PlanePair                pair{ first, first, {}, 0, 0, 0.0 };
   for (std::size_t k = 0; k < planes.corners.size(); ++k)
   {
     const std::array<int, 2> rest{ place[0] - static_cast<int>(planes.corners[k][0]),
@@ -124,7 +115,29 @@ PairAt(const SampledPlanes & planes, std::size_t first, const MosaicLag & lag)
       pair.shift = { rest[0] / 2, rest[1] / 2 };
     }
   }
+  pair.dof = CommonDof(*planes.noise[pair.first], *planes.noise[pair.second]);
   return pair;
+}
+
+/** Returns the pairs of every plane with all neighbours in one direction, near and far. */
+std::vector<PlanePair>
+PairsOf(const SampledPlanes & planes)
+{
+  std::vector<PlanePair> pairs;
+  for (std::size_t plane = 0; plane < planes.noise.size(); ++plane)
+  {
+    for (std::size_t k = 0; k < Neighbours.size(); ++k)
+    {
+      for (const int far : { 0, 1 })
+      {
+        const int scale = 1 + 2 * far;
+        pairs.push_back(PairAt(planes, plane, { scale * Neighbours[k].x, scale * Neighbours[k].y }));
+        pairs.back().direction = static_cast<Eigen::Index>(2 * k);
+        pairs.back().distance = far;
+      }
+    }
+  }
+  return pairs;
 }
 
 /** Returns the pixels of a line of \a side pixels whose partners at \a shift are in the line, too: [first, last). */
@@ -136,52 +149,39 @@ WithPartners(int shift, std::size_t side)
                    : std::pair{ std::size_t{ 0 }, side - std::min(reach, side) };
 }
 
-/** Adds the pairs of tile \a tile to the sums of both planes, at [far][k] and [far][k + 1]. \a dof is the expectation
- * of a sum over time for noise of the covariance 1. */
+/** Adds the pairs of tile \a tile to the sums of both planes. */
 void
-AddPairs(const SampledPlanes & planes,
-         const PlanePair &     pair,
-         std::size_t           tile,
-         double                dof,
-         std::size_t           far,
-         std::size_t           k,
-         PlaneSums &           sums)
+AddPairs(const SampledPlanes & planes, const PlanePair & pair, std::size_t tile, PlaneSums & sums)
 {
   const SampledNoise & a = *planes.noise[pair.first];
   const SampledNoise & b = *planes.noise[pair.second];
   const SampleTiles &  tiles = a.tiles;
-  const auto [firstX, lastX] = WithPartners(pair.shift[0], tiles.side);
-  const auto rows = WithPartners(pair.shift[1], tiles.side);
-  const auto partner = [&](std::size_t p) {
-    return static_cast<std::size_t>(static_cast<int>(p) + pair.shift[1] * static_cast<int>(tiles.side) + pair.shift[0]);
+  const auto           shift = static_cast<std::ptrdiff_t>(pair.shift[1]) * static_cast<std::ptrdiff_t>(tiles.side) +
+                     static_cast<std::ptrdiff_t>(pair.shift[0]);
+  const std::size_t        begin = tiles.PlaceOf(tile, 0);
+  const std::vector<float> products = SumProducts(a.values.data() + begin, b.values.data() + begin, tiles, shift);
+  const auto               add = [&](std::size_t plane, Eigen::Index direction, double w, double z, double covariance) {
+    sums[plane].products(direction, pair.distance) += w * w * z * covariance;
+    sums[plane].squares(direction, pair.distance) += w * w * z * z;
   };
-  std::vector<float> products(tiles.side);
+  const auto columns = WithPartners(pair.shift[0], tiles.side);
+  const auto rows = WithPartners(pair.shift[1], tiles.side);
   for (std::size_t y = rows.first; y < rows.second; ++y)
   {
-    std::fill(products.begin(), products.end(), 0.0F);
-    const std::size_t row = y * tiles.side;
-    const std::size_t count = lastX - firstX;
-    for (std::size_t t = 0; t < tiles.frames; ++t)
+    for (std::size_t x = columns.first; x < columns.second; ++x)
     {
-      const float * const own = a.values.data() + tiles.PlaceOf(tile, t) + row + firstX;
-      const float * const other = b.values.data() + tiles.PlaceOf(tile, t) + partner(row + firstX);
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        products[i] += own[i] * other[i];
-      }
-    }
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      const std::size_t p = tile * tiles.Pixels() + row + firstX + i;
-      const std::size_t q = tile * tiles.Pixels() + partner(row + firstX + i);
+      const std::size_t inTile = y * tiles.side + x;
+      const std::size_t p = tile * tiles.Pixels() + inTile;
+      const auto        q = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(p) + shift);
       if (a.weight[p] > 0.0F && b.weight[q] > 0.0F)
       {
-        const double covariance = static_cast<double>(products[i]) / dof;
-        const auto   add = [&](std::size_t plane, std::size_t place, double w, double z) {
-          sums[plane].pairs[far][place] += { w * w * z * covariance, w * w * z * z };
-        };
-        add(pair.first, k, static_cast<double>(a.weight[p]), static_cast<double>(a.signal[p]));
-        add(pair.second, k + 1, static_cast<double>(b.weight[q]), static_cast<double>(b.signal[q]));
+        const double covariance = static_cast<double>(products[inTile]) / pair.dof;
+        add(pair.first, pair.direction, static_cast<double>(a.weight[p]), static_cast<double>(a.signal[p]), covariance);
+        add(pair.second,
+            pair.direction + 1,
+            static_cast<double>(b.weight[q]),
+            static_cast<double>(b.signal[q]),
+            covariance);
       }
     }
   }
@@ -197,15 +197,6 @@ HaveSameTiles(const SampledPlanes & planes)
                   noise->basis.rows() == first.basis.rows();
          });
 }
-
-/** Returns the trace of the product of the projections on what is left of both planes: the expectation of a sum over
- * time for noise of the covariance 1. */
-double
-CommonDof(const SampledNoise & a, const SampledNoise & b)
-{
-  return static_cast<double>(a.basis.rows() - a.basis.cols() - b.basis.cols()) +
-         (a.basis.transpose() * b.basis).squaredNorm();
-}
 } // namespace
 
 std::array<NeighbourCovariance, 4>
@@ -217,20 +208,12 @@ MeasureNeighbourCovariance(const SampledPlanes & planes, const ParallelFor & par
     covariances.fill({ { 0.0, std::numeric_limits<double>::infinity() }, 0.0 });
     return covariances;
   }
-  std::vector<PlaneSums> tiles(planes.noise.front()->tiles.origins.size());
+  std::vector<PlaneSums>       tiles(planes.noise.front()->tiles.origins.size());
+  const std::vector<PlanePair> pairs = PairsOf(planes);
   parallelFor(tiles.size(), [&](std::size_t tile) {
-    for (std::size_t plane = 0; plane < planes.noise.size(); ++plane)
+    for (const PlanePair & pair : pairs)
     {
-      for (std::size_t k = 0; k < Neighbours.size(); ++k)
-      {
-        for (const int far : { 0, 1 })
-        {
-          const int       scale = 1 + 2 * far;
-          const PlanePair pair = PairAt(planes, plane, { scale * Neighbours[k].x, scale * Neighbours[k].y });
-          const double    dof = CommonDof(*planes.noise[pair.first], *planes.noise[pair.second]);
-          AddPairs(planes, pair, tile, dof, static_cast<std::size_t>(far), 2 * k, tiles[tile]);
-        }
-      }
+      AddPairs(planes, pair, tile, tiles[tile]);
     }
   });
   for (std::size_t plane = 0; plane < covariances.size(); ++plane)

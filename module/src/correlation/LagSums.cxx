@@ -131,10 +131,30 @@ RestoreCovariance(const float * projection, double dof, std::ptrdiff_t shift, st
                    projection[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(p) + shift)];
   }
 }
-} // namespace
 
-namespace
+/** Number of frames whose products are added together: the sums are loaded and stored a quarter as often. */
+constexpr std::size_t FramesOfProducts = 4;
+
+/** Adds the products of FramesOfProducts frames, or of \a frames if these are fewer, see AddProductsOfFrames(). */
+void
+AddProducts(const float *  here,
+            const float *  there,
+            std::size_t    frames,
+            std::size_t    size,
+            std::ptrdiff_t shift,
+            float *        products)
 {
+  if (frames >= FramesOfProducts)
+  {
+    AddProductsOfFrames<FramesOfProducts>(here, there, size, shift, products);
+    return;
+  }
+  for (std::size_t t = 0; t < frames; ++t)
+  {
+    AddProductsOfFrames<1>(here + t * size, there + t * size, size, shift, products);
+  }
+}
+
 /** Adds the products of the frames of \a tile that are \a lag.t frames apart in time, where some frames are missing. */
 void
 AddProductsOfTimes(const NoiseResiduals & residuals, std::size_t tile, const Lag & lag, std::vector<float> & products)
@@ -150,21 +170,37 @@ AddProductsOfTimes(const NoiseResiduals & residuals, std::size_t tile, const Lag
 }
 } // namespace
 
+std::vector<float>
+SumProducts(const float * own, const float * other, const SampleTiles & tiles, std::ptrdiff_t shift)
+{
+  const std::size_t  size = tiles.Pixels();
+  std::vector<float> products(size, 0.0F);
+  CallWithAvx2([&] {
+    for (std::size_t first = 0; first < tiles.frames; first += FramesOfProducts)
+    {
+      AddProducts(own + first * size, other + first * size + shift, tiles.frames - first, size, shift, products.data());
+    }
+  });
+  return products;
+}
+
 std::vector<std::vector<float>>
 SumProducts(const NoiseResiduals & residuals, std::size_t tile, const std::vector<Lag> & lags)
 {
   const SampleTiles &             tiles = residuals.GetTiles();
   const std::size_t               size = tiles.Pixels();
-  constexpr std::size_t           together = 4; // frames: the sums are loaded and stored a quarter as often
   std::vector<std::vector<float>> products(lags.size(), std::vector<float>(size, 0.0F));
+  const auto                      areFramesMissing = [&residuals](const Lag & lag) {
+    return lag.t != 0 && !residuals.GetTimes().AreConsecutive();
+  };
   CallWithAvx2([&] {
     // All lags of a few frames, which stay in the first-level cache, precede the next frames.
-    for (std::size_t first = 0; first < tiles.frames; first += together)
+    for (std::size_t first = 0; first < tiles.frames; first += FramesOfProducts)
     {
       const float * here = residuals.OfTile(tile) + first * size;
       for (std::size_t k = 0; k < lags.size(); ++k)
       {
-        if (lags[k].t != 0 && !residuals.GetTimes().AreConsecutive())
+        if (areFramesMissing(lags[k]))
         {
           continue;
         }
@@ -173,21 +209,13 @@ SumProducts(const NoiseResiduals & residuals, std::size_t tile, const std::vecto
           static_cast<std::ptrdiff_t>(lags[k].y) * static_cast<std::ptrdiff_t>(tiles.side) + lags[k].x;
         const float * there = here + later * size + shift;
         const auto    frames = tiles.frames - std::min(tiles.frames, first + later);
-        if (frames >= together)
-        {
-          AddProductsOfFrames<together>(here, there, size, shift, products[k].data());
-          continue;
-        }
-        for (std::size_t t = 0; t < frames; ++t)
-        {
-          AddProductsOfFrames<1>(here + t * size, there + t * size, size, shift, products[k].data());
-        }
+        AddProducts(here, there, frames, size, shift, products[k].data());
       }
     }
   });
   for (std::size_t k = 0; k < lags.size(); ++k)
   {
-    if (lags[k].t != 0 && !residuals.GetTimes().AreConsecutive())
+    if (areFramesMissing(lags[k]))
     {
       AddProductsOfTimes(residuals, tile, lags[k], products[k]);
     }

@@ -56,6 +56,11 @@ struct SensorNoise_EXPORT LagSums
 SensorNoise_EXPORT std::vector<std::vector<float>>
 SumProducts(const NoiseResiduals & residuals, std::size_t tile, const std::vector<Lag> & lags);
 
+/** Does the same for a tile of two samples: the products of the values \a own with the values of \a other, which lie
+ * \a shift values behind them. Both begin with the first frame of the tile. */
+std::vector<float>
+SumProducts(const float * own, const float * other, const SampleTiles & tiles, std::ptrdiff_t shift);
+
 /** \class LagSummation
  * \brief Computes the sums of a tile for each lag, where y is sum_t r_t(p) r_(t + lag.t)(q) over the degrees of
  * freedom.
