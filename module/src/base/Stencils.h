@@ -126,6 +126,9 @@ enum StencilIndex : std::size_t
   StencilYYY = 6
 };
 
+/** Number of the derivatives of the first and second order, the first ones of MotionStencils(). */
+inline constexpr std::size_t StencilsOfLowOrder = StencilXXX;
+
 /** Returns the value of the stencil at pixel \a p of a map of \a width columns; \a p is at least StencilMargin pixels
  * from the border. */
 inline double

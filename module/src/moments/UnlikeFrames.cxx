@@ -240,7 +240,7 @@ WithoutLargerVibration(const Eigen::MatrixXd & deviations, const Indices & kept,
   {
     gram.selfadjointView<Eigen::Lower>().rankUpdate(deviations.row(k).transpose());
   }
-  const auto            modes = std::min<Eigen::Index>(StencilXXX, static_cast<Eigen::Index>(others.size()) / 4);
+  const auto modes = std::min<Eigen::Index>(StencilsOfLowOrder, static_cast<Eigen::Index>(others.size()) / 4);
   const Eigen::MatrixXd vectors = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram).eigenvectors().rightCols(modes);
   Indices               rest;
   for (std::size_t k = 0; k < kept.size(); ++k)

@@ -44,10 +44,6 @@ inline constexpr int CurvedTerms = 2 * LinearTerms;
 /** Terms of a curved surface: 1, I, x, y, x I, y I, then x^2, x y and y^2, and then these times I. */
 using CurvedSurface = Eigen::Matrix<double, CurvedTerms, 1>;
 
-/** Number of derivatives of the mean, the first ones of MotionStencils(), that are taken for motion in the responses.
- */
-inline constexpr std::size_t LeakageDerivatives = 5;
-
 /** The part of motion that is correlated with the illumination by chance. */
 struct MotionLeakage
 {
@@ -58,10 +54,10 @@ struct MotionLeakage
   bool isMotionLocal{ false };
 };
 
-/** Estimates the leakage of motion into the responses: kappa_k times the derivatives, with kappa common to the frame.
- * It is estimated against lines in the mean that are free in every 8 x 8 tile and whose coefficients vary linearly over
- * it (Frisch & Waugh 1933), so that local illumination does not bias it. Even derivatives resemble the mean locally, so
- * their leakage would shift the offset. */
+/** Estimates the leakage of motion into the responses: kappa_k times the derivatives of first and second order, with
+ * kappa common to the frame. It is estimated against lines in the mean that are free in every 8 x 8 tile and whose
+ * coefficients vary linearly over it (Frisch & Waugh 1933), so that local illumination does not bias it. Even
+ * derivatives resemble the mean locally, so their leakage would shift the offset. */
 SensorNoise_EXPORT MotionLeakage
 EstimateMotionLeakage(const IlluminationResponses & data, const ParallelFor & parallelFor = SerialFor);
 

@@ -277,7 +277,7 @@ SumSquaresAndStrips(const IlluminationResponses & data, const Eigen::MatrixXd & 
     for (std::size_t j = 0; j < data.factors; ++j)
     {
       responses[j] = data.coordinates.At(pixel.index, j);
-      for (std::size_t k = 0; k < LeakageDerivatives; ++k)
+      for (std::size_t k = 0; k < StencilsOfLowOrder; ++k)
       {
         responses[j] -= kappa(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)) * derivatives[k];
       }

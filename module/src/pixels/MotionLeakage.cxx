@@ -23,7 +23,7 @@ namespace sensornoise
 namespace
 {
 constexpr std::size_t Side = 8; // side of a tile [pixel]
-constexpr auto        Derivatives = static_cast<Eigen::Index>(LeakageDerivatives);
+constexpr auto        Derivatives = static_cast<Eigen::Index>(StencilsOfLowOrder);
 
 /** Products of the derivatives and the responses of a tile, with the weights of the pixels. */
 struct TileProducts
@@ -45,15 +45,15 @@ std::vector<TileProducts>
 SumTileProducts(const IlluminationResponses & data, std::size_t row)
 {
   const std::size_t            width = data.frame.geometry.width;
-  const std::size_t            variables = LeakageDerivatives + data.factors;
+  const std::size_t            variables = StencilsOfLowOrder + data.factors;
   const auto                   size = static_cast<Eigen::Index>(variables);
   std::vector<Eigen::MatrixXd> products((width + Side - 1) / Side, Eigen::MatrixXd::Zero(size, size));
   std::vector<SurfaceSums>     surfaces =
     SumRowOfTiles(data, row * Side, Side, Side, variables, [&](const PixelOfTile & pixel, double * z) {
-      std::copy_n(ApplyStencils(data.frame.mean.data(), width, pixel.index).begin(), LeakageDerivatives, z);
+      std::copy_n(ApplyStencils(data.frame.mean.data(), width, pixel.index).begin(), StencilsOfLowOrder, z);
       for (std::size_t j = 0; j < data.factors; ++j)
       {
-        z[LeakageDerivatives + j] = data.coordinates.At(pixel.index, j);
+        z[StencilsOfLowOrder + j] = data.coordinates.At(pixel.index, j);
       }
       double * const own = products[pixel.tile].data();
       for (std::size_t j = 0; j < variables; ++j)
@@ -110,7 +110,7 @@ struct RowOfTiles
 RowOfTiles
 SumRow(const IlluminationResponses & data, std::size_t row)
 {
-  const auto size = static_cast<Eigen::Index>(LeakageDerivatives + data.factors);
+  const auto size = static_cast<Eigen::Index>(StencilsOfLowOrder + data.factors);
   RowOfTiles result{ Eigen::MatrixXd::Zero(size, size), {} };
   for (const TileProducts & tile : SumTileProducts(data, row))
   {
@@ -208,7 +208,7 @@ EstimateMotionLeakage(const IlluminationResponses & data, const ParallelFor & pa
 {
   std::vector<RowOfTiles> rows((data.frame.geometry.height + Side - 1) / Side);
   parallelFor(rows.size(), [&](std::size_t row) { rows[row] = SumRow(data, row); });
-  const auto      size = static_cast<Eigen::Index>(LeakageDerivatives + data.factors);
+  const auto      size = static_cast<Eigen::Index>(StencilsOfLowOrder + data.factors);
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(size, size);
   for (const RowOfTiles & row : rows)
   {
