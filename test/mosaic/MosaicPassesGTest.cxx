@@ -22,6 +22,7 @@ struct MorePassesInEachPlane
 
   static constexpr unsigned int NumberOfPasses = 3;
   static constexpr bool         HasManySums = false;
+  static constexpr bool         HasSample = false;
 
   std::size_t passes;
   std::size_t frames{ 0 };

@@ -58,7 +58,7 @@ public:
     {
       m_Methods.push_back(makeMethod(plane, m_Work.WithinPlane()));
       m_Methods.back().SetLayout(geometry.LayoutOf(plane));
-      if constexpr (TMethod::HasManySums)
+      if constexpr (TMethod::HasSample)
       {
         m_Methods.back().KeepSample();
       }
@@ -155,7 +155,7 @@ public:
   EndPass()
   {
     this->EndPassOfPlanes();
-    if constexpr (TMethod::HasManySums)
+    if constexpr (TMethod::HasSample)
     {
       if (this->IsDone())
       {

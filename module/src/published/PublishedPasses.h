@@ -177,6 +177,8 @@ public:
 
   /** Whether the third pass has more than one sum per pixel. */
   static constexpr bool HasManySums = false;
+  /** Whether the noise of a sample is kept for the planes of a mosaic. */
+  static constexpr bool HasSample = false;
 
   /** \a mask, if not empty, is nonzero at the pixels to be used. \a parallelFor distributes the work over threads.
    * Throws std::invalid_argument if settings are out of range, see PublishedSettings::Validate(), or if RequireStack()

@@ -59,6 +59,8 @@ public:
 
   /** Whether there is SumBytesPerPixel(). */
   static constexpr bool HasManySums = true;
+  /** Whether there is GetSample(). */
+  static constexpr bool HasSample = true;
 
   /** \a mask, if given, has a nonzero value at the pixels to be used. \a parallelFor distributes the work. Throws
    * std::invalid_argument for settings out of range, see RefinedSettings::Validate(), and for a stack or a mask that
