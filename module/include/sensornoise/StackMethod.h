@@ -215,8 +215,8 @@ public:
  * 16 kB per frame in pass 2, of 4 or 8 bytes per pixel and component in pass 3, and of 8 bytes per pixel in the
  * additional pass.
  *
- * A stack with repeated frames has the result of its distinct frames. The series of the report have the same value for
- * equal frames.
+ * A stack with repeated frames has the result of its distinct frames, at the times that the correlation of their noise
+ * shows. The series of the report have the same value for equal frames.
  *
  * The result has the same bits for any number of threads and any chunks. The method needs 20 kB per frame, 32 MiB, and
  * 48 bytes per pixel. If 10 bytes per pixel, and 4 per pixel and component of illumination and motion (2 to 20 are

@@ -215,10 +215,6 @@ CurveOfFrames(const Regression &      data,
 }
 } // namespace
 
-TileLevels::TileLevels(const std::vector<double> & gamma, double offsetDn, double zeroDn)
-  : TileLevels(gamma, offsetDn, zeroDn, false)
-{}
-
 TileLevels::TileLevels(const std::vector<double> & gamma, double offsetDn, double zeroDn, bool isLocal)
   : m_Illumination(Eigen::Map<const Eigen::VectorXd>(gamma.data(), static_cast<Eigen::Index>(gamma.size())).array() +
                    1.0)

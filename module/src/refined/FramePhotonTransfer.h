@@ -115,11 +115,9 @@ class SensorNoise_EXPORT TileLevels
 public:
   /** \a gamma + 1 is the illumination factor of each frame of the stack about the dark offset \a offsetDn [DN]; the
    * sample contains the first of these frames. \a zeroDn is the level from which FrameEnergies measures the signal
-   * [DN]. */
-  TileLevels(const std::vector<double> & gamma, double offsetDn, double zeroDn);
-  /** As above. If the illumination changes differently between tiles (\a isLocal), Of(energies, tile) takes the changes
+   * [DN]. If the illumination changes differently between tiles (\a isLocal), Of(energies, tile) takes the changes
    * that were measured in each tile. */
-  TileLevels(const std::vector<double> & gamma, double offsetDn, double zeroDn, bool isLocal);
+  TileLevels(const std::vector<double> & gamma, double offsetDn, double zeroDn, bool isLocal = false);
 
   /** Returns the levels in every frame of a tile whose signal in the mean frame is \a signalDn [DN]. */
   Eigen::VectorXd

@@ -65,7 +65,7 @@ struct ReestimatedComponents
   Eigen::Vector2d                 scaleErrors{ Eigen::Vector2d::Zero() };
   std::optional<InstrumentShifts> shifts;
   bool                            isOffsetDrift{ false }; ///< whether the local illumination is a drifting offset
-  bool                            isMotionLocal{ false }; ///< see ResponsesWithoutMotion
+  bool                            isMotionLocal{ false }; ///< see MotionLeakage
   std::optional<LocalOffset>      localOffset;            ///< only under local illumination
   LocalFlicker                    localFlicker;
   PartOffsets                     partOffsets; ///< only where the illumination is not local
