@@ -90,6 +90,23 @@ TEST(SensorNoiseMaskedBorder, FindsRowsOfATestLevel)
   EXPECT_EQ(border.strips.size(), 1u);
 }
 
+// Light below a mask decays from its edge, and no line has the structure of the scene.
+TEST(SensorNoiseMaskedBorder, FindsMasksWithASoftEdge)
+{
+  for (const double widthPixels : { 0.7, 2.0, 6.0 })
+  {
+    const auto         leak = [&](double depth) { return OffsetDn - 5.0 + 800.0 * std::exp(-depth / widthPixels); };
+    const MaskedBorder border = BorderOf([&](std::size_t x, std::size_t y) {
+      return x < 14            ? leak(13.0 - static_cast<double>(x))
+             : y >= Height - 6 ? leak(static_cast<double>(y) - (Height - 6.0))
+                               : Waves(x, y);
+    });
+    EXPECT_EQ(border.left, 14u);
+    EXPECT_EQ(border.bottom, 6u);
+    EXPECT_EQ(border.strips.size(), 2u);
+  }
+}
+
 TEST(SensorNoiseMaskedBorder, FindsNoneInScenes)
 {
   EXPECT_TRUE(BorderOf(Waves).strips.empty());

@@ -164,8 +164,8 @@ WarnOfBorder(Report & report, const StaticScene & scene)
                 std::to_string(scene.border.Pixels(scene.frame.geometry)) + " pixels along the border, " +
                   Percent(static_cast<double>(scene.border.Pixels(scene.frame.geometry)) /
                           static_cast<double>(scene.frame.geometry.Pixels())) +
-                  " of the frame, have one level, end within a pixel, and are left out as no part of the scene: " +
-                  strips + ". Use the results as they are, or choose the lit area: --roi");
+                  " of the frame, do not show the scene, which begins within a pixel, and are left out: " + strips +
+                  ". Use the results as they are, or choose the lit area: --roi");
   }
 }
 

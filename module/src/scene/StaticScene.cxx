@@ -4,6 +4,7 @@
 
 #include "base/Quantiles.h"
 #include "base/Constants.h"
+#include "base/RegressionSums.h"
 #include "sensornoise/Report.h"
 #include "base/Stencils.h"
 #include "moments/StackFrames.h"
@@ -163,11 +164,86 @@ CountLines(const BorderLines & border, const RobustCentre & outermost)
   return 0;
 }
 
+/** Levels of a line as a line over the levels of another one, pixel by pixel. */
+struct LineLikeness
+{
+  double slope{ 0.0 };           ///< fraction of the structure of the other line in the line [1]
+  double error{ 0.0 };           ///< standard error of the slope [1]
+  double structureDn2{ 0.0 };    ///< variance of the levels of the other line [DN^2]
+  double covarianceDn2{ 0.0 };   ///< covariance of both lines [DN^2]
+  double covarianceError{ 0.0 }; ///< its standard error where the lines are independent [DN^2]
+};
+
+/** Compares the \a levels of a line with the levels of the \a other line. Null: too few pixels are valid in both, or
+ * one of the lines has one level. */
+std::optional<LineLikeness>
+CompareLines(const std::vector<double> & levels, const std::vector<double> & other)
+{
+  const double   origin = LevelsAlongLine(other).value_or(RobustCentre{}).median;
+  RegressionSums sums;
+  double         squares = 0.0;
+  for (std::size_t j = 0; j < levels.size(); ++j)
+  {
+    if (std::isfinite(levels[j]) && std::isfinite(other[j]))
+    {
+      sums += RegressionSums::Of(1.0, other[j] - origin, levels[j] - origin);
+      squares += (levels[j] - origin) * (levels[j] - origin);
+    }
+  }
+  const double ofLevels = sums.w > 0.0 ? squares - sums.y * sums.y / sums.w : 0.0;
+  if (sums.w < static_cast<double>(InScene.fewestPixelsOfMedian) || !(sums.Spread() > 0.0) || !(ofLevels > 0.0))
+  {
+    return std::nullopt;
+  }
+  const double dof = sums.w - 2.0;
+  const double residual = std::max(0.0, ofLevels - sums.Slope() * sums.Product());
+  return LineLikeness{ sums.Slope(),
+                       std::sqrt(residual / (dof * sums.Spread())),
+                       sums.Spread() / dof,
+                       sums.Product() / dof,
+                       std::sqrt(ofLevels * sums.Spread() / sums.w) / dof };
+}
+
+/** Returns the number of lines before the first line that shows the scene; 0: there are none. A mask whose edge is not
+ * sharp, or light below it, makes the levels of its lines differ. But none of them has the structure of the scene,
+ * which begins within one pixel, whereas the image of an edge is blurred. */
+std::size_t
+CountLinesWithoutScene(const BorderLines & border)
+{
+  const auto largest = static_cast<std::size_t>(InScene.largestBorder * static_cast<double>(border.lines));
+  const auto showsScene = [&](std::size_t line) {
+    const auto next = CompareLines(border.LevelsOf(line), border.LevelsOf(line + 1));
+    return next && next->slope > 1.0 - InScene.largestBorderSlope;
+  };
+  double sharedDn2 = 0.0; // structure that lines of the strip have in common
+  for (std::size_t k = 1; k <= largest && k + 3 <= border.lines; ++k)
+  {
+    const auto last = CompareLines(border.LevelsOf(k - 1), border.LevelsOf(k));
+    if (!last)
+    {
+      return 0;
+    }
+    const double blur = std::max(std::abs(last->slope), Significance.hint * last->error);
+    if (blur < InScene.largestBlur && sharedDn2 < std::pow(InScene.largestBlur, 2) * last->structureDn2 &&
+        showsScene(k) && showsScene(k + 1))
+    {
+      return k;
+    }
+    sharedDn2 = std::max(sharedDn2, last->covarianceDn2 - Significance.hint * last->covarianceError);
+  }
+  return 0;
+}
+
 std::optional<MaskedStrip>
 FindStrip(const BorderLines & border, const char * words)
 {
   const std::optional<RobustCentre> outermost = LevelsAlongLine(border.LevelsOf(0));
-  const std::size_t                 count = outermost && outermost->sd > 0.0 ? CountLines(border, *outermost) : 0;
+  if (!outermost || !(outermost->sd > 0.0))
+  {
+    return std::nullopt;
+  }
+  const std::size_t ofOneLevel = CountLines(border, *outermost);
+  const std::size_t count = ofOneLevel > 0 ? ofOneLevel : CountLinesWithoutScene(border);
   if (count == 0)
   {
     return std::nullopt;

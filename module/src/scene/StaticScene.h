@@ -53,7 +53,8 @@ struct SensorNoise_EXPORT MaskedBorder
 };
 
 /** Finds the optical-black columns and rows, and other dark border regions, in the \a mean levels [DN] of the \a valid
- * pixels. They are strips of one level that end along a whole border within one pixel, unlike the image of a scene. */
+ * pixels. They are strips that end along a whole border within one pixel, unlike the image of a scene: strips of one
+ * level, or strips without the structure of the scene. */
 SensorNoise_EXPORT MaskedBorder
 FindMaskedBorder(const std::vector<double> &       mean,
                  const std::vector<std::uint8_t> & valid,
