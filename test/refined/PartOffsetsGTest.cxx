@@ -71,3 +71,17 @@ TEST(SensorNoisePartOffsets, ErrorContainsSmallDifferences)
   EXPECT_GT(*unlike.offset.standardError, 2.0 * *alike.offset.standardError);
   ExpectHolds(unlike.offset, OffsetDn);
 }
+
+// Between the levels of the halves, the line has a slope other than the gain.
+TEST(SensorNoisePartOffsets, ErrorsOfTheLineContainDifferences)
+{
+  const Report alike = Measure(TwoHalves(0.0, 0.03)).GetReport();
+  for (const double stepDn : { 20.0, -20.0 })
+  {
+    const Report unlike = Measure(TwoHalves(stepDn, 0.03)).GetReport();
+    ExpectHolds(unlike.gain, 1.0);
+    ExpectHolds(unlike.intercept, 4.0 - OffsetDn);
+    EXPECT_GT(*unlike.gain.standardError, 2.0 * *alike.gain.standardError);
+  }
+  ExpectHolds(alike.gain, 1.0);
+}

@@ -350,6 +350,8 @@ EstimateGain(const RefinedResults & found, const SensorLines & lines)
   }
   ExtendIntervalByIllumination(estimate, found);
   ExtendIntervalByLeftOut(estimate, variance);
+  const Eigen::Vector2d & ofOffsets = found.reestimated.partOffsets.ofLine;
+  estimate.covariance += ofOffsets * ofOffsets.transpose();
   CombineWithFrames(estimate, lines, found.blackDn, variance.varianceInflation);
   if (found.settings.offset)
   {

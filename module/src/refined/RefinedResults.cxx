@@ -103,7 +103,7 @@ ReestimateComponents(const FrameSums &        sums,
   }
   else
   {
-    reestimated.partOffsets = FindPartOffsets(sums, reestimated.line, reestimated.motion, variance.line.gain);
+    reestimated.partOffsets = FindPartOffsets(sums, reestimated.line, reestimated.motion, variance, parallelFor);
   }
   return reestimated;
 }

@@ -41,6 +41,8 @@ struct SensorNoise_EXPORT PartOffsets
 {
   double differenceDn{ 0.0 };
   double varianceDn2{ 0.0 }; ///< variance of the difference by noise [DN^2]; 0: nothing was compared
+  /** Change of the gain [DN/e-] and the intercept [DN^2] by the differences of the offsets, beyond chance. */
+  Eigen::Vector2d ofLine{ Eigen::Vector2d::Zero() };
 
   /** Returns the size of the difference beyond \a z standard deviations [DN], see SizeBeyondChance(). */
   double
@@ -49,10 +51,14 @@ struct SensorNoise_EXPORT PartOffsets
 
 /** Compares the offset of \a line with the offsets of the halves and the quadrants of the frame, which have one
  * flicker. Amplifiers of unlike offset move the common offset where their parts have unlike levels, and do not move the
- * offsets of the parts. Returns the largest difference. \a gain is the gain of the frames [DN/e-]. Estimator.md, 3.3.
- */
+ * offsets of the parts. They also move the line of \a variance, which takes all levels for signal. Returns the largest
+ * difference, and the largest change of the line. Estimator.md, 3.3. */
 SensorNoise_EXPORT PartOffsets
-FindPartOffsets(const FrameSums & sums, const OffsetLine & line, const MotionSeries & motion, double gain);
+FindPartOffsets(const FrameSums &      sums,
+                const OffsetLine &     line,
+                const MotionSeries &   motion,
+                const StaticVariance & variance,
+                const ParallelFor &    parallelFor);
 
 /** Temporal components that are re-estimated with the noise of the third pass: illumination and motion in the report.
  */
