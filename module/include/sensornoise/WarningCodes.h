@@ -372,9 +372,8 @@ inline constexpr std::array<WarningKind, 54> WarningTable{ {
   { WarningCode::BorderLeftOut,
     "border-left-out",
     Severity::Note,
-    "Columns or rows along the border, as optical-black pixels or masked regions, have one level and end within a "
-    "pixel. They are left out, because they do not show the scene. Use the results as they are, or choose the lit "
-    "area (--roi)." },
+    "Columns or rows along the border, as optical-black pixels or masked regions, do not show the scene, which begins "
+    "within a pixel. They are left out. Use the results as they are, or choose the lit area (--roi)." },
   { WarningCode::LightSeriesLeft,
     "light-series-left",
     Severity::Warning,
