@@ -160,8 +160,9 @@ CauseOfNonlinear(const NoiseCorrelation & correlation, const LagCoefficient * sp
            " of the noise variance is common to neighbours in proportion to the slopes of the scene (expected "
            "at most " +
            Percent(InCorrelation.leastLocalMotion) +
-           "): parts of the scene move by themselves, as in heat haze. Choose a smooth part of the scene (--roi), "
-           "or record it at rest";
+           "): parts of the scene move by themselves, as in heat haze, or pulsed illumination under a rolling shutter "
+           "lights rows unequally while the scene moves. Choose a smooth part of the scene (--roi), record it at rest, "
+           "or use illumination without pulses";
   }
   if (correlation.LacksTail())
   {
