@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/FixedPatternEstimate.h"
 #include "sensornoise/Parallel.h"
+#include "pixels/VarianceCurve.h"
 #include "pixels/VarianceFit.h"
 #include "pixels/VarianceLine.h"
 #include "helpers/PatternTestHelper.h"
@@ -137,6 +138,25 @@ TEST(SensorNoiseInstrumentalFit, ColumnsThatDifferHaveNoPart)
     Maps([&](std::size_t x, std::size_t y) { return Pixel{ Ramp(y), 1.0 + 0.05 * (normal[x] - mean) }; }));
   ExpectOnlyTheInstrumentalFitIsRight(
     gains, gains.FractionOf(0.0025 * variance * SquaredSignalDn2), (1.0 + 0.0025 * variance) * GainDn);
+}
+
+TEST(SensorNoiseInstrumentalFit, ColumnsThatDifferDoNotBendTheCurve)
+{
+  // Two thirds of the frame are dark, where the levels differ by the offsets of the columns alone.
+  const std::vector<double> normal = NormalNumbers(Size);
+  const Maps                maps([&](std::size_t x, std::size_t y) {
+    return Pixel{ y < 2 * Size / 3 ? 2.0 : 60.0 * (Ramp(y) - Ramp(2 * Size / 3)), 1.0, 1.0, 200.0 * normal[x] };
+  });
+  VarianceFit               fit(maps.Data(), SerialFor, std::nullopt, TrimRule::Distance, BlackDn);
+  fit.Iterate(8);
+  fit.FillErrors();
+  const VarianceLine instrumental = FitInstrumental(fit, maps.Data(), maps.frame).line;
+  ASSERT_TRUE(instrumental.isDetermined);
+  const VarianceCurve curve = CurveByInstrument(instrumental, fit, maps.Data(), maps.frame);
+  EXPECT_EQ(curve.bins.size(), VarianceCurve::Bins);
+  // 3/4 of the difference of the neighbours' means is the offset of the own column. The diagonals hold none of it: what
+  // is left is the mean offset of the 25 columns of a group.
+  EXPECT_LT(curve.Nonlinearity(1.0), 0.6 * fit.CurveAbout(instrumental).Nonlinearity(1.0));
 }
 
 TEST(SensorNoiseInstrumentalFit, UnequalEfficienciesActLikeSignal)

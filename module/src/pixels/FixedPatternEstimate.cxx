@@ -5,6 +5,7 @@
 #include "base/Simd.h"
 #include "base/Eigen.h"
 #include "base/Constants.h"
+#include "base/Quantiles.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/Constants.h"
 #include "pixels/VarianceFit.h"
@@ -314,6 +315,38 @@ FitInstrumental(const VarianceFit & fit, const VarianceData & data, const Refere
   found.instrumentDn = pivot + zMean;
   found.squaredScores = squares[0];
   return found;
+}
+
+VarianceCurve
+CurveByInstrument(const VarianceLine &   line,
+                  const VarianceFit &    fit,
+                  const VarianceData &   data,
+                  const ReferenceFrame & frame)
+{
+  const std::size_t   width = frame.geometry.width;
+  const auto          hasInstrument = [&](std::size_t p) { return HasDiagonals(frame.usable.data(), width, p); };
+  const auto          instrumentOf = [&](std::size_t p) { return DiagonalMean(frame.mean.data(), width, p); };
+  std::vector<double> levels;
+  for (const std::size_t p : SamplePixels(data.mask, data.pixels))
+  {
+    if (hasInstrument(p))
+    {
+      levels.push_back(instrumentOf(p));
+    }
+  }
+  const std::vector<double> edges = EdgesOfEqualCount(std::move(levels), VarianceCurve::Bins);
+  const std::vector<double> sums = fit.SumWeighed(
+    VarianceCurve::Bins * CurveBin::Sums, [&](std::size_t p, const VarianceFit::Weighed & weighed, double * all) {
+      if (weighed.weight > 0.0 && hasInstrument(p))
+      {
+        double * own = all + CurveBin::Sums * BinOf(edges, instrumentOf(p));
+        own[0] += 1.0;
+        own[1] += weighed.weight;
+        own[2] += weighed.weight * (data.mean[p] - line.pivotDn);
+        own[3] += weighed.weight * (weighed.value - line.At(data.mean[p]));
+      }
+    });
+  return VarianceCurve::Of(line, sums.data());
 }
 
 double

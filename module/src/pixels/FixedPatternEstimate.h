@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "base/Constants.h"
 #include "pixels/Constants.h"
+#include "pixels/VarianceCurve.h"
 #include "pixels/VarianceFit.h"
 #include "pixels/VarianceLine.h"
 #include "sensornoise/FrameGeometry.h"
@@ -134,6 +135,15 @@ WideningOfInstrumental(const InstrumentalFit & instrumental,
                        const VarianceFit &     fit,
                        const VarianceData &    data,
                        const ReferenceFrame &  frame);
+
+/** Returns the excess of the variance over \a line as a function of the intensity, of the pixels that \a fit keeps,
+ * sorted by the instrument of FitInstrumental(). Patterns of pixels, rows and columns do not bend it: the mean of the
+ * neighbours of a pixel, by which VarianceFit::CurveAbout() sorts, shares the offset of its column. */
+SensorNoise_EXPORT VarianceCurve
+CurveByInstrument(const VarianceLine &   line,
+                  const VarianceFit &    fit,
+                  const VarianceData &   data,
+                  const ReferenceFrame & frame);
 
 /** Returns whether the slope of \a line, of the pixels' own levels, contradicts the slope of FitInstrumental(). Then
  * levels of single pixels depend on more than the scene: a pixel with telegraph noise is both brighter and noisier.

@@ -370,6 +370,14 @@ FitOnce(const ProjectedSquares &          squares,
   found.instrumentalLine.covariance += ofParts;
   found.line = line;
   found.curve = fit.CurveAbout(found.instrumentalLine.isDetermined ? found.instrumentalLine : line);
+  if (found.instrumentalLine.isDetermined)
+  {
+    VarianceCurve byInstrument = CurveByInstrument(found.instrumentalLine, fit, data, frame);
+    if (byInstrument.Nonlinearity(1.0) < found.curve.Nonlinearity(1.0)) // a non-linear response is in both
+    {
+      found.curve = std::move(byInstrument);
+    }
+  }
   if (found.curve.ReducedChi2() > InSteps.leastChi2 * varianceInflation)
   {
     found.ofOwnLevels = fit.CurveAbout(found.curve.line, VarianceFit::SortedBy::OwnLevel);

@@ -232,7 +232,8 @@ struct StaticVariance
   VarianceCurve fromFrames;
   /** Result of the test of the roughness classes. */
   ClassFit classes;
-  /** Deviation of the variance from instrumentalLine, or from line where instrumentalLine is not determined. */
+  /** Deviation of the variance from instrumentalLine, or from line where instrumentalLine is not determined. The pixels
+   * are sorted by the means of their neighbours, or by the instrument where that gives less non-linearity. */
   VarianceCurve curve;
   /** Deviation from the same line with the pixels sorted by their own levels, by which two amplifiers differ. It has no
    * bins if \a curve follows its line. */

@@ -38,6 +38,21 @@ VarianceCurve::SumOf(std::size_t first, std::size_t last) const
   return sum;
 }
 
+VarianceCurve
+VarianceCurve::Of(const VarianceLine & line, const double * sums)
+{
+  VarianceCurve curve{ line, {} };
+  for (std::size_t b = 0; b < Bins; ++b)
+  {
+    const double * own = sums + CurveBin::Sums * b;
+    if (own[1] > 0.0)
+    {
+      curve.bins.push_back({ own[0], own[1], own[2], own[3] });
+    }
+  }
+  return curve;
+}
+
 double
 VarianceCurve::ReducedChi2(double varianceInflation) const
 {

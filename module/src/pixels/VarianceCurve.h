@@ -168,6 +168,10 @@ struct SensorNoise_EXPORT VarianceCurve
   VarianceLine          line;
   std::vector<CurveBin> bins; ///< bins of equal numbers of pixels, from dark to bright
 
+  /** Returns the curve about \a line of \a sums, the members of CurveBin of all bins. Empty bins are left out. */
+  static VarianceCurve
+  Of(const VarianceLine & line, const double * sums);
+
   /** Returns the reduced chi-square of the bins' mean excesses: 1 if they are sampling noise about a line [1]. Where
    * neighbours have correlated noise, the mean of a bin has 1 to \a varianceInflation times the variance that it has
    * with white noise, as its pixels are neighbours or not. The factor in this range is taken that brings chi-square

@@ -278,16 +278,7 @@ VarianceFit::CurveAbout(const VarianceLine & line, SortedBy sortedBy) const
         sumRun(first, pixels, kept, sums);
       });
     });
-  VarianceCurve curve{ line, {} };
-  for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
-  {
-    const double * own = s.data() + CurveBin::Sums * b;
-    if (own[1] > 0.0)
-    {
-      curve.bins.push_back({ own[0], own[1], own[2], own[3] });
-    }
-  }
-  return curve;
+  return VarianceCurve::Of(line, s.data());
 }
 
 /** \file
