@@ -32,6 +32,9 @@ TEST(SensorNoiseMakeRefinedReport, NumbersAreThoseOfTheLineAndTheFlicker)
   // The error of the square: the error of the line 1,000 DN from its pivot, and the error of the offset.
   const double square = std::sqrt(25.0 + 1e-4 * 1000.0 * 1000.0 + 0.25);
   EXPECT_NEAR(*report.readNoise.standardError, square / 16.0, 1e-9);
+  // In electrons the square is also divided by the square of the gain: 1000 + 2 * 64 for each unit of its error.
+  const double electrons = std::sqrt(25.0 + 1e-4 * 1128.0 * 1128.0 + 0.25);
+  EXPECT_NEAR(*report.readNoiseElectrons.standardError, electrons / 16.0, 1e-9);
   // 20 squares of 0.02 with 19 degrees of freedom, without the noise of 1e-8.
   EXPECT_NEAR(ValueOf(report.flickerSd), std::sqrt(20.0 / 19.0 * 4e-4 - 1e-8), 1e-9);
   EXPECT_EQ(report.vibrationSdX.status, EstimateStatus::NotIdentifiable); // no derivative is active

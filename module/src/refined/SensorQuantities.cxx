@@ -153,7 +153,13 @@ FillReadNoise(DarkQuantities &     dark,
     return;
   }
   dark.readNoise = RootOf(square, error, student);
-  dark.readNoiseElectrons = RootOf(square / (v.gain * v.gain), error / (v.gain * v.gain), student);
+  // An error of the gain changes the divisor, too.
+  const double          g2 = v.gain * v.gain;
+  const Eigen::Vector2d inElectrons(offset.valueDn - 2.0 * square / v.gain, 1.0);
+  const double          turned = 0.5 * (gain.below + gain.above) * (v.pivotDn - inElectrons(0));
+  const double          electrons =
+    std::sqrt(inElectrons.dot(gain.covariance * inElectrons) + turned * turned + g2 * offset.errorDn * offset.errorDn);
+  dark.readNoiseElectrons = RootOf(square / g2, electrons / g2, student);
 }
 } // namespace
 
