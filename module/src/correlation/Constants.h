@@ -30,9 +30,9 @@ struct CorrelationConstants
    * that grows with the signal is separated from a constant one [1]. Below it, the error of either component would be
    * seven times the error of their sum. Chosen empirically. */
   double leastSpread{ 0.05 };
-  /** Largest number of tiles whose lines determine the illumination of rows; of more tiles, every n-th line is used.
-   * Chosen for its computing time: a thousandth of the time for 100 frames of 512 x 512 pixels. */
-  std::size_t mostTilesOfLineIllumination{ 32 };
+  /** Number of tiles that suffice to find illumination of rows and echoes; of more tiles, every n-th line or tile is
+   * used. Chosen for the computing time: a thousandth of the time for 100 frames of 512 x 512 pixels. */
+  std::size_t tilesOfFirstLook{ 32 };
   /** Smallest variance of the signal along a line, relative to its mean square, for which the signal is a regressor
    * beside the constant [1]. It guards against rounding errors, as both regressors are subtracted together. Also of
    * cosine and sine of a wave along a tile. */

@@ -207,6 +207,21 @@ CorrelationSums::AddRing(int distance)
 }
 
 void
+CorrelationSums::AddEchoes()
+{
+  for (const Lag & unit : { Lag{ 1, 0, 0 }, Lag{ 0, 1, 0 } })
+  {
+    const std::vector<Lag> echoes = FindEchoes(m_Residuals, m_Tiles, unit, m_ParallelFor);
+    const std::size_t      first = m_Lags.size();
+    this->AddLags(echoes);
+    for (std::size_t k = first; k < m_Lags.size(); ++k)
+    {
+      m_Echoes.push_back(k);
+    }
+  }
+}
+
+void
 CorrelationSums::AddTimeLags(int last)
 {
   this->AddLags(this->NextTimeLags(last));
@@ -235,10 +250,30 @@ CorrelationSums::WithoutUnequalFrames(PairSums sums, int frames) const
 CorrelationSums::Lags
 CorrelationSums::Ring(int first, int last) const
 {
-  return IndicesWhere(m_Lags, [=](const Lag & lag) {
+  Lags       ring = IndicesWhere(m_Lags, [=](const Lag & lag) {
     const int distance = std::max(std::abs(lag.x), std::abs(lag.y));
     return lag.t == 0 && distance >= first && distance <= last;
   });
+  const auto isEcho = [&](std::size_t k) { return std::find(m_Echoes.begin(), m_Echoes.end(), k) != m_Echoes.end(); };
+  ring.erase(std::remove_if(ring.begin(), ring.end(), isEcho), ring.end());
+  return ring;
+}
+
+CorrelationSums::Lags
+CorrelationSums::Within(int reach) const
+{
+  Lags within = this->Ring(1, reach);
+  for (const std::size_t k : m_Echoes)
+  {
+    const auto isSame = [&](std::size_t other) {
+      return m_Lags[other].x == m_Lags[k].x && m_Lags[other].y == m_Lags[k].y;
+    };
+    if (std::none_of(within.begin(), within.end(), isSame))
+    {
+      within.push_back(k);
+    }
+  }
+  return within;
 }
 
 CorrelationSums::Lags

@@ -72,6 +72,14 @@ struct TileSums
   operator+=(const TileSums & other);
 };
 
+/** Returns the lags beyond the rings, multiples of \a unit, at which the noise is correlated, and less so at the lags
+ * beside: echoes. A part of the \a tiles is looked at, which have the sums at the zero lag. Estimator.md, 3.5. */
+SensorNoise_EXPORT std::vector<Lag>
+FindEchoes(const NoiseResiduals &        residuals,
+           const std::vector<TileSums> & tiles,
+           const Lag &                   unit,
+           const ParallelFor &           parallelFor);
+
 /** \class CorrelationSums
  * \brief Sums of all tiles at any number of lags, and the quantities that are computed from them.
  *
@@ -94,6 +102,10 @@ public:
   /** Adds half of the spatial lags at a distance [pixels]; the opposite lags have the same covariance. */
   void
   AddRing(int distance);
+  /** Adds the lags of echoes: single distances along rows or columns, beyond the rings, at which the noise is
+   * correlated, as by a reflection in a cable. Estimator.md, 3.5. */
+  void
+  AddEchoes();
   /** Adds the temporal lags up to \a last frames, at most a third of the frames. */
   void
   AddTimeLags(int last);
@@ -106,6 +118,14 @@ public:
   /** Returns the spatial lags at distances from \a first to \a last [pixels]. */
   Lags
   Ring(int first, int last) const;
+  /** Returns the spatial lags at distances up to \a reach, and the echoes beyond [pixels]. */
+  Lags
+  Within(int reach) const;
+  bool
+  HasEchoes() const
+  {
+    return !m_Echoes.empty();
+  }
   /** Returns the lags of the neighbour to the right and of the neighbour below. */
   Lags
   Nearest() const;
@@ -177,6 +197,7 @@ private:
   const ParallelFor &    m_ParallelFor;
   std::vector<TileSums>  m_Tiles;
   std::vector<Lag>       m_Lags;
+  Lags                   m_Echoes;
   Eigen::VectorXd        m_OfUnequalFrames; // covariance over signal, by temporal lag [DN]
 };
 

@@ -57,8 +57,8 @@ LinesOf(const SampleTiles & tiles)
 void
 FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
 {
-  const CorrelationSums::Lags space = sums.Ring(1, AllRings);
-  const CorrelationSums::Lags within = sums.Ring(1, found.reach);
+  const CorrelationSums::Lags space = sums.Within(AllRings);
+  const CorrelationSums::Lags within = sums.Within(found.reach);
   const CorrelationSums::Lags time = sums.TimeLags();
   const AutocovarianceFit     fit(sums.GetResiduals().GetBasis(), time.size(), sums.GetResiduals().GetTimes());
   const JackknifeEstimate     estimate = Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
@@ -317,13 +317,14 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double quantisationDn2
   {
     return {};
   }
-  CorrelationSums  sums(residuals, quantisationDn2, FirstRings, FirstTimeLags, parallelFor);
+  CorrelationSums sums(residuals, quantisationDn2, FirstRings, FirstTimeLags, parallelFor);
+  sums.AddEchoes();
   NoiseCorrelation found;
   found.kind = NoiseKind::White;
   found.interference = residuals.GetInterference();
   FindCoefficients(sums, found);
   const bool inTime = IsCorrelatedInTime(sums, found.time);
-  const bool inSpace = IsCorrelatedInSpace(sums, found.space);
+  const bool inSpace = sums.HasEchoes() || IsCorrelatedInSpace(sums, found.space);
   if (inTime)
   {
     SumOverTime(sums, found);
@@ -335,7 +336,7 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double quantisationDn2
   if (inSpace)
   {
     SumOverSpace(sums, found);
-    found.covarianceLines = FitCovarianceLines(sums, sums.Ring(1, found.reach));
+    found.covarianceLines = FitCovarianceLines(sums, sums.Within(found.reach));
   }
   else if (!inTime)
   {

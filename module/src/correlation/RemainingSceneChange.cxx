@@ -261,8 +261,7 @@ EstimateLineIlluminationChange(const NoiseResiduals & residuals, LineAxis axis, 
   const SampleTiles & tiles = residuals.GetTiles();
   const auto          groups = TilesInLine(tiles, axis);
   const std::size_t   lines = groups.size() * tiles.side;
-  const std::size_t   step =
-    (tiles.origins.size() + InCorrelation.mostTilesOfLineIllumination - 1) / InCorrelation.mostTilesOfLineIllumination;
+  const std::size_t step = (tiles.origins.size() + InCorrelation.tilesOfFirstLook - 1) / InCorrelation.tilesOfFirstLook;
   std::vector<LineIlluminationProducts> ofLines(lines > 0 ? (lines + step - 1) / step : 0);
   parallelFor(ofLines.size(), [&](std::size_t i) {
     const std::size_t line = i * step;

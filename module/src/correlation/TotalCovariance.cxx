@@ -277,19 +277,19 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
   const TileSums    all = sums.Total();
   const CommonNoise common = FindCommonNoise(all.shared);
   double            largest = 0.0;
-  for (const std::size_t k : sums.Ring(1, found.reach))
+  for (const std::size_t k : sums.Within(found.reach))
   {
     largest = std::max(largest, std::abs(sums.CoefficientOf(all, common, k)));
   }
   const MeasuredNumber far = SumOfCoefficients(sums, sums.Ring(InCorrelation.reachOfCharge + 1, found.reach));
-  const bool           mayBeCharge =
-    largest < InCorrelation.largestCrosstalk && !far.Exceeds(InCorrelation.smallRing, Significance.oneTest);
+  const bool           mayBeCharge = !sums.HasEchoes() && largest < InCorrelation.largestCrosstalk &&
+                           !far.Exceeds(InCorrelation.smallRing, Significance.oneTest);
   if (mayBeCharge && found.reach > InCorrelation.reachOfCharge)
   {
     found.reach = InCorrelation.reachOfCharge; // the rings beyond are not significant
     found.beyondReach = std::max(std::abs(far.value), InCorrelation.unseenErrorsOfCharge * far.standardError);
   }
-  const CorrelationSums::Lags lags = sums.Ring(1, found.reach);
+  const CorrelationSums::Lags lags = sums.Within(found.reach);
   const double                unfilteredDn2 = sums.GetQuantisationDn2() + found.LineNoise().value;
   const JackknifeEstimate     fits = FitAllShapes(
     sums,
