@@ -64,7 +64,7 @@ TEST(SensorNoiseEchoes, SumOverTheLagsIsTheVarianceBeforeTheEcho)
     constexpr double       c = 0.05;
     const NoiseCorrelation found = MeasureNoiseCorrelation(ResidualsWithEcho(c, lag), 0.0, SerialFor);
     EXPECT_EQ(found.kind, NoiseKind::Filtered) << lag.x << ' ' << lag.y;
-    const double left = (1.0 - c) * (1.0 - c) + c * c; // of the variance
+    const double left = (1.0 - c) * (1.0 - c) + c * c; // fraction of the variance
     EXPECT_NEAR(found.spaceFactor.value, 1.0 / left, 4.5 * found.spaceFactor.standardError);
     EXPECT_LT(found.spaceFactor.standardError, 0.02); // three rings of lags at most
     const auto echo = std::find_if(found.space.begin(), found.space.end(), [&](const LagCoefficient & own) {

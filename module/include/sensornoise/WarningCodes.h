@@ -343,8 +343,8 @@ inline constexpr std::array<WarningKind, 54> WarningTable{ {
   { WarningCode::FramesEnlarged,
     "frames-enlarged",
     Severity::Error,
-    "The frames were enlarged or a mosaic was interpolated: they have fewer samples than pixels. Give the frames as "
-    "the camera read them." },
+    "The frames were enlarged, or interpolated in another way (a mosaic, a change of size or shape): their pixels are "
+    "not the samples of the sensor. Give the frames as the camera read them." },
   { WarningCode::VarianceNotAffine,
     "variance-not-affine",
     Severity::Error,

@@ -232,6 +232,9 @@ struct PartsConstants
    * to the excess, for which it is a gain [1]. Chosen empirically: gains in blobs and at edges make 0.03 to 0.3,
    * objects that move 0.4 and more. */
   double largestSpread{ 0.3 };
+  /** Smallest rms difference between the gains of columns, and between the gains of rows, that is by interpolation
+   * where both have it [1]: linear weights at evenly spread places make 22 %, amplifiers a few per cent. */
+  double sizeByWeights{ 0.1 };
   /** Number of pixels from which the effect of the parts on the line is computed: it is an error, and the sampling
    * noise of its derivatives is below 1 %. */
   std::size_t pixelsOfDerivatives{ std::size_t{ 1 } << 18 };

@@ -373,7 +373,7 @@ FitOnce(const ProjectedSquares &          squares,
   if (found.instrumentalLine.isDetermined)
   {
     VarianceCurve byInstrument = CurveByInstrument(found.instrumentalLine, fit, data, frame);
-    if (byInstrument.Nonlinearity(1.0) < found.curve.Nonlinearity(1.0)) // a non-linear response is in both
+    if (2.0 * byInstrument.Nonlinearity(1.0) < found.curve.Nonlinearity(1.0)) // a non-linear response is in both
     {
       found.curve = std::move(byInstrument);
     }
@@ -381,6 +381,14 @@ FitOnce(const ProjectedSquares &          squares,
   if (found.curve.ReducedChi2() > InSteps.leastChi2 * varianceInflation)
   {
     found.ofOwnLevels = fit.CurveAbout(found.curve.line, VarianceFit::SortedBy::OwnLevel);
+  }
+  if (!found.parts.phases)
+  {
+    // Motion adds most to the variance beside edges, which may be parallel to the lines.
+    const std::vector<std::uint8_t> flat = MaskOfFlatClasses(squares, kept, parallelFor);
+    VarianceData                    ofFlat = projected.GetData(flat);
+    ofFlat.variance.ratios = nullptr;
+    found.lines = CompareLines(ofFlat, frame.geometry, reference, parallelFor);
   }
   found.excessOfLeftOut = ExcessOfLeftOut(projected, reference, found.pixelUse, parallelFor);
   found.notStatic = static_cast<std::size_t>(

@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/QuantisationNoise.h"
+#include "pixels/GainByLines.h"
 #include "pixels/GainByParts.h"
 #include "pixels/FixedPatternEstimate.h"
 #include "pixels/VarianceCurve.h"
@@ -233,7 +234,8 @@ struct StaticVariance
   /** Result of the test of the roughness classes. */
   ClassFit classes;
   /** Deviation of the variance from instrumentalLine, or from line where instrumentalLine is not determined. The pixels
-   * are sorted by the means of their neighbours, or by the instrument where that gives less non-linearity. */
+   * are sorted by the means of their neighbours, or by the instrument where that leaves less than half of the
+   * non-linearity. */
   VarianceCurve curve;
   /** Deviation from the same line with the pixels sorted by their own levels, by which two amplifiers differ. It has no
    * bins if \a curve follows its line. */
@@ -241,6 +243,8 @@ struct StaticVariance
   /** The parts of the frame whose gains differ. The lines then describe the variance divided by the ratios of these
    * parts. */
   GainByParts parts;
+  /** The columns and rows whose gains differ, where no pattern of phases was found. */
+  LinesOfSensor lines;
   /** Quantization noise of companded data. Its remainder has been subtracted from all of the above; its line has not,
    * see SubtractQuantisationLine(). */
   QuantisationNoise quantisationNoise;

@@ -81,6 +81,15 @@ TextOfFailure(const RefinedResults & found, const TestedGain & tested)
   }
 }
 
+std::string
+TextOfResampling(const LinesOfSensor & lines)
+{
+  return "the variance differs from column to column by " + PercentApart(lines.columns.size, InParts.sizeByWeights) +
+         " rms, and from row to row by " + PercentApart(lines.rows.size, InParts.sizeByWeights) +
+         " (expected at most " + Percent(InParts.sizeByWeights) +
+         " in one of them): the frames were resampled by interpolation. Give the frames as the camera read them";
+}
+
 /** Returns the reason why the illumination of rows or columns makes the gain not identifiable. It adds the fraction
  * \a effect to the slope [1]. */
 std::string
@@ -188,14 +197,12 @@ AdviceOn(Divided divided)
 void
 WarnOfParts(Report & report, const UnlikeParts & parts)
 {
-  const auto & kind = KindOf(parts.partition);
   const auto [lowest, highest] = parts.Extremes();
   report.Warn(WarningCode::GainNotUniform,
-              std::string("the gain differs between ") + kind.words + ": from " +
-                Measured(lowest.gain, lowest.standardError) + " DN/e- (" + lowest.name + ") to " +
-                Measured(highest.gain, highest.standardError) + " DN/e- (" + highest.name + "), " +
-                PercentApart(parts.rms, InParts.leastDifference) + " rms (expected at most " +
-                Percent(InParts.leastDifference) + "), and their mean is given. " + AdviceOn(kind.divided));
+              "the gain differs between " + parts.words + ": from " + Measured(lowest.gain, lowest.standardError) +
+                " DN/e- (" + lowest.name + ") to " + Measured(highest.gain, highest.standardError) + " DN/e- (" +
+                highest.name + "), " + PercentApart(parts.rms, InParts.leastDifference) + " rms (expected at most " +
+                Percent(InParts.leastDifference) + "), and their mean is given. " + AdviceOn(parts.divided));
 }
 
 void
@@ -286,6 +293,9 @@ WarnOfGain(Report & report, const RefinedResults & found, const TestedGain & tes
         return;
       }
       report.Warn(WarningCode::IntensityRangeTooSmall, TextOfLevels(found, tested.line));
+      return;
+    case GainVerdict::Resampled:
+      report.Warn(WarningCode::FramesEnlarged, TextOfResampling(found.variance.lines));
       return;
     case GainVerdict::FramesDiffer:
     case GainVerdict::IlluminationIsLeft:

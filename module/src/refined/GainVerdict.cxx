@@ -18,6 +18,15 @@ namespace sensornoise
 
 namespace
 {
+/** Returns whether the gains of columns differ, and the gains of rows. Amplifiers belong to columns or to rows; the
+ * weights of an interpolation between pixels depend on both. */
+bool
+IsResampled(const LinesOfSensor & lines)
+{
+  const auto isLarge = [](const GainByLines & own) { return own.Differ() && own.size > InParts.sizeByWeights; };
+  return isLarge(lines.columns) && isLarge(lines.rows);
+}
+
 /** Returns why the variance does not belong to a sensor of one gain; Identified: no reason was found. */
 GainVerdict
 FindContradiction(const RefinedResults & found, const GainEstimate & gain)
@@ -35,6 +44,10 @@ FindContradiction(const RefinedResults & found, const GainEstimate & gain)
       CorrectionByCorrelation(found, gain) > 1.0 + InRefined.leastUnlikeNoise)
   {
     return GainVerdict::MotionIsLeft;
+  }
+  if (MovesLittle(found.scene.model) && IsResampled(found.variance.lines))
+  {
+    return GainVerdict::Resampled;
   }
   if (gain.nonlinearity > InRefined.largestNonlinearity)
   {
@@ -95,6 +108,7 @@ StatusBy(GainVerdict verdict)
     case GainVerdict::FramesDiffer:
     case GainVerdict::IlluminationIsLeft:
     case GainVerdict::MotionIsLeft:
+    case GainVerdict::Resampled:
     case GainVerdict::NotAffine:
     case GainVerdict::GainDependsOnOffset:
     case GainVerdict::DarkFramesContradict:

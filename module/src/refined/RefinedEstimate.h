@@ -152,6 +152,7 @@ enum class GainVerdict : std::uint8_t
   FramesDiffer,         ///< the noise variance of the frames does not follow their levels
   IlluminationIsLeft,   ///< the noise correlation, which changes the gain much, may be due to the illumination
   MotionIsLeft,         ///< the noise correlation between frames, which changes the gain, may be due to motion
+  Resampled,            ///< the variance differs between columns and between rows, as interpolation makes it
   NotAffine,            ///< the variance deviates from its line
   GainDependsOnOffset,  ///< the variance is a curve of the mean, and the gain depends on the assumed read noise
   DarkFramesContradict, ///< the dark frames are beside the line of levels that are alike
@@ -194,9 +195,10 @@ FindFewLitFrames(const RefinedResults & found);
 /** Gains of parts of the frame or of the burst that differ. */
 struct UnlikeParts
 {
-  Partition         partition{}; ///< division of the pixels or frames
-  double            rms{ 0.0 };  ///< rms of the parts' gains about their mean, beyond chance, relative to it [1]
-  GainByPartsRecord record;      ///< gain of every part
+  Divided           divided{};  ///< what is divided
+  std::string       words;      ///< description of the parts, for messages
+  double            rms{ 0.0 }; ///< rms of the parts' gains about their mean, beyond chance, relative to it [1]
+  GainByPartsRecord record;     ///< gain of every part; of lines without a period, of the outermost ones
 
   /** Returns the parts of the lowest and of the highest gain. */
   SensorNoise_EXPORT std::pair<const GainByPartsRecord::Part &, const GainByPartsRecord::Part &>

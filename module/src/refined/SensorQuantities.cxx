@@ -7,6 +7,7 @@
 #include "base/Eigen.h"
 #include "pixels/QuantisationNoise.h"
 #include "pixels/GainByParts.h"
+#include "refined/FramePhotonTransfer.h"
 #include "refined/GainEstimate.h"
 #include "report/Quantities.h"
 #include "sensornoise/Settings.h"
@@ -34,7 +35,8 @@ UnlikeParts
 GainsOf(const PartGains & gains, const GainEstimate & gain)
 {
   const double pixels = std::accumulate(gains.pixels.begin(), gains.pixels.end(), 0.0);
-  UnlikeParts  parts{ gains.partition, gains.size, { KindOf(gains.partition).name, {} } };
+  const auto & kind = KindOf(gains.partition);
+  UnlikeParts  parts{ kind.divided, kind.words, gains.size, { kind.name, {} } };
   for (std::size_t k = 0; k < gains.excess.size(); ++k)
   {
     parts.record.parts.push_back(
@@ -42,6 +44,43 @@ GainsOf(const PartGains & gains, const GainEstimate & gain)
         gain.line.gain * (1.0 + gains.excess[k]),
         std::hypot(std::sqrt(gain.covariance(0, 0)) * (1.0 + gains.excess[k]), gain.line.gain * gains.error[k]),
         gains.pixels[k] / pixels });
+  }
+  return parts;
+}
+
+/** Returns the gains of lines of a sensor, which messages call a \a name. \a student is the quantile of a 95 %
+ * interval [1]. */
+UnlikeParts
+GainsOf(const GainByLines & lines, const std::string & name, const GainEstimate & gain, double student)
+{
+  UnlikeParts       parts{ Divided::Phases, name + "s", lines.size, { name + "s", {} } };
+  const double      error = std::sqrt(gain.covariance(0, 0));
+  const auto        period = static_cast<double>(lines.excess.size());
+  const std::string ofPeriod = " of " + std::to_string(lines.excess.size());
+  for (std::size_t k = 0; k < lines.excess.size(); ++k)
+  {
+    const double excess = lines.excess[k];
+    parts.record.parts.push_back({ name + " " + std::to_string(k) + ofPeriod,
+                                   gain.line.gain * (1.0 + excess),
+                                   std::hypot(error * (1.0 + excess), gain.line.gain * lines.error),
+                                   1.0 / period });
+  }
+  if (lines.excess.empty())
+  {
+    const double outside = 0.025; // the lines beyond either end of a 95 % interval
+    const double distance = student * lines.size;
+    const double errorOfDistance = 0.5 * distance / lines.z; // the size is a root
+    for (const double excess : { -distance, distance })
+    {
+      parts.record.parts.push_back({ (excess < 0.0 ? "lowest" : "highest") + (" 2.5 % of the " + name + "s"),
+                                     gain.line.gain * (1.0 + excess),
+                                     std::hypot(error * (1.0 + excess), gain.line.gain * errorOfDistance),
+                                     outside });
+    }
+  }
+  else
+  {
+    parts.words += " with a period of " + std::to_string(lines.excess.size());
   }
   return parts;
 }
@@ -58,6 +97,17 @@ FindUnlikeParts(const RefinedResults & found, const GainEstimate & gain)
     if (*own && (*own)->Differ() && !(own == &parts.phases && found.correlation.IsCorrelated()))
     {
       unlike.push_back(GainsOf(**own, gain));
+    }
+  }
+  // The noise of whole lines has one variance, but by chance its sample of a few frames differs from line to line.
+  const LinesOfSensor & lines = found.variance.lines;
+  const double          ofLines = found.correlation.LineNoise().value / gain.line.At(gain.line.pivotDn);
+  const double scatter = Significance.hint * ofLines * std::sqrt(2.0 / static_cast<double>(found.scene.frame.frames));
+  for (const auto & [own, name] : { std::pair(&lines.columns, "column"), std::pair(&lines.rows, "row") })
+  {
+    if (own->Differ() && own->size > scatter && !found.correlation.IsCorrelated() && MovesLittle(found.scene.model))
+    {
+      unlike.push_back(GainsOf(*own, name, gain, StudentOf(found)));
     }
   }
   return unlike;
