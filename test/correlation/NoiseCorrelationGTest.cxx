@@ -57,10 +57,10 @@ ComputeResiduals(const SensorFlaws & flaws, std::size_t size = Size, std::size_t
 /** Returns the residuals of a dark frame with a few spots of 3 x 3 pixels, whose illumination scatters by \a twinkle
  * [1] from frame to frame, each spot by itself. */
 NoiseResiduals
-ResidualsOfStars(double twinkle)
+ResidualsOfStars(double twinkle, std::size_t stars = 40, unsigned seed = 5)
 {
   constexpr std::size_t           pixels = Size * Size;
-  std::mt19937                    random(5);
+  std::mt19937                    random(seed);
   std::normal_distribution<>      normal;
   std::vector<double>             mean(pixels);
   std::vector<double>             stack(pixels * Frames);
@@ -68,7 +68,7 @@ ResidualsOfStars(double twinkle)
   for (std::size_t t = 0; t < Frames; ++t)
   {
     std::vector<double> signal(pixels, 4.0);
-    for (std::size_t star = 0; star < 40; ++star)
+    for (std::size_t star = 0; star < stars; ++star)
     {
       const std::size_t corner = (6 * star + 2) * Size + 37 * star % (Size - 4);
       const double      change = 1.0 + twinkle * normal(random);
@@ -129,13 +129,24 @@ TEST(SensorNoiseNoiseCorrelation, StarsThatTwinkleAreNotSensorNoise)
 {
   const NoiseCorrelation calm = MeasureNoiseCorrelation(ResidualsOfStars(0.0), 0.0, SerialFor);
   EXPECT_EQ(calm.kind, NoiseKind::White);
-  EXPECT_EQ(calm.brightCovariance, 0.0);
+  EXPECT_EQ(calm.brightCovariance.value, 0.0);
   // The correlation with each of four neighbours is twinkle^2 z^2 / (V + twinkle^2 z^2): 0.13 at 404 DN, 0.24 at 804
   // DN.
   const NoiseCorrelation twinkling = MeasureNoiseCorrelation(ResidualsOfStars(0.02), 0.0, SerialFor);
   EXPECT_EQ(twinkling.kind, NoiseKind::NotLinear);
   EXPECT_FALSE(twinkling.isByIllumination);
-  EXPECT_NEAR(twinkling.brightCovariance, 4.0 * 0.17, 0.25);
+  EXPECT_NEAR(twinkling.brightCovariance.value, 4.0 * 0.17, 0.25);
+}
+
+TEST(SensorNoiseNoiseCorrelation, FewCalmStarsAreWhite)
+{
+  // Few pairs of distant bright pixels are left, by which the illumination that they have in common is measured.
+  for (unsigned seed = 1; seed <= 12; ++seed)
+  {
+    const NoiseCorrelation found = MeasureNoiseCorrelation(ResidualsOfStars(0.0, 14, seed), 0.0, SerialFor);
+    EXPECT_EQ(found.kind, NoiseKind::White) << seed;
+    EXPECT_EQ(found.brightCovariance.value, 0.0) << seed;
+  }
 }
 
 TEST(SensorNoiseNoiseCorrelation, PlainNoiseIsWhite)

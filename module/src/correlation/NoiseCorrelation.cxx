@@ -285,6 +285,13 @@ NoiseCorrelation::MixesByDifference() const
 }
 
 bool
+NoiseCorrelation::DetailsChange() const
+{
+  return brightCovariance.value > 0.0 &&
+         brightCovariance.Exceeds(InCorrelation.leastBrightCovariance, Significance.severalTests);
+}
+
+bool
 NoiseCorrelation::HasLocalMotion() const
 {
   return localMotion.value > 0.0 && localMotion.Exceeds(InCorrelation.leastLocalMotion, Significance.severalTests);
@@ -341,9 +348,9 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double quantisationDn2
   else if (!inTime)
   {
     const BrightCovariance bright = MeasureBrightCovariance(sums, parallelFor);
-    if (bright.value > InCorrelation.leastBrightCovariance && bright.z > Significance.severalTests)
+    if (bright.sum.value > InCorrelation.leastBrightCovariance && bright.z > Significance.severalTests)
     {
-      found.brightCovariance = bright.value;
+      found.brightCovariance = bright.sum;
     }
   }
   if (inTime || inSpace)
@@ -356,7 +363,7 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double quantisationDn2
     CompareSteps(residuals, parallelFor, found);
     found.upperTail = {}; // common changes of the frames, as flicker, need not be normally distributed
   }
-  if (found.isBySensitivity || found.brightCovariance > 0.0 || found.MixesByDifference() || !IsLinear(sums, found))
+  if (found.isBySensitivity || found.DetailsChange() || found.MixesByDifference() || !IsLinear(sums, found))
   {
     found.kind = NoiseKind::NotLinear;
   }

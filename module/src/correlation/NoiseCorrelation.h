@@ -136,9 +136,9 @@ struct SensorNoise_EXPORT NoiseCorrelation
   /** Whether the spatial covariance grows with the squared signal and reaches further than coupled charge: the
    * illumination changes from place to place. The class is then NotLinear. */
   bool isByIllumination{ false };
-  /** Covariance of the four nearest neighbours at the bright levels, relative to the variance, if it is large and
-   * other levels have none; else 0 [1]. The illumination then changes in fine patterns, and the class is NotLinear. */
-  double brightCovariance{ 0.0 };
+  /** Covariance of the four nearest neighbours at the bright levels, relative to the variance, if it is significant and
+   * above InCorrelation.leastBrightCovariance, and other levels have none; else 0 [1]. Details of the scene change. */
+  MeasuredNumber brightCovariance;
   /** Whether the temporal covariance grows with the squared signal, as no filter makes it: the sensitivity of pixels
    * drifts, or the illumination changes in fine patterns. The class is then NotLinear. */
   bool isBySensitivity{ false };
@@ -171,6 +171,11 @@ struct SensorNoise_EXPORT NoiseCorrelation
   /** Returns whether frames are mixed only where they differ little. */
   bool
   MixesByDifference() const;
+
+  /** Returns whether brightCovariance is above InCorrelation.leastBrightCovariance by more than its error. The class is
+   * then NotLinear. */
+  bool
+  DetailsChange() const;
 
   /** Returns whether local motion of the scene causes a part of the spatial correlation. */
   bool

@@ -226,6 +226,9 @@ MeasureBrightCovariance(const CorrelationSums & sums, const ParallelFor & parall
   const CommonNoise      common = FindCommonNoise(sums.Total().shared);
   const double           mean = residuals.GetMeanSignal();
   const std::size_t      side = residuals.GetTiles().side;
+  // A mean square of the illumination is not below 0. Few pairs of distant bright pixels determine it in a dark scene,
+  // and its error grows with the square of the signal.
+  const double illumination = std::max(0.0, common.illumination);
 
   std::vector<PairCounts> tiles(residuals.GetTiles().origins.size());
   parallelFor(tiles.size(), [&](std::size_t i) {
@@ -246,7 +249,7 @@ MeasureBrightCovariance(const CorrelationSums & sums, const ParallelFor & parall
         if (own > 0.0)
         {
           const double square = double{ signal[p] } * signal[p + shift];
-          const double covariance = products[k][p] / residuals.GetDof() - lines - common.illumination * square;
+          const double covariance = products[k][p] / residuals.GetDof() - lines - illumination * square;
           tiles[i].weights += own;
           tiles[i].squares += own * own;
           // The variance of the pixels themselves: few bright pixels hardly count in the typical variance.
@@ -265,9 +268,14 @@ MeasureBrightCovariance(const CorrelationSums & sums, const ParallelFor & parall
     all.covariance += tile.covariance;
     all.signs += tile.signs;
   }
-  // Both lags together are half of the neighbours.
-  return all.weights > 0.0 ? BrightCovariance{ 4.0 * all.covariance / all.weights, all.signs / std::sqrt(all.squares) }
-                           : BrightCovariance();
+  if (all.weights <= 0.0)
+  {
+    return {};
+  }
+  // Both lags together are half of the neighbours. The coefficient of one pair of white noise has the variance 1 / dof.
+  const double root = std::sqrt(all.squares);
+  return { { 4.0 * all.covariance / all.weights, 4.0 * root / (all.weights * std::sqrt(residuals.GetDof())) },
+           all.signs / root };
 }
 
 void

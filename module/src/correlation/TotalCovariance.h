@@ -137,8 +137,8 @@ IsCorrelatedInSpace(const CorrelationSums & sums, const std::vector<LagCoefficie
 /** Covariance of the nearest neighbours at the bright levels. */
 struct BrightCovariance
 {
-  double value{ 0.0 }; ///< sum over the four neighbours, relative to the variance [1]
-  double z{ 0.0 };     ///< weighted surplus of pairs with a positive covariance [standard errors]
+  MeasuredNumber sum; ///< sum over the four neighbours, relative to the variance, with the error of white noise [1]
+  double         z{ 0.0 }; ///< weighted surplus of pairs with a positive covariance [standard errors]
 };
 
 /** Measures the covariance of the nearest neighbours brighter than the mean, with the information on the slope of the

@@ -129,11 +129,11 @@ CauseOfNonlinear(const NoiseCorrelation & correlation, const LagCoefficient * sp
            "too fine to be removed (caustics, haze, moving shadows). Choose an evenly lit part "
            "(--roi), or steady the illumination";
   }
-  if (correlation.brightCovariance > 0.0)
+  if (correlation.DetailsChange())
   {
     return "at the bright levels the nearest neighbours have a covariance of " +
-           PercentApart(correlation.brightCovariance, InCorrelation.leastBrightCovariance) +
-           " of the noise variance (expected at most " + Percent(InCorrelation.leastBrightCovariance) +
+           PercentOf(correlation.brightCovariance) + " of the noise variance (expected at most " +
+           Percent(InCorrelation.leastBrightCovariance) +
            "), and pixels of all levels together none: details of the scene change or move by themselves, as "
            "stars that twinkle. Charge that spreads to neighbours has the same effect. Choose a part of the "
            "scene without them (--roi), or record it at rest";

@@ -182,7 +182,9 @@ double
 LostVariance(const InterpolatedPixels & interpolated, double notCompared, const NoiseCorrelation & correlation)
 {
   const double ofFrames = correlation.kind == NoiseKind::Temporal ? 0.0 : correlation.timeFactor.standardError;
-  return std::hypot(interpolated.lostVariance * notCompared, ofFrames);
+  // Details of the scene that may change, and a pixel has in common with each of four neighbours.
+  const double ofDetails = correlation.DetailsChange() ? 0.0 : 0.25 * correlation.brightCovariance.value;
+  return AddInQuadrature(interpolated.lostVariance * notCompared, ofFrames, ofDetails);
 }
 
 /** The illumination that is specific to rows or columns, and the squares without it. */
