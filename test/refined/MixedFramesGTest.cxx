@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <gtest/gtest.h>
 #include <vector>
@@ -101,4 +102,20 @@ TEST(SensorNoiseMixedFrames, WithSmallWeightsHaveThemInTheErrorOfTheGain)
   ASSERT_EQ(report.gain.status, EstimateStatus::Identified);
   EXPECT_NEAR(*report.gain.value, GainDn, 2.5 * *report.gain.standardError);
   EXPECT_GT(*report.gain.standardError, weight * GainDn);
+}
+
+TEST(SensorNoiseMixedFrames, UnmixedFramesOfAShortBurstUnderFlickerAreNotMixed)
+{
+  // Few frames remain after the projection, and bright frames have more noise than dark ones.
+  for (const std::size_t frames : { std::size_t{ 10 }, std::size_t{ 12 }, std::size_t{ 14 } })
+  {
+    SimulationSettings settings = FlickeringSettings(frames);
+    settings.camera = { 4000.0, GainDn, 100.0, 5.0 };
+    settings.conditions = { 0.13, 0.0, 0.0 };
+    settings.seed = 2;
+    const Report report = ReportOf(Simulate<GreyValue>(settings, 256, 256));
+    EXPECT_FALSE(HasWarning(report, WarningCode::NoiseCorrelated)) << frames;
+    ASSERT_TRUE(report.gain.value && report.gain.standardError) << frames;
+    EXPECT_NEAR(*report.gain.value, GainDn, 4.0 * *report.gain.standardError) << frames;
+  }
 }

@@ -366,10 +366,7 @@ MeasurePixelNoise(ResidualSquares                          squares,
                                     series->local.beyond <= 1.0 && !allowed.lines.isSubtracted };
   const auto            allowForFrames = [&] {
     noise.variance.fromFrames = LineOfFrames(noise.variance, comparison, parallelFor);
-    if (comparison.AreUnequal())
-    {
-      residuals.SetUnequalFrames({ series->line.gamma, BetterLine(noise.variance).gain, offsetDn - zeroDn });
-    }
+    residuals.SetUnequalFrames({ series->line.gamma, BetterLine(noise.variance).gain, offsetDn - zeroDn });
   };
   allowForFrames();
   SubtractWavesOfDarkFrames(residuals, settings, parallelFor);
