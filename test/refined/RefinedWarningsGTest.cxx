@@ -135,6 +135,26 @@ TEST(SensorNoiseRefinedWarnings, OffsetDrift)
               WarningCode::OffsetDrift);
 }
 
+TEST(SensorNoiseRefinedWarnings, OffsetThatWandersIsNoFlicker)
+{
+  // The level of every frame changes by up to 3 DN, at dark and at bright pixels alike.
+  const auto wander = [](std::size_t t, auto, auto, double u) {
+    return u + 3.0 * std::sin(2.3 * static_cast<double>(t));
+  };
+  SimulationSettings settings = StaticCamera(Frames);
+  settings.conditions.flickerSd = 0.0;
+  const Report steady = Measure(Changed(wander, settings), {}).GetReport();
+  EXPECT_EQ(steady.flickerSd.status, EstimateStatus::UpperLimit) << MakeText(steady);
+  // A real flicker beside it is measured by the contrast of the frames, and without it as before.
+  settings.conditions.flickerSd = 0.02;
+  for (const Report & report : { Measure(Changed(wander, settings), {}).GetReport(),
+                                 Measure(Simulate<GreyValue>(settings, Size, Size), {}).GetReport() })
+  {
+    ASSERT_TRUE(report.flickerSd.value && report.flickerSd.interval95) << MakeText(report);
+    EXPECT_NEAR(*report.flickerSd.value, 0.02, 0.007) << MakeText(report); // of 40 frames; 4 standard errors are 0.009
+  }
+}
+
 TEST(SensorNoiseRefinedWarnings, StrongVibration)
 {
   SimulationSettings settings = StaticCamera(Frames);

@@ -38,6 +38,76 @@ FindFailure(const SeriesOfFlicker & flicker)
   return flicker.scaleError > InCommon.largestRelativeError ? FlickerFailure::UncertainOffset
                                                             : FlickerFailure::NoiseOfFrames;
 }
+
+/** Variance of the illumination factor over the frames, with the error by the noise of the frames [1]. \a gamma has the
+ * variance \a noise by the noise of the frames. */
+MeasuredNumber
+VarianceOfFlicker(const Eigen::VectorXd & gamma, double noise)
+{
+  const auto   dof = static_cast<double>(gamma.size()) - 1.0;
+  const double variance = gamma.squaredNorm() / dof - noise;
+  return { variance, 2.0 * std::sqrt(std::max(0.0, variance) * noise / dof) + noise * std::sqrt(2.0 / dof) };
+}
+
+/** Flicker beside a dark offset that may differ from frame to frame. */
+struct FlickerBesideDrift
+{
+  MeasuredNumber variance;            ///< variance of the illumination factor [1]
+  bool           isRequired{ false }; ///< no flicker alone, about the offset in use, explains the frames as well
+};
+
+/** Returns the flicker beside a drift of the dark offset, if a drift alone explains the frames as well as a flicker
+ * alone does, by J of OffsetLine; null: it does not. */
+std::optional<FlickerBesideDrift>
+FindFlickerBesideDrift(const OffsetLine & line, double fromCentre, double errorDn)
+{
+  const Eigen::Matrix2d & g = line.illumination;
+  // The inverse variance of a change of the slope, whatever the level does.
+  const double precision = g.determinant() / g(0, 0);
+  if (line.isLevelMotion || !(g(0, 0) > 0.0) || !(precision > 0.0) || !std::isfinite(errorDn))
+  {
+    return std::nullopt;
+  }
+  const Eigen::Matrix2d energy = line.response.transpose() * line.response;
+  const auto            explained = [&](double m) {
+    const Eigen::Vector2d v(-m, 1.0);
+    return v.dot(energy * v) / v.dot(g * v);
+  };
+  const double range = Significance.hint * errorDn;
+  const double nearest = std::clamp(line.offset, fromCentre - range, fromCentre + range);
+  const double ofFlicker =
+    std::max({ explained(fromCentre - range), explained(nearest), explained(fromCentre + range) });
+  const double ofDrift = energy(0, 0) / g(0, 0);
+  const double student = StudentQuantile(0.975, std::max(1.0, static_cast<double>(line.response.rows()) - 2.0));
+  const double chance = student * student * line.Widening();
+  if (ofDrift < ofFlicker - chance)
+  {
+    return std::nullopt;
+  }
+  const Eigen::VectorXd slopes = line.response * g.inverse().col(1);
+  return FlickerBesideDrift{ VarianceOfFlicker(slopes, line.Widening() / precision), ofDrift > ofFlicker + chance };
+}
+
+/** Sets the flicker beside a drift of the dark offset, or extends the interval of \a flicker to it. */
+void
+AllowForDrift(const FlickerBesideDrift & beside, SeriesOfFlicker & flicker)
+{
+  const Quantity sd = RootOf(beside.variance.value, beside.variance.standardError);
+  const double   least = sd.interval95 ? sd.interval95->low.value_or(0.0) : 0.0;
+  if (beside.isRequired)
+  {
+    flicker.sd = sd;
+    flicker.scaleError = 0.0;
+  }
+  else if (flicker.sd.interval95 && flicker.sd.interval95->high && !(least > 0.0))
+  {
+    flicker.sd = UpperLimit(*flicker.sd.interval95->high);
+  }
+  else if (flicker.sd.interval95 && flicker.sd.interval95->low)
+  {
+    flicker.sd.interval95->low = std::min(*flicker.sd.interval95->low, least);
+  }
+}
 } // namespace
 
 SeriesOfFlicker
@@ -48,17 +118,11 @@ EstimateFlicker(const RefinedResults & found, const UsedOffset & offset, double 
   line.UseOffset(offsetFromCentre);
   SeriesOfFlicker flicker;
   flicker.gamma = line.gamma;
-  const auto   frames = static_cast<double>(line.gamma.size());
+  flicker.scaleError = std::abs(line.sensitivity) * offset.errorDn;
   const double noise = line.Widening() / line.precision;
-  double       squares = 0.0;
-  for (const double gamma : line.gamma)
-  {
-    squares += gamma * gamma;
-  }
-  const double variance = squares / (frames - 1.0) - noise;
+  const auto   all = static_cast<Eigen::Index>(line.gamma.size());
+  const auto [variance, ownError] = VarianceOfFlicker(Eigen::Map<const Eigen::VectorXd>(line.gamma.data(), all), noise);
   const double fromOffset = 2.0 * variance * std::hypot(line.sensitivity * offset.errorDn, modelError);
-  const double ownError =
-    2.0 * std::sqrt(std::max(0.0, variance) * noise / (frames - 1.0)) + noise * std::sqrt(2.0 / (frames - 1.0));
   flicker.sd = RootOf(variance, std::hypot(ownError, fromOffset));
   if (found.HasLocalIllumination() && !found.MayLocalIlluminationBeNoise())
   {
@@ -69,7 +133,10 @@ EstimateFlicker(const RefinedResults & found, const UsedOffset & offset, double 
     const double         error = AddInQuadrature(slope * offset.errorDn, sd * std::sqrt(noise), sd * modelError);
     flicker.sd = RootOf(sd * sd, 2.0 * sd * error);
   }
-  flicker.scaleError = std::abs(line.sensitivity) * offset.errorDn;
+  else if (const auto beside = FindFlickerBesideDrift(line, offsetFromCentre, offset.errorDn))
+  {
+    AllowForDrift(*beside, flicker);
+  }
   flicker.limit = flicker.sd.interval95;
   flicker.failure = found.IsMotionLocal() ? FlickerFailure::LocalMotion : FindFailure(flicker);
   if (flicker.failure != FlickerFailure::None)
