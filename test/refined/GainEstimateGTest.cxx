@@ -136,6 +136,26 @@ TEST(SensorNoiseGainEstimate, NonlinearResponseHasTheMeanGain)
   EXPECT_NEAR(estimate.line.intercept + estimate.line.gain * PivotDn, 1564.0, 1e-9); // rotated about the pivot
 }
 
+TEST(SensorNoiseGainEstimate, CoupledChargeUnderStrongVibrationMayBeMotion)
+{
+  Found            found;
+  NoiseCorrelation correlation;
+  correlation.kind = NoiseKind::Crosstalk;
+  WeightedShape & shape = correlation.Shape(CovarianceShape::Signal);
+  shape = { { 0.1, 0.01 }, 1.0 };
+  shape.ofSignal = 1.0;
+  const auto estimate = [&] {
+    const RefinedResults results{ found.settings,    found.scene,     found.series, found.variance,
+                                  found.reestimated, found.corrected, OffsetDn,     correlation };
+    return EstimateGain(results, AddCovariances(LinesOf(found.variance), correlation, OffsetDn, 0.0));
+  };
+  const GainEstimate still = estimate();
+  EXPECT_NEAR(still.line.gain, 1.1, 1e-9);
+  EXPECT_LT(still.below, 0.05);
+  found.scene.model.vibrationXPixels2 = 0.5 * 0.5;
+  EXPECT_NEAR(estimate().below, 0.1, 1e-9); // to the slope of the variance, 1.0
+}
+
 TEST(SensorNoiseGainEstimate, OneLevelAndADarkPointArePhotonTransfer)
 {
   // The slope is not known, and the dark frames contradict the line.

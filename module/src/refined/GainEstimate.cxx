@@ -10,6 +10,7 @@
 #include "pixels/ProjectedVariance.h"
 #include "pixels/Constants.h"
 #include "refined/Constants.h"
+#include "refined/FramePhotonTransfer.h"
 #include "refined/RefinedEstimate.h"
 
 #include <algorithm>
@@ -147,6 +148,20 @@ ExtendIntervalByIllumination(GainEstimate & estimate, const RefinedResults & fou
     const double ofVariance = (1.0 - InRefined.slopeOfRemaining * rest) * found.variance.line.gain;
     estimate.below = std::max(estimate.below, estimate.line.gain - ofVariance);
     estimate.above = std::max(estimate.above, ofVariance - estimate.line.gain);
+  }
+}
+
+/** Extends the interval to the slope of the variance where the scene moves so much that motion may be left in the
+ * residuals: it correlates neighbours as coupled charge does. */
+void
+ExtendIntervalByMotion(GainEstimate & estimate, const RefinedResults & found)
+{
+  const NoiseKind kind = found.correlation.kind;
+  if ((kind == NoiseKind::Crosstalk || kind == NoiseKind::BrighterFatter) && !MovesLittle(found.scene.model))
+  {
+    const double slope = found.variance.line.gain;
+    estimate.below = std::max(estimate.below, estimate.line.gain - slope);
+    estimate.above = std::max(estimate.above, slope - estimate.line.gain);
   }
 }
 
@@ -349,6 +364,7 @@ EstimateGain(const RefinedResults & found, const SensorLines & lines)
     ExtendIntervalByStep(estimate, *step);
   }
   ExtendIntervalByIllumination(estimate, found);
+  ExtendIntervalByMotion(estimate, found);
   ExtendIntervalByLeftOut(estimate, variance);
   const Eigen::Vector2d & ofOffsets = found.reestimated.partOffsets.ofLine;
   estimate.covariance += ofOffsets * ofOffsets.transpose();
