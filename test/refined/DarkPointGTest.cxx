@@ -249,7 +249,23 @@ TEST(SensorNoiseDarkPoint, NarrowRangeIsTiedToTheDarkFrames)
   const Report             report = Measure(stack, WithDarkFrames(DarkFramesOf(settings, Size))).GetReport();
   EXPECT_NEAR(ValueOf(report.gain), 1.0, 5.0 * *report.gain.standardError);
   EXPECT_LT(*report.gain.standardError, 0.005);
-  EXPECT_FALSE(HasWarning(report, WarningCode::ResponseUnchecked));
+  // The line alone would not show dark frames whose level is wrong by a few per cent of the signal.
+  EXPECT_TRUE(HasWarning(report, WarningCode::ResponseUnchecked));
+}
+
+TEST(SensorNoiseDarkPoint, FramesThatContradictLevelsThatAreAlikeHaveNoQuantities)
+{
+  // The level of the dark frames is wrong by 20 % of the signal. The line shows it, but parts of the sensor might, too.
+  const SimulationSettings settings = FlatCamera();
+  SimulationSettings       dark = settings;
+  dark.camera.offsetDn += 0.2 * settings.camera.electrons * settings.camera.gainDnPerElectron;
+  const Stack<GreyValue> stack = Simulate<GreyValue>(settings, Size, Size, FlatScene(Size, 0.3));
+  const Report           report = Measure(stack, WithDarkFrames(DarkFramesOf(dark, Size))).GetReport();
+  EXPECT_TRUE(HasWarning(report, WarningCode::VarianceNotAffine)) << ToJson(report);
+  for (const Quantity * const quantity : { &report.gain, &report.offset, &report.readNoise })
+  {
+    EXPECT_EQ(quantity->status, EstimateStatus::Failed);
+  }
 }
 
 TEST(SensorNoiseDarkPoint, RefusedStackStillHasWhatTheDarkFramesTell)

@@ -8,6 +8,7 @@
 #include "sensornoise/Report.h"
 #include "sensornoise/Settings.h"
 #include "moments/DarkFrames.h"
+#include "pixels/Constants.h"
 #include "pixels/VarianceCurve.h"
 #include "refined/Constants.h"
 
@@ -165,8 +166,10 @@ CombineWithDarkPoint(GainEstimate & estimate, const RefinedResults & found)
   const double contradiction = MoveToPoint(estimate, dark);
   const auto   atOffset = estimate.atOffset;
   const bool   isFar = estimate.curve.DarkestFraction(dark.offsetDn) > InCommon.darkFraction;
-  estimate.isLinearityTested =
-    std::sqrt(before.covariance(0, 0)) < 0.5 * InRefined.largestNonlinearity * std::abs(before.line.gain);
+  // The slope of levels that are alike is extrapolated to the dark level. Only if its error is below what counts, it
+  // tests response and dark level.
+  const double counts = before.isWide ? InRefined.largestNonlinearity : InPixels.leastDeviation;
+  estimate.isLinearityTested = std::sqrt(before.covariance(0, 0)) < 0.5 * counts * std::abs(before.line.gain);
   const double difference = std::abs(dark.varianceDn2 - atOffset->valueDn2);
   if (!isNonlinear && contradiction > Significance.severalTests &&
       difference > InCommon.leastDarkDifference * std::max(dark.varianceDn2, std::abs(atOffset->valueDn2)))

@@ -101,7 +101,7 @@ struct SensorNoise_EXPORT GainEstimate
    * are not used for the gain. */
   bool isDarkRejected{ false };
   /** Whether the line of the bright frames alone is precise enough for dark frames to test the linearity of the
-   * response; false if all levels are equal. */
+   * response. If the levels are alike (see isWide), its slope must be the more precise. */
   bool isLinearityTested{ false };
 
   /** Returns whether the gains of parts of the levels differ significantly. */

@@ -282,8 +282,12 @@ EstimateBy(const RefinedResults & found, const GainEstimate & gain)
   estimate.ofSensor = QuantitiesBy(verdict, gain, found, quantisationDn2);
   if (verdict != GainVerdict::Identified)
   {
-    estimate.dark =
-      QuantitiesOfDarkFrames(found.settings, quantisationDn2, StatusBy(verdict), FilterFactor(found.correlation));
+    // Dark frames that contradict the frames have no quantities of their own: either may be wrong.
+    const bool doContradict = verdict == GainVerdict::DarkFramesContradict;
+    estimate.dark = QuantitiesOfDarkFrames(doContradict ? RefinedSettings() : found.settings,
+                                           quantisationDn2,
+                                           StatusBy(verdict),
+                                           FilterFactor(found.correlation));
     return estimate;
   }
   estimate.dark = QuantitiesByOffset(found, gain, estimate.limits, estimate.flickerOffset, quantisationDn2);
