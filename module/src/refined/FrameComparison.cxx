@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -19,13 +20,6 @@ namespace sensornoise
 
 namespace
 {
-/** A line and the standard error of its slope. */
-struct SlopeOfLine
-{
-  const VarianceLine & line;
-  double               error;
-};
-
 /** Returns the lines of the frames and of the pixels, as far as they are determined. The line with the more precise
  * slope is first. */
 std::vector<SlopeOfLine>
@@ -63,10 +57,10 @@ LineOfFrames(const StaticVariance & variance, const FrameComparison & by, const 
   return FitFramePhotonTransfer({ by.residuals, used, parallelFor }, by.levels, variance.line);
 }
 
-const VarianceLine &
+SlopeOfLine
 BetterLine(const StaticVariance & variance)
 {
-  return LinesByError(variance).front().line;
+  return LinesByError(variance).front();
 }
 
 bool
@@ -107,6 +101,26 @@ CompareByEnergies(const FrameEnergies &            energies,
     }
   }
   return noise;
+}
+
+/** Returns the quadrants of tiles: the halves are divided at the medians of their \a origins. */
+std::vector<std::size_t>
+QuadrantsOf(const std::vector<SampleTiles::Origin> & origins)
+{
+  const auto medianOf = [&](std::size_t SampleTiles::Origin::* axis) {
+    std::vector<std::size_t> all;
+    std::transform(
+      origins.begin(), origins.end(), std::back_inserter(all), [&](const auto & own) { return own.*axis; });
+    std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
+    return all.empty() ? std::size_t{ 0 } : all[all.size() / 2];
+  };
+  const std::size_t        x = medianOf(&SampleTiles::Origin::x);
+  const std::size_t        y = medianOf(&SampleTiles::Origin::y);
+  std::vector<std::size_t> quadrants;
+  std::transform(origins.begin(), origins.end(), std::back_inserter(quadrants), [&](const auto & own) {
+    return std::size_t{ own.y < y ? 0U : 2U } + std::size_t{ own.x < x ? 0U : 1U };
+  });
+  return quadrants;
 }
 
 /** Returns the pixels of \a mask in even rows and even columns. */
@@ -200,7 +214,8 @@ FrameEnergies::FrameEnergies(const NoiseResiduals &            residuals,
       filled.push_back(tile);
     }
   }
-  const auto rows = static_cast<Eigen::Index>(filled.size());
+  const auto                       rows = static_cast<Eigen::Index>(filled.size());
+  std::vector<SampleTiles::Origin> origins;
   m_SquaresDn2.resize(rows, frames);
   m_LevelChangesDn.resize(rows, frames);
   m_SignalDn.resize(rows);
@@ -212,7 +227,9 @@ FrameEnergies::FrameEnergies(const NoiseResiduals &            residuals,
     m_LevelChangesDn.row(row) = residuals.LevelChangesOf(static_cast<std::size_t>(tile)).transpose();
     m_SignalDn(row) = signal(tile);
     m_Pixels(row) = pixels(tile);
+    origins.push_back(tiles.origins[static_cast<std::size_t>(tile)]);
   }
+  m_Quadrants = QuadrantsOf(origins);
   this->FillRemainingFraction();
 }
 
@@ -225,6 +242,10 @@ FrameEnergies::FrameEnergies(Eigen::MatrixXd squaresDn2,
   , m_Pixels(std::move(pixels))
   , m_Basis(std::move(basis))
 {
+  for (Eigen::Index tile = 0; tile < m_Pixels.size(); ++tile)
+  {
+    m_Quadrants.push_back(static_cast<std::size_t>(tile % 4));
+  }
   this->FillRemainingFraction();
 }
 

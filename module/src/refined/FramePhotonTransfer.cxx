@@ -291,15 +291,12 @@ FitFramePhotonTransfer(const FrameEnergies & energies, const TileLevels & levels
   return CurveOfFrames(data, weights, energies, levels, line);
 }
 
-namespace
-{
 std::size_t
 GroupOfFrame(Eigen::Index frame, Eigen::Index frames)
 {
   const auto quarter = static_cast<std::size_t>(4 * frame / frames);
   return 2 * quarter + static_cast<std::size_t>(frame % 2);
 }
-} // namespace
 
 std::vector<TileExcess>
 MakeFrameParts(const FrameEnergies & energies, const TileLevels & levels, const PartReference & reference)

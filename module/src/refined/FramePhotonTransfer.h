@@ -92,6 +92,14 @@ public:
     return m_RemainingFraction;
   }
 
+  /** Returns the quadrant of the sample that contains each tile: 2 for the lower half, plus 1 for the right half. Given
+   * numbers count as tiles of each quadrant in turn. */
+  const std::vector<std::size_t> &
+  Quadrants() const
+  {
+    return m_Quadrants;
+  }
+
   /** Divides the squared residuals of each frame in all tiles by its factor [1]. */
   void
   DivideBy(const Eigen::VectorXd & factors);
@@ -100,12 +108,13 @@ private:
   void
   FillRemainingFraction();
 
-  Eigen::MatrixXd m_SquaresDn2;
-  Eigen::MatrixXd m_LevelChangesDn;
-  Eigen::VectorXd m_SignalDn;
-  Eigen::VectorXd m_Pixels;
-  Eigen::MatrixXd m_Basis;
-  Eigen::VectorXd m_RemainingFraction;
+  Eigen::MatrixXd          m_SquaresDn2;
+  Eigen::MatrixXd          m_LevelChangesDn;
+  Eigen::VectorXd          m_SignalDn;
+  Eigen::VectorXd          m_Pixels;
+  Eigen::MatrixXd          m_Basis;
+  Eigen::VectorXd          m_RemainingFraction;
+  std::vector<std::size_t> m_Quadrants;
 };
 
 /** \class TileLevels
@@ -164,6 +173,10 @@ VariancesOfFrames(const FrameEnergies & energies,
 SensorNoise_EXPORT VarianceCurve
 FitFramePhotonTransfer(const FrameEnergies & energies, const TileLevels & levels, const VarianceLine & start);
 
+/** Returns the group of a frame among the even and the odd frames of each quarter of the \a frames, see PartOf(). */
+std::size_t
+GroupOfFrame(Eigen::Index frame, Eigen::Index frames);
+
 /** Returns the excess noise of each group of frames in each tile, relative to the line of \a reference at the level.
  * The groups are the even and the odd frames of each quarter of the burst. Estimator.md, 3.15. */
 SensorNoise_EXPORT std::vector<TileExcess>
@@ -192,6 +205,44 @@ struct FrameGroup
   double                   noise{ 1.0 }; ///< median of NoiseOfFrames() [1]
 };
 
+/** Returns "frames 0 to 29, 31, 33, ...": the first of \a frames in words. */
+std::string
+TextOfFrames(const std::vector<std::size_t> & frames);
+
+/** Gains of single frames, by their squared residuals over the prediction of the line at their level. Estimator.md,
+ * 3.15. */
+struct SensorNoise_EXPORT GainsOfFrames
+{
+  /** The frames of either gain, if there are two; else the frames of the lowest and of the highest gain. `noise` is
+   * the gain relative to the mean gain [1]. */
+  std::vector<FrameGroup> groups;
+  bool                    areGroups{ false };  ///< whether there are two gains
+  Eigen::VectorXd         excess;              ///< gain of every frame relative to the mean gain, minus 1 [1]
+  double                  error{ 0.0 };        ///< standard error of the excess of one frame by chance [1]
+  double                  errorOfScale{ 0.0 }; ///< relative error that all excesses have in common [1]
+  double                  size{ 0.0 };         ///< rms of the excess, beyond chance [1]
+  double                  z{ 0.0 };            ///< significance of the differences, in standard deviations [1]
+
+  /** Returns whether the gains differ by more than InParts.leastDifference, and beyond chance. */
+  bool
+  Differ() const;
+};
+
+/** Compares the gains of single frames. A difference counts as far as quadrants of the sample without a common row or
+ * column have it, and as far as it is in proportion to the shot noise of the tiles. \a slopeError is the standard error
+ * of the slope of the line of \a reference [DN/e-]. \a known has the excess of every frame that is known already, and
+ * is not counted [1]. */
+SensorNoise_EXPORT GainsOfFrames
+CompareGainsOfFrames(const FrameEnergies &   energies,
+                     const TileLevels &      levels,
+                     const PartReference &   reference,
+                     double                  slopeError,
+                     const Eigen::VectorXd & known = {});
+
+/** Returns the excess of the gain of each of \a count frames by the groups of \a parts [1]. */
+SensorNoise_EXPORT Eigen::VectorXd
+ExcessOfFrames(const PartGains & parts, Eigen::Index count);
+
 /** Frames whose noise at their level differs from the noise of the others: by another gain or another processing. */
 struct SensorNoise_EXPORT FrameNoise
 {
@@ -207,6 +258,8 @@ struct SensorNoise_EXPORT FrameNoise
   /** Root mean square difference from 1, if it exceeds the threshold without groups: the noise varies from frame to
    * frame; else 0 [1]. */
   double scatter{ 0.0 };
+  /** Differences of the gains that are too small for groups. Default: none. */
+  GainsOfFrames gains;
 
   /** Returns whether there are several groups, or the noise varies. */
   bool
@@ -254,8 +307,15 @@ struct FrameComparison
 VarianceCurve
 LineOfFrames(const StaticVariance & variance, const FrameComparison & by, const ParallelFor & parallelFor);
 
+/** A line and the standard error of its slope. */
+struct SlopeOfLine
+{
+  const VarianceLine & line;
+  double               error; ///< [DN/e-]
+};
+
 /** Returns the line of frames or pixels with the more precise slope. */
-const VarianceLine &
+SlopeOfLine
 BetterLine(const StaticVariance & variance);
 
 /** Returns whether the scene moves so little that no motion remains in the residuals. */

@@ -7,6 +7,7 @@
 #include "correlation/NoiseResiduals.h"
 #include "moments/DarkFrames.h"
 #include "base/Stencils.h"
+#include "pixels/RoughnessClasses.h"
 #include "refined/Constants.h"
 #include "refined/FramePhotonTransfer.h"
 #include "report/StackReport.h"
@@ -18,6 +19,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -253,6 +255,25 @@ FirstGain(const StaticScene & scene, const SceneSeries & series)
   return scene.changesStrongly && !series.local.IsLocal() ? scene.model.slopeDn : 0.0;
 }
 
+/** Compares the gains of single frames. If \a parts do not describe their differences, these are reset. If they do,
+ * returns no differences. */
+GainsOfFrames
+CompareSingleFrames(std::optional<PartGains> & parts,
+                    const FrameEnergies &      energies,
+                    const TileLevels &         levels,
+                    const PartReference &      reference,
+                    double                     slopeError)
+{
+  const bool            areParts = parts && parts->Differ();
+  const Eigen::VectorXd known = areParts ? ExcessOfFrames(*parts, energies.Frames()) : Eigen::VectorXd();
+  if (!CompareGainsOfFrames(energies, levels, reference, slopeError, known).Differ())
+  {
+    return {};
+  }
+  parts.reset();
+  return CompareGainsOfFrames(energies, levels, reference, slopeError);
+}
+
 /** Compares the noise of the frames and, if it does not differ, of their parts at their \a levels. Frames of several
  * scenes are not comparable: their line and their groups are dropped. */
 void
@@ -270,9 +291,20 @@ MeasureFrames(PixelNoise &            noise,
   const bool isNoise = by.isIlluminationLocal && noise.correlation.kind == NoiseKind::Temporal;
   if (!noise.frames.HasSeveralGroups() && by.areLevelsKnown && !isNoise && MovesLittle(by.scene.model))
   {
-    const FrameEnergies energies(by.residuals, MaskOfUsed(noise.variance.pixelUse), parallelFor);
-    noise.variance.parts.frames =
-      CompareFrameParts(MakeFrameParts(energies, levels, { BetterLine(noise.variance), blackDn, shared }));
+    const std::vector<std::uint8_t> used = MaskOfUsed(noise.variance.pixelUse);
+    const SlopeOfLine               slope = BetterLine(noise.variance);
+    const PartReference             reference{ slope.line, blackDn, shared };
+    std::optional<PartGains> &      parts = noise.variance.parts.frames;
+    parts = CompareFrameParts(MakeFrameParts(FrameEnergies(by.residuals, used, parallelFor), levels, reference));
+    if (noise.correlation.kind != NoiseKind::Temporal && !by.AreUnequal())
+    {
+      noise.frames.gains =
+        CompareSingleFrames(parts,
+                            { by.residuals, MaskOfFlatClasses(by.squares, used, parallelFor), parallelFor },
+                            levels,
+                            reference,
+                            slope.error);
+    }
   }
   if (!isOneScene)
   {
@@ -366,7 +398,7 @@ MeasurePixelNoise(ResidualSquares                          squares,
                                     series->local.beyond <= 1.0 && !allowed.lines.isSubtracted };
   const auto            allowForFrames = [&] {
     noise.variance.fromFrames = LineOfFrames(noise.variance, comparison, parallelFor);
-    residuals.SetUnequalFrames({ series->line.gamma, BetterLine(noise.variance).gain, offsetDn - zeroDn });
+    residuals.SetUnequalFrames({ series->line.gamma, BetterLine(noise.variance).line.gain, offsetDn - zeroDn });
   };
   allowForFrames();
   SubtractWavesOfDarkFrames(residuals, settings, parallelFor);

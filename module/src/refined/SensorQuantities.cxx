@@ -85,6 +85,25 @@ GainsOf(const GainByLines & lines, const std::string & name, const GainEstimate 
   return parts;
 }
 
+/** Returns the gains of groups of frames, or of the frames of the lowest and the highest gain. */
+UnlikeParts
+GainsOf(const GainsOfFrames & frames, const GainEstimate & gain)
+{
+  UnlikeParts parts{ Divided::Frames, frames.areGroups ? "groups of frames" : "frames", frames.size, { "frames", {} } };
+  const double error = std::sqrt(gain.covariance(0, 0));
+  const auto   all = static_cast<double>(frames.excess.size());
+  for (const FrameGroup & group : frames.groups)
+  {
+    const auto   count = static_cast<double>(group.frames.size());
+    const double ofExcess = std::hypot(frames.error / std::sqrt(count), (group.noise - 1.0) * frames.errorOfScale);
+    parts.record.parts.push_back({ TextOfFrames(group.frames),
+                                   gain.line.gain * group.noise,
+                                   std::hypot(error * group.noise, gain.line.gain * ofExcess),
+                                   count / all });
+  }
+  return parts;
+}
+
 /** Returns the partitions whose parts differ. Phases are left out if the noise is correlated: where frames were
  * resampled, the variance depends on the phase, and not because of the gain. */
 std::vector<UnlikeParts>
@@ -98,6 +117,10 @@ FindUnlikeParts(const RefinedResults & found, const GainEstimate & gain)
     {
       unlike.push_back(GainsOf(**own, gain));
     }
+  }
+  if (found.frameNoise.gains.Differ())
+  {
+    unlike.push_back(GainsOf(found.frameNoise.gains, gain));
   }
   // The noise of whole lines has one variance, but by chance its sample of a few frames differs from line to line.
   const LinesOfSensor & lines = found.variance.lines;

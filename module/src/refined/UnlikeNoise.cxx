@@ -203,30 +203,6 @@ LeaveOthersOut(const std::vector<NoiseOfFrame> & sorted,
   }
 }
 
-/** Returns "frames 0 to 29, 31, 33, ...": the first ones. */
-std::string
-TextOfFrames(const std::vector<std::size_t> & frames)
-{
-  constexpr std::size_t most = 4;
-  std::string           text = frames.size() == 1 ? "frame " : "frames ";
-  std::size_t           count = 0;
-  for (std::size_t i = 0; i < frames.size(); ++count)
-  {
-    std::size_t last = i;
-    while (last + 1 < frames.size() && frames[last + 1] == frames[last] + 1)
-    {
-      ++last;
-    }
-    text += count == 0 ? "" : ", ";
-    if (count == most)
-    {
-      return text + "... (" + std::to_string(frames.size()) + " in all)";
-    }
-    text += std::to_string(frames[i]) + (last > i ? " to " + std::to_string(frames[last]) : "");
-    i = last + 1;
-  }
-  return text;
-}
 } // namespace
 
 Eigen::VectorXd
@@ -310,6 +286,30 @@ FrameNoise::OfFrames(Eigen::Index frames) const
     }
   }
   return noise;
+}
+
+std::string
+TextOfFrames(const std::vector<std::size_t> & frames)
+{
+  constexpr std::size_t most = 4;
+  std::string           text = frames.size() == 1 ? "frame " : "frames ";
+  std::size_t           count = 0;
+  for (std::size_t i = 0; i < frames.size(); ++count)
+  {
+    std::size_t last = i;
+    while (last + 1 < frames.size() && frames[last + 1] == frames[last] + 1)
+    {
+      ++last;
+    }
+    text += count == 0 ? "" : ", ";
+    if (count == most)
+    {
+      return text + "... (" + std::to_string(frames.size()) + " in all)";
+    }
+    text += std::to_string(frames[i]) + (last > i ? " to " + std::to_string(frames[last]) : "");
+    i = last + 1;
+  }
+  return text;
 }
 
 std::string
