@@ -5,6 +5,7 @@
 #include "base/Constants.h"
 #include "base/RegressionSums.h"
 #include "pixels/Constants.h"
+#include "sensornoise/StepResults.h"
 
 #include <algorithm>
 #include <array>
