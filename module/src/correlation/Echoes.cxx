@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace sensornoise
 {
@@ -77,10 +78,9 @@ FindEchoes(const NoiseResiduals &        residuals,
   }
   const CommonNoise            common = FindCommonNoise(total.shared);
   std::vector<Eigen::VectorXd> ofTiles;
-  for (const TileSums & own : few)
-  {
-    ofTiles.push_back(CoefficientsOf(own, common, lags));
-  }
+  std::transform(few.begin(), few.end(), std::back_inserter(ofTiles), [&](const TileSums & own) {
+    return CoefficientsOf(own, common, lags);
+  });
   std::vector<Lag> echoes;
   for (Eigen::Index k = 1; k + 1 < all.value.size(); ++k)
   {
@@ -91,10 +91,9 @@ FindEchoes(const NoiseResiduals &        residuals,
       continue;
     }
     std::vector<double> relative; // to the mean of all tiles: an echo is everywhere, motion and light are in places
-    for (const Eigen::VectorXd & ofTile : ofTiles)
-    {
-      relative.push_back(ofTile(k) / own.value);
-    }
+    std::transform(ofTiles.begin(), ofTiles.end(), std::back_inserter(relative), [&](const Eigen::VectorXd & ofTile) {
+      return ofTile(k) / own.value;
+    });
     if (Quantile(relative, 0.5) > InCorrelation.leastTypical)
     {
       echoes.push_back(lags[static_cast<std::size_t>(k)]);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace sensornoise
 {
@@ -82,10 +83,9 @@ std::vector<HalfExcess>
 OverSurroundings(const std::vector<HalfSums> & sums, std::size_t half)
 {
   std::vector<HalfExcess> all;
-  for (const HalfSums & own : sums)
-  {
-    all.push_back(ExcessOfGain(own[half]));
-  }
+  std::transform(sums.begin(), sums.end(), std::back_inserter(all), [half](const HalfSums & own) {
+    return ExcessOfGain(own[half]);
+  });
   const std::size_t       reach = InPixels.tileSide / 2;
   std::vector<HalfExcess> found;
   for (std::size_t k = 0; k < all.size(); ++k)
