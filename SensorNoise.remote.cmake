@@ -26,5 +26,5 @@ also under flickering illumination and vibrations. After F. Sur and M. Grediac, 
 https://doi.org/10.1137/140977035"
   MODULE_COMPLIANCE_LEVEL 3
   GIT_REPOSITORY ${SensorNoise_GIT_REPOSITORY}
-  GIT_TAG fb4e5d1386033851240be5e34962c487be2bd829
+  GIT_TAG e94f47d5ea7b7b224d7a7be4746ee43f12bea080
   )
