@@ -75,7 +75,7 @@ ExcessOfGain(const RegressionSums & sums)
   const double dh = sums.x - sums.xx;
   const double hh = sums.w - 2.0 * sums.x + sums.xx + prior;
   const double determinant = dd * hh - dh * dh;
-  return { (hh * sums.xy - dh * (sums.y - sums.xy)) / determinant, determinant / hh - prior };
+  return { (hh * sums.xy - dh * (sums.y - sums.xy)) / determinant, std::max(0.0, determinant / hh - prior) };
 }
 
 /** Returns the excess of each line over the mean of the lines around it, over the side of a tile. */
@@ -97,7 +97,7 @@ OverSurroundings(const std::vector<HalfSums> & sums, std::size_t half)
       weight += all[j].precision;
       sum += all[j].precision * all[j].value;
     }
-    found.push_back({ weight > 0.0 ? all[k].value - sum / weight : 0.0, std::max(0.0, all[k].precision) });
+    found.push_back({ weight > 0.0 ? all[k].value - sum / weight : 0.0, all[k].precision });
   }
   return found;
 }
@@ -184,7 +184,7 @@ Compare(const std::vector<HalfSums> & sums)
 bool
 GainByLines::Differ() const
 {
-  return size > InParts.leastDifference && z > Significance.manyTests;
+  return DoGainsDiffer(size, z);
 }
 
 LinesOfSensor

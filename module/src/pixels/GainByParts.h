@@ -155,6 +155,11 @@ MakePartTiles(const VarianceData &  data,
               const PartReference & reference,
               const ParallelFor &   parallelFor);
 
+/** Returns whether gains differ by more than InParts.leastDifference, and beyond chance. \a size is their rms deviation
+ * beyond chance, relative to their mean [1], and \a z its significance, in standard deviations [1]. */
+SensorNoise_EXPORT bool
+DoGainsDiffer(double size, double z);
+
 /** Relative differences between the gains of the parts of a frame. Estimator.md, 3.15. */
 struct SensorNoise_EXPORT PartGains
 {

@@ -113,9 +113,15 @@ PartGains::AddDarkTerms(double x, double y, std::size_t phase, const Eigen::Vect
 }
 
 bool
-PartGains::Differ() const
+DoGainsDiffer(double size, double z)
 {
   return size > InParts.leastDifference && z > Significance.manyTests;
+}
+
+bool
+PartGains::Differ() const
+{
+  return DoGainsDiffer(size, z);
 }
 
 bool

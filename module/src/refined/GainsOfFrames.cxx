@@ -280,7 +280,7 @@ AgreementOf(const Eigen::MatrixXd & quadrants, double dof)
 bool
 GainsOfFrames::Differ() const
 {
-  return size > InParts.leastDifference && z > Significance.manyTests;
+  return DoGainsDiffer(size, z);
 }
 
 Eigen::VectorXd

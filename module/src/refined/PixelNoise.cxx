@@ -266,12 +266,13 @@ CompareSingleFrames(std::optional<PartGains> & parts,
 {
   const bool            areParts = parts && parts->Differ();
   const Eigen::VectorXd known = areParts ? ExcessOfFrames(*parts, energies.Frames()) : Eigen::VectorXd();
-  if (!CompareGainsOfFrames(energies, levels, reference, slopeError, known).Differ())
+  GainsOfFrames         gains = CompareGainsOfFrames(energies, levels, reference, slopeError, known);
+  if (!gains.Differ())
   {
     return {};
   }
   parts.reset();
-  return CompareGainsOfFrames(energies, levels, reference, slopeError);
+  return areParts ? CompareGainsOfFrames(energies, levels, reference, slopeError) : std::move(gains);
 }
 
 /** Compares the noise of the frames and, if it does not differ, of their parts at their \a levels. Frames of several

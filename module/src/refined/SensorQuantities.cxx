@@ -54,33 +54,32 @@ UnlikeParts
 GainsOf(const GainByLines & lines, const std::string & name, const GainEstimate & gain, double student)
 {
   UnlikeParts       parts{ Divided::Phases, name + "s", lines.size, { name + "s", {} } };
-  const double      error = std::sqrt(gain.covariance(0, 0));
-  const auto        period = static_cast<double>(lines.excess.size());
-  const std::string ofPeriod = " of " + std::to_string(lines.excess.size());
-  for (std::size_t k = 0; k < lines.excess.size(); ++k)
+  const std::size_t period = lines.excess.size();
+  const auto        add = [&](const std::string & part, double excess, double errorOfExcess, double fraction) {
+    parts.record.parts.push_back(
+      { part,
+        gain.line.gain * (1.0 + excess),
+        std::hypot(std::sqrt(gain.covariance(0, 0)) * (1.0 + excess), gain.line.gain * errorOfExcess),
+        fraction });
+  };
+  for (std::size_t k = 0; k < period; ++k)
   {
-    const double excess = lines.excess[k];
-    parts.record.parts.push_back({ name + " " + std::to_string(k) + ofPeriod,
-                                   gain.line.gain * (1.0 + excess),
-                                   std::hypot(error * (1.0 + excess), gain.line.gain * lines.error),
-                                   1.0 / period });
+    add(name + " " + std::to_string(k) + " of " + std::to_string(period),
+        lines.excess[k],
+        lines.error,
+        1.0 / static_cast<double>(period));
   }
-  if (lines.excess.empty())
+  if (period == 0)
   {
     const double outside = 0.025; // the lines beyond either end of a 95 % interval
     const double distance = student * lines.size;
     const double errorOfDistance = 0.5 * distance / lines.z; // the size is a root
-    for (const double excess : { -distance, distance })
-    {
-      parts.record.parts.push_back({ (excess < 0.0 ? "lowest" : "highest") + (" 2.5 % of the " + name + "s"),
-                                     gain.line.gain * (1.0 + excess),
-                                     std::hypot(error * (1.0 + excess), gain.line.gain * errorOfDistance),
-                                     outside });
-    }
+    add("lowest 2.5 % of the " + name + "s", -distance, errorOfDistance, outside);
+    add("highest 2.5 % of the " + name + "s", distance, errorOfDistance, outside);
   }
   else
   {
-    parts.words += " with a period of " + std::to_string(lines.excess.size());
+    parts.words += " with a period of " + std::to_string(period);
   }
   return parts;
 }
